@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "geo/angle.h"
+
+/// All coordinate systems of Terrella, in one place. Other files refer to this one.
+///
+/// ECEF       Earth-centred, Earth-fixed, right-handed, metres, double. +x to 0°N 0°E, +y to 0°N 90°E, +z to the
+///            north pole. On other bodies the same with that body's prime meridian and pole.
+/// geodetic   latitude of the surface normal (planetographic), north positive, [-90°, 90°]; longitude east
+///            positive, [-180°, 180°]; height along that normal over the ellipsoid, metres.
+/// normal     the unit geodetic surface normal n in ECEF axes: latitude = atan2(n.z, hypot(n.x, n.y)), longitude =
+///            atan2(n.y, n.x). The cube sphere is a tessellation of the sphere of normals (DESIGN, decision 1).
+/// local      float offsets from an origin (the eye, a patch's centre), ECEF axes, metres.
+/// view       right-handed, metres, origin at the eye: +x right, +y up, -z forward.
+/// clip       reversed depth by default: 1 at the near plane, 0 infinitely far; zero-to-one (GL clip control).
+/// pixel      origin at the top left corner of the picture, +x right, +y down; pixel centres at halves.
+/// tile       columns run east from -180°, rows run south from +90° (TileGrid); uv inside a tile likewise in [0,1].
+namespace terrella {
+
+/// A place by latitude, longitude and height; always made by field name, so the order cannot be mistaken.
+struct Geodetic {
+  Angle lat;              ///< geodetic, [-90°, 90°]
+  Angle lon;              ///< east positive; any turn, normalised where it is returned to (-180°, 180°]
+  double height_m = 0.0;  ///< over the ellipsoid, along the surface normal
+};
+
+/// A position in ECEF metres.
+struct Ecef {
+  glm::dvec3 xyz_m{0.0};
+};
+
+/// A unit direction in ECEF axes.
+struct EcefDir {
+  glm::dvec3 xyz{0.0, 0.0, 1.0};
+};
+
+/// A position relative to an origin that the caller knows, ECEF axes, float. Made only by local_to().
+struct Local {
+  glm::vec3 xyz_m{0.0F};
+};
+
+/// The one door from double on the planet to float near the eye: subtracts in double, then narrows.
+[[nodiscard]] inline Local local_to(const Ecef& origin, const Ecef& p) { return Local{glm::vec3(p.xyz_m - origin.xyz_m)}; }
+
+/// A latitude-longitude rectangle. May cross the antimeridian: then east < west.
+struct GeoRect {
+  Angle west = Angle::degrees(-180.0);
+  Angle south = Angle::degrees(-90.0);
+  Angle east = Angle::degrees(180.0);
+  Angle north = Angle::degrees(90.0);
+};
+
+}  // namespace terrella

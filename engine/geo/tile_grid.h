@@ -1,0 +1,74 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "geo/coordinates.h"
+#include "geo/ellipsoid.h"
+
+namespace terrella {
+
+/// How a row of the imagery relates to latitude. Paper 1's (3) is `equirectangular` (rows linear in latitude), its (4) is
+/// `equal_area` (Lambert's cylinder, rows linear in the sine); the paper names them the other way round.
+enum class Projection { equirectangular, equal_area };
+
+/// Which latitude the rows count: `graphic` geodetic (planetographic), `centric` planetocentric.
+enum class LatitudeKind { graphic, centric };
+
+/// A tile of a grid: level, column from the west, row from the NORTH. Other row orders are converted at the source.
+struct TileId {
+  int level = 0;
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  auto operator<=>(const TileId&) const = default;
+};
+struct TileIdHash {
+  [[nodiscard]] std::size_t operator()(const TileId& id) const;
+};
+inline constexpr int kMaxTileLevel = 24;
+
+/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (DESIGN 4; shared GRIDS).
+/// Degrees of "row latitude": for equal_area grids one degree is 1/180 of the picture's height.
+struct TileGrid {
+  double root_span_deg = 180.0;  ///< what a level-0 tile spans, degrees, both ways; (0, 1e4]
+  int tile_px = 256;             ///< pixels a side, [16, 4096]
+  int min_level = 0;
+  int max_level = 0;             ///< [min_level, kMaxTileLevel]
+  Projection projection = Projection::equirectangular;
+  LatitudeKind latitude = LatitudeKind::graphic;
+  GeoRect bounds{};              ///< where there is data, in row latitude; whole planet by default
+  bool operator==(const TileGrid&) const;
+};
+
+/// Continuous tile coordinates of a level: x east from -180° in tiles, y south from +90° in tiles.
+struct TileXY {
+  double x;
+  double y;
+};
+
+[[nodiscard]] double tile_span_deg(const TileGrid& grid, int level);       ///< root_span / 2^level
+[[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);       ///< tiles that reach over [-180°, 180°], ≥ 1
+[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);          ///< tiles that reach over [90°, -90°], ≥ 1
+/// True if the tile exists on the planet, in the level range and touches the bounds.
+[[nodiscard]] bool exists(const TileGrid& grid, const TileId& id);
+[[nodiscard]] TileId parent(const TileId& id);                             ///< id.level ≥ 1
+/// The ancestor `steps` levels up.
+[[nodiscard]] TileId ancestor(const TileId& id, int steps);
+
+/// Row latitude in [-90°, 90°] of a geodetic normal: latitude, planetocentric latitude or 90° · sine of either.
+/// Computed with atan2, accurate at the poles; NaN in gives NaN out.
+[[nodiscard]] double row_latitude_deg(const TileGrid& grid, const Ellipsoid& ellipsoid, const EcefDir& normal);
+/// The inverse: geodetic latitude of a row latitude, clamped to [-90°, 90°].
+[[nodiscard]] Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double row_latitude_deg);
+
+/// Continuous tile coordinates of (row latitude, longitude) at a level; longitude is not wrapped.
+[[nodiscard]] TileXY tile_xy(const TileGrid& grid, int level, double row_latitude_deg, double lon_deg);
+/// Row-latitude and longitude bounds of a tile, degrees, before clipping to the planet.
+struct TileBounds {
+  double west_deg, south_deg, east_deg, north_deg;
+};
+[[nodiscard]] TileBounds tile_bounds(const TileGrid& grid, const TileId& id);
+
+}  // namespace terrella

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "geo/body.h"
+#include "geo/camera.h"
+#include "geo/result.h"
+#include "streaming/tile_loader.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// How the pole bands are textured; see shaders/README.md. `automatic` is the command line's `auto`.
+enum class Texturing { vertex, paper, exact, automatic };
+
+/// How depth is stored: DESIGN 6.
+enum class DepthMode { reversed, logarithmic, standard };
+
+struct GlobeOptions {
+  Body body = earth();
+  Texturing texturing = Texturing::automatic;
+  double paper_a = 4.0;        ///< formula (6)'s a, [2, 8]
+  double paper_band = 0.05;    ///< formula (5)'s b, (0, 0.5]
+  DepthMode depth = DepthMode::reversed;
+  bool unlit = false;          ///< imagery alone: no light, no sky, black background
+  std::size_t gpu_bytes = 512UL << 20;         ///< tile texture slots
+  std::size_t upload_bytes_per_frame = 8UL << 20;
+  std::chrono::microseconds upload_time_per_frame{4000};
+  int workers = 2;             ///< decoder threads
+};
+
+/// What one frame did.
+struct FrameStats {
+  int patches = 0;
+  int band_patches = 0;        ///< of those, drawn by a per-fragment program
+  int draw_calls = 0;
+  long triangles = 0;
+  int tiles_wanted = 0;        ///< tiles the view asks for at full quality
+  int tiles_missing = 0;       ///< of those, neither on the GPU nor finally failed
+  int tiles_lacked = 0;        ///< of those, finally failed
+  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are there
+  std::size_t uploaded_bytes = 0;
+  double selection_ms = 0.0;
+};
+
+/// The globe: give it a current OpenGL 4.5 context, a tile source and a camera; it draws into a framebuffer.
+/// thread: main (the thread of the context) for every call.
+class Globe {
+ public:
+  /// Fails if no context is current, it is older than 4.5, or a shader does not compile.
+  [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery);
+  ~Globe();
+  Globe(const Globe&) = delete;
+  Globe& operator=(const Globe&) = delete;
+
+  void set_camera(const Camera& camera);
+  [[nodiscard]] const Camera& camera() const;
+  [[nodiscard]] const GlobeOptions& options() const;
+  void set_unlit(bool unlit);
+  void set_graticule(bool on);
+
+  /// Draws one frame into `framebuffer` (a GL name, 0 the window) and uploads what has arrived, within the budget.
+  /// Returns what the frame did. The GL state is changed.
+  FrameStats render(unsigned framebuffer, Viewport viewport);
+
+  /// True when the last frame showed everything that its view asks for.
+  [[nodiscard]] bool settled() const;
+  /// Renders until settled or the deadline; false at the deadline.
+  bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
+  [[nodiscard]] LoaderCounts loading() const;
+
+  /// View of the camera at a picture size: picks and projections (geo/camera.h) take it.
+  [[nodiscard]] View view(Viewport viewport) const;
+
+ private:
+  struct Impl;
+  explicit Globe(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/result.h"
+#include "geo/tile_grid.h"
+#include "streaming/image.h"
+
+namespace terrella {
+
+/// What a tile set says of itself; `cut` writes it, `info` prints it.
+struct TileSetInfo {
+  std::string name;
+  std::string attribution;
+  std::string body;                       ///< preset name or "A,F"; empty: not said
+  TileGrid grid;
+  ImageFormat format = ImageFormat::jpeg;
+};
+
+/// Why a tile is not there (DESIGN 11). Each kind has its own lifetime.
+enum class Absence {
+  absent,  ///< the source does not have it (404, 204, no row, outside the bounds): for good, ancestors stand in
+  blank,   ///< it is there and says "nothing here"
+  broken,  ///< it is there and cannot be decoded
+  failed,  ///< it could not be asked for now; may be asked again
+};
+struct TileFailure {
+  Absence kind = Absence::failed;
+  std::string why;
+};
+
+/// The bytes of one tile as stored.
+struct EncodedTile {
+  std::vector<std::byte> bytes;
+};
+
+/// A set of tiles that can be read one by one.
+/// thread: info() any; read() worker, several at once.
+class TileSource {
+ public:
+  virtual ~TileSource() = default;
+  [[nodiscard]] virtual const TileSetInfo& info() const = 0;
+  /// Reads one tile. Outside the grid, the levels or the bounds: absent.
+  [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
+};
+
+/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 (ours, GDAL's).
+/// The error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
+[[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path);
+
+}  // namespace terrella
