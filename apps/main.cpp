@@ -1,0 +1,70 @@
+#include <fmt/core.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <exception>
+#include <string>
+
+#include "apps/commands.h"
+
+namespace {
+
+using namespace terrella;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  terrella view                                  turn the Earth\n"
+    "  terrella view moon.jpg --body moon             turn any planet that there is a 2:1 picture of\n"
+    "  terrella render -o shot.png --camera 46,7,3e5  a picture, without display or GPU\n"
+    "  terrella cut picture.tif -o planet.gpkg        tiles from a picture of any size";
+
+void add_commands([[maybe_unused]] CLI::App& app, [[maybe_unused]] int& exit_code) {
+#ifdef TERRELLA_COMMAND_view
+  add_view_command(app, exit_code);
+#endif
+#ifdef TERRELLA_COMMAND_render
+  add_render_command(app, exit_code);
+#endif
+#ifdef TERRELLA_COMMAND_cut
+  add_cut_command(app, exit_code);
+#endif
+#ifdef TERRELLA_COMMAND_info
+  add_info_command(app, exit_code);
+#endif
+}
+
+/// The subcommand that the command line got as far as, or the program: whose --help answers the mistake.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : *parsed.front();
+}
+
+/// CLI11 has an exit code for each kind of mistake; the program's contract has one, 2.
+int report_parse(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  const CLI::App& where = innermost(app);
+  const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
+  fmt::print(stderr, "{}: {}\nSee {} --help.\n", command, error.what(), command);
+  return kWrongUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("A globe for equirectangular pictures and tile sets of any planet.", "terrella");
+  app.set_version_flag("--version", std::string("terrella ") + TERRELLA_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  int exit_code = kDone;
+  add_commands(app, exit_code);
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    return report_parse(app, error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "terrella: {}\n", error.what());
+    return kFailed;
+  }
+}

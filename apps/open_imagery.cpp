@@ -1,0 +1,149 @@
+#include "apps/open_imagery.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
+
+#include "apps/data_dir.h"
+#include "streaming/cut.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tile set of which the command line knows better than its own description.
+class DescribedSource : public TileSource {
+ public:
+  DescribedSource(std::unique_ptr<TileSource> tiles, TileSetInfo info)
+      : tiles_(std::move(tiles)), info_(std::move(info)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+
+ private:
+  std::unique_ptr<TileSource> tiles_;
+  TileSetInfo info_;
+};
+
+/// A folder of its own under the system's temporary folder, removed with all that is in it at the end.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Result<std::unique_ptr<ScratchFolder>> make_scratch_folder() {
+  std::error_code failed;
+  std::string name = (fs::temp_directory_path(failed) / "terrella-XXXXXX").string();
+  if (failed || mkdtemp(name.data()) == nullptr) {
+    return Error{
+        fmt::format("{}: cannot make a temporary folder there; set TMPDIR to a folder that can be written", name)};
+  }
+  return std::make_unique<ScratchFolder>(name);
+}
+
+/// Keeps the scratch folder for as long as its tiles are read. Members are destroyed last to first: tiles, then folder.
+class ScratchSource : public TileSource {
+ public:
+  ScratchSource(std::unique_ptr<ScratchFolder> folder, std::unique_ptr<TileSource> tiles)
+      : folder_(std::move(folder)), tiles_(std::move(tiles)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+
+ private:
+  std::unique_ptr<ScratchFolder> folder_;
+  std::unique_ptr<TileSource> tiles_;
+};
+
+Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder) {
+  CutOptions cut;
+  cut.images = {picture};
+  cut.name = picture.stem().string();
+  const auto tiles = cut_into_cache(cut, folder);
+  if (!tiles) return tiles.error();
+  return open_tile_set(*tiles);
+}
+
+Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const std::string& cache) {
+  if (cache != "off") {
+    const auto folder = picture_cache_folder(cache);
+    if (!folder) return folder.error();
+    return cut_and_open(picture, *folder);
+  }
+  auto scratch = make_scratch_folder();
+  if (!scratch) return scratch.error();
+  auto tiles = cut_and_open(picture, (*scratch)->path());
+  if (!tiles) return tiles.error();
+  return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
+}
+
+Result<std::unique_ptr<TileSource>> open_named(const SceneOptions& options) {
+  if (options.tile_set.empty()) return open_tile_set(data_file("earth.gpkg"));
+  const fs::path path = options.tile_set;
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
+  return is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path);
+}
+
+bool starts_like_a_picture(const fs::path& path) {
+  std::array<char, 8> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), head.size());
+  const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
+  using namespace std::string_view_literals;
+  // JPEG, PNG, TIFF and BigTIFF in either byte order.
+  constexpr std::array kStarts = {"\xff\xd8\xff"sv, "\x89PNG\r\n\x1a\n"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
+}
+
+}  // namespace
+
+bool is_picture(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return false;
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+  return std::ranges::find(kExtensions, extension) != kExtensions.end() || starts_like_a_picture(path);
+}
+
+Result<fs::path> picture_cache_folder(const std::string& cache) {
+  if (!cache.empty()) {
+    const fs::path path = cache;
+    if (path.extension() == ".gpkg") return path.parent_path() / (path.stem().string() + "-pictures");
+    return path;
+  }
+  const char* xdg = std::getenv("XDG_CACHE_HOME");
+  // The base directory specification says that a relative path is to be ignored.
+  if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "terrella";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "terrella";
+  return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
+}
+
+Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+  auto tiles = open_named(options);
+  if (!tiles) return tiles.error();
+  TileSetInfo info = (*tiles)->info();
+  info.grid.projection = options.projection.value_or(info.grid.projection);
+  info.grid.latitude = options.latitude.value_or(info.grid.latitude);
+  if (info.grid == (*tiles)->info().grid) return std::shared_ptr<TileSource>(*std::move(tiles));
+  return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
+}
+
+}  // namespace terrella

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "apps/scene_options.h"
+#include "geo/result.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// Opens what TILESET names: nothing is the Earth that the program carries; a picture is cut into the cache, with a
+/// progress bar on standard error, unless it was before; anything else is opened as a tile set. --projection and
+/// --latitude, if given, overrule what the tile set says of itself. The error names the input. Throws
+/// BrokenInstallation. thread: main
+[[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
+
+/// True for a file that begins as a JPEG, PNG or TIFF does, or whose name ends as theirs do. thread: any
+[[nodiscard]] bool is_picture(const std::filesystem::path& path);
+
+/// The folder that pictures are cut into, for --cache as given (not "off"). Empty: $XDG_CACHE_HOME/terrella or
+/// ~/.cache/terrella. A GeoPackage's name stands for the folder NAME-pictures beside it, anything else is the folder
+/// itself. thread: any
+[[nodiscard]] Result<std::filesystem::path> picture_cache_folder(const std::string& cache);
+
+}  // namespace terrella

@@ -1,0 +1,109 @@
+#include "apps/scene_options.h"
+
+#include <map>
+
+#include "apps/option_checks.h"
+
+namespace terrella {
+namespace {
+
+void add_camera_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--camera",
+          [&options](const std::string& text) { options.camera = parsed_or_throw("--camera", parse_camera(text)); },
+          "Where the eye is and looks: degrees and metres; straight down and 40 degrees of view unless said")
+      ->type_name("LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]");
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { options.size = parsed_or_throw("--size", parse_size(text)); },
+          "Picture size in pixels")
+      ->type_name("WxH")
+      ->default_str("1024x1024");
+}
+
+void add_planet_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--body", [&options](const std::string& text) { options.body = parsed_or_throw("--body", parse_body(text)); },
+          "The planet's figure: a name, or semi-major axis in metres and flattening")
+      ->type_name("earth|moon|mars|sphere|A,F");
+  add_choice<Projection>(command, "--projection", options.projection,
+                         {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
+                         "What the imagery's rows are linear in: latitude, or its sine");
+  add_choice<LatitudeKind>(command, "--latitude", options.latitude,
+                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
+                           "Which latitude the imagery's rows count: planetographic or planetocentric");
+}
+
+void add_drawing_options(CLI::App& command, SceneOptions& options) {
+  command.add_flag("--unlit", options.unlit, "Imagery alone: no light, no sky, black background, no text");
+  add_choice<Texturing>(command, "--texturing", options.texturing,
+                        {{"vertex", Texturing::vertex},
+                         {"paper", Texturing::paper},
+                         {"exact", Texturing::exact},
+                         {"auto", Texturing::automatic}},
+                        "How the pole bands are drawn")
+      ->default_str("auto");
+  command.add_option("--paper-a", options.paper_a, "Exponent a of --texturing paper")
+      ->check(number_in(2.0, 8.0))
+      ->capture_default_str();
+  command
+      .add_option("--band", options.band, "Width b of the pole bands of --texturing paper, as a part of the picture")
+      ->check(number_in(0.001, 0.5))
+      ->capture_default_str();
+  add_choice<DepthMode>(
+      command, "--depth", options.depth,
+      {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
+      "How depth is stored")
+      ->default_str("reversed");
+}
+
+void add_cache_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option(
+          "--cache", options.cache,
+          "Where a picture given as TILESET is cut into, to be found there the next time; off: cut it every time "
+          "(default: $XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
+      ->type_name("FILE|off");
+  command.add_option("--cache-size", options.cache_size_mb, "Memory for tiles, megabytes")
+      ->check(whole_number_in(64, 65536))
+      ->type_name("MB")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("tileset", options.tile_set,
+                  "A GeoPackage, a folder of tiles, or a picture of the whole planet (JPEG, PNG, TIFF); "
+                  "the Earth that the program carries unless given")
+      ->type_name("TILESET");
+  add_camera_options(command, options);
+  add_planet_options(command, options);
+  add_drawing_options(command, options);
+  add_cache_options(command, options);
+}
+
+Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
+  if (options.body) return *options.body;
+  if (info.body.empty()) return earth();
+  auto said = parse_body(info.body);
+  if (!said) return Error{info.name + ": its description names the body '" + info.body + "': " + said.error().message};
+  return said;
+}
+
+GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
+  GlobeOptions globe;
+  globe.body = body;
+  globe.texturing = options.texturing;
+  globe.paper_a = options.paper_a;
+  globe.paper_band = options.band;
+  globe.depth = options.depth;
+  globe.unlit = options.unlit;
+  globe.gpu_bytes = options.cache_size_mb << 20;
+  return globe;
+}
+
+}  // namespace terrella

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "engine/globe.h"
+#include "geo/body.h"
+#include "geo/camera.h"
+#include "geo/tile_grid.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// What `view` and `render` have in common on the command line. Every value has been checked once the parse is over.
+struct SceneOptions {
+  std::string tile_set;  ///< empty: the Earth that the program carries
+  Camera camera;
+  Viewport size{.width_px = 1024, .height_px = 1024};
+  std::optional<Body> body;              ///< absent: what the tile set says, else Earth
+  std::optional<Projection> projection;  ///< absent: what the tile set says
+  std::optional<LatitudeKind> latitude;  ///< absent: what the tile set says
+  bool unlit = false;
+  Texturing texturing = Texturing::automatic;
+  double paper_a = 4.0;
+  double band = 0.05;
+  DepthMode depth = DepthMode::reversed;
+  std::string cache;                ///< --cache as given; empty: the default place; "off": none
+  std::size_t cache_size_mb = 512;  ///< memory for tiles, 2^20 bytes each
+};
+
+/// The largest side of a picture or window, pixels.
+inline constexpr int kMaxSide_px = 16384;
+
+/// Adds TILESET and the options to a subcommand; `options` must outlive the parse. thread: main
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// The body to draw: --body, else what the tile set says of itself, else Earth. Fails if the tile set says nonsense.
+[[nodiscard]] Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info);
+
+/// The options as the globe takes them. thread: any
+[[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
+
+}  // namespace terrella
