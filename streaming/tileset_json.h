@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geo/result.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// The side table of a GeoPackage of ours, `terrella_tileset(key TEXT PRIMARY KEY, value TEXT)`: under `kTileSetKey`
+/// stands the text that a directory keeps in `tileset.json`.
+inline constexpr const char* kTileSetTable = "terrella_tileset";
+inline constexpr const char* kTileSetKey = "tileset";
+inline constexpr const char* kTileSetFile = "tileset.json";
+/// A longer description is refused before it is parsed.
+inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
+
+/// The description of a tile set as JSON text, fields as in streaming/README.md. Bytes that are not UTF-8 in a name are
+/// replaced by U+FFFD. thread: any
+[[nodiscard]] std::string to_tileset_json(const TileSetInfo& info);
+
+/// Reads it back and checks every field. `where` (a path) begins the error, which names the field and what it may be.
+/// Unknown fields are passed over. thread: any
+[[nodiscard]] Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where);
+
+}  // namespace terrella
