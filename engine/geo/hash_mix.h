@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace terrella {
+
+/// Spreads every input bit over all output bits, one to one: the finaliser of SplitMix64 (Steele, Lea and Flood 2014,
+/// doi:10.1145/2660193.2660195). Neighbouring tiles differ in few bits, which a hash table's buckets must not see.
+[[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t v) {
+  v = (v ^ (v >> 30)) * 0xBF58476D1CE4E5B9U;
+  v = (v ^ (v >> 27)) * 0x94D049BB133111EBU;
+  return v ^ (v >> 31);
+}
+
+}  // namespace terrella

@@ -1,0 +1,120 @@
+#include "geo/tile_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "geo/hash_mix.h"
+
+namespace terrella {
+namespace {
+
+/// A strip narrower than this part of a tile (at most 1/250 of a pixel) is rounding, not imagery: without this,
+/// 360° / span = 2.0000000001 would ask for a third column that no server has.
+constexpr double kSliverTiles = 1.0e-6;
+/// What rounding of angles to and from radians may leave of 360°, with a margin; 0.1 µm on Earth.
+constexpr double kAngleNoiseDeg = 1.0e-12;
+
+/// Tiles of a span that reach over an extent.
+std::int64_t tiles_over(double extent_deg, double span_deg) {
+  constexpr double most = 0x1p53;  // beyond it doubles no longer count one by one
+  const double tiles = std::min(extent_deg / span_deg, most);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * tiles;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(tiles - std::max(kSliverTiles, rounding))));
+}
+
+struct Interval {
+  double from, to;
+};
+
+/// True if a tile's side overlaps the data's by more than a sliver. Data without extent (a point) touches the tiles
+/// around it.
+bool touches(const Interval& tile, const Interval& data) {
+  const double sliver = std::max(kSliverTiles * (tile.to - tile.from), kAngleNoiseDeg);
+  const double overlap = std::min(tile.to, data.to) - std::max(tile.from, data.from);
+  return overlap >= std::min(sliver, 0.5 * (data.to - data.from));
+}
+
+bool touches_longitudes(const Interval& tile, const GeoRect& bounds) {
+  const double west = bounds.west.deg();
+  const double east = bounds.east < bounds.west ? bounds.east.deg() + 360.0 : bounds.east.deg();
+  constexpr std::array turns = {-360.0, 0.0, 360.0};
+  return std::ranges::any_of(turns, [&](double turn) { return touches(tile, {west + turn, east + turn}); });
+}
+
+/// Polar to equatorial component of the direction that the grid's rows count: the normal, or the radius vector of the
+/// surface point, for which tan(planetocentric) = (1 - e²) tan(planetographic).
+double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
+  return grid.latitude == LatitudeKind::centric ? ellipsoid.one_minus_e2() : 1.0;
+}
+
+}  // namespace
+
+std::size_t TileIdHash::operator()(const TileId& id) const {
+  const std::uint64_t row = mix_bits(static_cast<std::uint64_t>(id.y) ^ static_cast<std::uint64_t>(id.level) << 58);
+  return mix_bits(row + static_cast<std::uint64_t>(id.x));
+}
+
+bool TileGrid::operator==(const TileGrid& other) const {
+  return root_span_deg == other.root_span_deg && tile_px == other.tile_px && min_level == other.min_level &&
+         max_level == other.max_level && projection == other.projection && latitude == other.latitude &&
+         bounds.west == other.bounds.west && bounds.south == other.bounds.south && bounds.east == other.bounds.east &&
+         bounds.north == other.bounds.north;
+}
+
+double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.root_span_deg, -level); }
+
+std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, tile_span_deg(grid, level)); }
+
+std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(180.0, tile_span_deg(grid, level)); }
+
+bool exists(const TileGrid& grid, const TileId& id) {
+  if (id.level < grid.min_level || id.level > grid.max_level) return false;
+  if (id.x < 0 || id.x >= columns(grid, id.level) || id.y < 0 || id.y >= rows(grid, id.level)) return false;
+  const TileBounds tile = tile_bounds(grid, id);
+  return touches({tile.south_deg, tile.north_deg}, {grid.bounds.south.deg(), grid.bounds.north.deg()}) &&
+         touches_longitudes({tile.west_deg, tile.east_deg}, grid.bounds);
+}
+
+TileId parent(const TileId& id) { return ancestor(id, 1); }
+
+TileId ancestor(const TileId& id, int steps) {
+  assert(steps >= 0 && steps <= id.level);
+  return {.level = id.level - steps, .x = id.x >> steps, .y = id.y >> steps};
+}
+
+double row_latitude_deg(const TileGrid& grid, const Ellipsoid& ellipsoid, const EcefDir& normal) {
+  const double polar = polar_scale(grid, ellipsoid) * normal.xyz.z;
+  const double equatorial = std::hypot(normal.xyz.x, normal.xyz.y);
+  const double row = grid.projection == Projection::equal_area ? 90.0 * (polar / std::hypot(equatorial, polar))
+                                                               : Angle::radians(std::atan2(polar, equatorial)).deg();
+  return std::clamp(row, -90.0, 90.0);
+}
+
+Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double row_latitude_deg) {
+  const double row = std::clamp(row_latitude_deg, -90.0, 90.0);
+  const bool equal_area = grid.projection == Projection::equal_area;
+  if (!equal_area && grid.latitude == LatitudeKind::graphic) return Angle::degrees(row);
+  const double sine = equal_area ? row / 90.0 : std::sin(Angle::degrees(row).rad());
+  const double cosine = equal_area ? std::sqrt((1.0 - sine) * (1.0 + sine)) : std::cos(Angle::degrees(row).rad());
+  return Angle::radians(std::atan2(sine, polar_scale(grid, ellipsoid) * cosine));
+}
+
+TileXY tile_xy(const TileGrid& grid, int level, double row_latitude_deg, double lon_deg) {
+  const double span = tile_span_deg(grid, level);
+  return {.x = (lon_deg + 180.0) / span, .y = (90.0 - row_latitude_deg) / span};
+}
+
+TileBounds tile_bounds(const TileGrid& grid, const TileId& id) {
+  const double span = tile_span_deg(grid, id.level);
+  const auto x = static_cast<double>(id.x);
+  const auto y = static_cast<double>(id.y);
+  return {.west_deg = -180.0 + x * span,
+          .south_deg = 90.0 - (y + 1.0) * span,
+          .east_deg = -180.0 + (x + 1.0) * span,
+          .north_deg = 90.0 - y * span};
+}
+
+}  // namespace terrella
