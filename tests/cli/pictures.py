@@ -1,0 +1,28 @@
+"""Small pictures as bytes, made with the standard library alone."""
+
+import struct
+import zlib
+
+
+def png(width, height, colour=(40, 90, 160)):
+    """A PNG of one colour, 8-bit RGB."""
+    row = b"\0" + bytes(colour) * width
+    return png_of(width, height, zlib.compress(row * height))
+
+
+def png_of(width, height, compressed):
+    """A PNG that claims a size and carries any compressed rows: the truth of the claim is up to the caller."""
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"IDAT", compressed) + _chunk(b"IEND", b"")
+
+
+def _chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def tiff_header(width, height):
+    """A little-endian TIFF that claims a size of 8-bit RGB in one strip, and has no strip."""
+    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 1, 8), (259, 3, 1, 1), (262, 3, 1, 2),
+               (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height), (279, 4, 1, 64)]
+    directory = struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *e) for e in entries)
+    return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0)

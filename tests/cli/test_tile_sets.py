@@ -1,0 +1,108 @@
+"""Tile sets that are broken or hostile: a message that names them, never a crash, a hang or a wild allocation."""
+
+import shutil
+import sqlite3
+import unittest
+import zlib
+
+import geopackages
+from pictures import png_of
+from program import DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, ProgramTest
+
+# The least that a render of a broken tile set may leave: said and exit 3, or refused and exit 1.
+RENDER = ("-o", "shot.png", "--size", "64x64")
+
+
+class GeoPackages(ProgramTest):
+    def assert_refused(self, path):
+        self.assert_fails(FAILED, "render", path, *RENDER, says=[str(path)])
+        self.assert_fails(FAILED, "info", path, says=[str(path)])
+        self.assertFalse((self.folder / "shot.png").exists())
+
+    def test_a_good_one_is_drawn(self):
+        geopackages.write_good(self.folder / "good.gpkg")
+        self.assert_done("render", "good.gpkg", *RENDER)
+        self.assert_done("info", "good.gpkg")
+
+    def test_zero_bytes(self):
+        self.assert_refused(self.write("zero.gpkg", b""))
+
+    def test_not_a_database(self):
+        self.assert_refused(self.write("text.gpkg", b"SQLite format 4\0" + b"x" * 8192))
+
+    def test_cut_off(self):
+        geopackages.write_good(self.folder / "whole.gpkg")
+        self.assert_refused(self.write("half.gpkg", (self.folder / "whole.gpkg").read_bytes()[:5000]))
+
+    def test_a_database_of_something_else(self):
+        with sqlite3.connect(self.folder / "other.gpkg") as base:
+            base.execute("CREATE TABLE recipes (name TEXT)")
+        base.close()
+        self.assert_refused(self.folder / "other.gpkg")
+
+    def test_spoilt(self):
+        for number, name in enumerate(geopackages.SPOILT):
+            with self.subTest(name):
+                path = self.folder / f"spoilt{number}.gpkg"
+                geopackages.write_spoilt(path, name)
+                self.assert_refused(path)
+
+    def test_bounds_that_are_no_numbers(self):
+        geopackages.nan_box(self.folder / "nan.gpkg")
+        self.assert_refused(self.folder / "nan.gpkg")
+
+    def assert_survives(self, path):
+        for arguments in (("render", path, *RENDER), ("info", path)):
+            done = self.run_program(*arguments)
+            self.assertIn(done.returncode, (DONE, FAILED, DONE_IN_PART), done.stderr)
+            self.assertNotIn("Sanitizer", done.stderr)
+
+    def test_tiles_without_end(self):
+        geopackages.write_endless(self.folder / "endless.gpkg")
+        self.assert_survives(self.folder / "endless.gpkg")
+
+    def test_tiles_that_are_no_pictures_are_lacked(self):
+        bombs = {"junk": b"not a picture", "empty": b"", "bomb": png_of(60000, 60000, zlib.compress(bytes(10**6)))}
+        for name, blob in bombs.items():
+            with self.subTest(name):
+                path = self.folder / f"{name}.gpkg"
+                geopackages.write_good(path, blob)
+                done = self.run_program("render", path, *RENDER)
+                self.assertEqual(done.returncode, DONE_IN_PART, done.stdout + done.stderr)
+
+
+class Folders(ProgramTest):
+    def test_the_fixture_is_drawn(self):
+        self.assert_done("render", NATURAL_EARTH, *RENDER)
+
+    def test_without_tiles(self):
+        (self.folder / "empty").mkdir()
+        self.assert_fails(FAILED, "render", "empty", *RENDER, says=["empty", "tileset.json"])
+        self.assert_fails(FAILED, "info", "empty", says=["empty", "tileset.json"])
+
+    def test_description_without_tiles(self):
+        (self.folder / "hollow").mkdir()
+        shutil.copy(NATURAL_EARTH / "tilemapresource.xml", self.folder / "hollow")
+        done = self.run_program("render", "hollow", *RENDER)
+        self.assertIn(done.returncode, (FAILED, DONE_IN_PART), done.stderr)
+
+    def test_descriptions_that_are_nonsense(self):
+        texts = {
+            "tileset.json": [b"", b"{", b"[]", b"{\"tiles\": 7}", b"[" * 100000, b"\xff\xfe\0"],
+            "tilemapresource.xml": [b"", b"<TileMap>", b"<a/>", b"<TileMap><TileFormat width='-1'/></TileMap>"],
+        }
+        for file, contents in texts.items():
+            for number, content in enumerate(contents):
+                with self.subTest(file, content=content[:20]):
+                    folder = self.folder / f"{file}{number}"
+                    folder.mkdir()
+                    (folder / file).write_bytes(content)
+                    self.assert_fails(FAILED, "render", folder, *RENDER, says=[str(folder)])
+
+    def test_some_other_file(self):
+        self.write("notes.txt", b"to do: nothing\n")
+        self.assert_fails(FAILED, "render", "notes.txt", *RENDER, says=["notes.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()

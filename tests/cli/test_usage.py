@@ -1,0 +1,117 @@
+"""Wrong command lines: exit code 2, the option named, nothing done."""
+
+import unittest
+
+from program import DONE, FAILED, WRONG_USAGE, ProgramTest, subcommands
+
+
+class Program(ProgramTest):
+    def test_help_and_version_are_done(self):
+        self.assertIn("Examples:", self.assert_done("--help").stdout)
+        self.assertRegex(self.assert_done("--version").stdout, r"^terrella \d+\.\d+\.\d+\n$")
+
+    def test_each_subcommand_has_help_with_an_example(self):
+        for command in subcommands():
+            with self.subTest(command):
+                text = self.assert_done(command, "--help").stdout
+                self.assertRegex(text, rf"(?is)example.*terrella {command}")
+
+    def test_no_subcommand(self):
+        self.assert_fails(WRONG_USAGE, says=["subcommand", "terrella --help"])
+
+    def test_unknown_subcommand(self):
+        self.assert_fails(WRONG_USAGE, "paint", says=["paint"])
+
+    def test_unknown_option(self):
+        for command in subcommands():
+            with self.subTest(command):
+                self.assert_fails(WRONG_USAGE, command, "--colour", "x", says=["--colour", f"terrella {command} --help"])
+
+    def test_missing_output(self):
+        for command in ("render", "cut"):
+            with self.subTest(command):
+                self.assert_fails(WRONG_USAGE, command, "picture.png", says=["-o"])
+
+
+# Option, value, and what the message must hold beside the option's name and the value.
+OUT_OF_RANGE = [
+    ("--camera", "91,0,1000", "90"),
+    ("--camera", "-90.5,0,1000", "90"),
+    ("--camera", "nan,0,1000", ""),
+    ("--camera", "0,nan,1000", ""),
+    ("--camera", "0,0,inf", ""),
+    ("--camera", "0,0,1e13", ""),
+    ("--camera", "0,0,1000,nan", ""),
+    ("--camera", "0,0,1000,0,-91", "90"),
+    ("--camera", "0,0,1000,0,0,0", ""),
+    ("--camera", "0,0,1000,0,0,171", "170"),
+    ("--camera", "0,0", ""),
+    ("--camera", "0,0,1000,0,0,40,7", ""),
+    ("--camera", "here", ""),
+    ("--camera", "", ""),
+    ("--size", "0x100", "16384"),
+    ("--size", "100x16385", "16384"),
+    ("--size", "-5x10", ""),
+    ("--size", "100", "WIDTHxHEIGHT"),
+    ("--size", "100x", "WIDTHxHEIGHT"),
+    ("--size", "99999999999x1", ""),
+    ("--body", "pluto", ""),
+    ("--body", "0,0", ""),
+    ("--body", "nan,0", ""),
+    ("--body", "6378137,0.5", ""),
+    ("--body", "6378137,-0.1", ""),
+    ("--projection", "mercator", "equirectangular|equal-area"),
+    ("--latitude", "magnetic", "graphic|centric"),
+    ("--texturing", "nice", "vertex|paper|exact|auto"),
+    ("--paper-a", "1.9", "2"),
+    ("--paper-a", "8.1", "8"),
+    ("--paper-a", "nan", "8"),
+    ("--paper-a", "4x", "8"),
+    ("--band", "0", "0.5"),
+    ("--band", "0.6", "0.5"),
+    ("--band", "nan", "0.5"),
+    ("--depth", "w", "reversed|log|standard"),
+    ("--cache-size", "0", "64"),
+    ("--cache-size", "1e9", "65536"),
+    ("--cache-size", "-1", "64"),
+]
+
+
+class Ranges(ProgramTest):
+    def test_render_names_option_value_and_range(self):
+        for option, value, also in OUT_OF_RANGE:
+            with self.subTest(option=option, value=value):
+                self.assert_fails(WRONG_USAGE, "render", "-o", "x.png", option, value, says=[option, value, also])
+        self.assert_nothing_but()
+
+    def test_view_checks_the_same(self):
+        for option, value, also in OUT_OF_RANGE[::6]:
+            with self.subTest(option=option, value=value):
+                self.assert_fails(WRONG_USAGE, "view", option, value, says=[option, value, also])
+
+    def test_cut(self):
+        for option, value in [("--tile-size", "15"), ("--tile-size", "4097"), ("--quality", "0"), ("--quality", "101"),
+                              ("--quality", "nan"), ("--format", "gif"), ("--bounds", "0,0,0"),
+                              ("--bounds", "nan,0,1,1"), ("--bounds", "0,10,20,-10"), ("--bounds", "0,-91,20,10"),
+                              ("--jobs", "-1"), ("--jobs", "many")]:
+            with self.subTest(option=option, value=value):
+                self.assert_fails(WRONG_USAGE, "cut", "p.png", "-o", "x.gpkg", option, value, says=[option, value])
+        self.assert_nothing_but()
+
+    def test_values_at_the_ends_of_their_ranges_are_no_wrong_usage(self):
+        for option, value in [("--camera", "-90,-180,1"), ("--camera", "90,540,1e12,720,90,170"), ("--size", "1x16384"),
+                              ("--paper-a", "2"), ("--paper-a", "8"), ("--band", "0.5"), ("--cache-size", "64"),
+                              ("--body", "saturn"), ("--body", "3396190,0.00588600756")]:
+            with self.subTest(option=option, value=value):
+                self.assert_fails(FAILED, "render", "missing.gpkg", "-o", "x.png", option, value, says=["missing.gpkg"])
+
+
+class Installation(ProgramTest):
+    def test_a_broken_one_is_named(self):
+        self.assert_fails(FAILED, "render", "-o", "x.png", environment={"TERRELLA_DATA": str(self.folder)},
+                          says=["earth.gpkg", str(self.folder)])
+        self.assert_nothing_but()
+
+
+if __name__ == "__main__":
+    unittest.main()
