@@ -45,7 +45,11 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const CLI::App& where = innermost(app);
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
-  fmt::print(stderr, "{}: {}\nSee {} --help.\n", command, error.what(), command);
+  // Without this, a mistyped subcommand would be told as a missing one.
+  const auto unknown = app.remaining();
+  const bool mistyped = &where == &app && !unknown.empty();
+  const std::string message = mistyped ? "there is no subcommand or option " + unknown.front() : error.what();
+  fmt::print(stderr, "{}: {}\nSee {} --help.\n", command, message, command);
   return kWrongUsage;
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace terrella {
 [[nodiscard]] CLI::Validator whole_number_in(long low, long high);
 
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
-[[nodiscard]] Result<Viewport> parse_size(const std::string& text);
+[[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 
 /// The value, or a CLI::ValidationError that names the option.
 template <class T>
