@@ -1,0 +1,118 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <variant>
+
+#include "geo/camera.h"
+#include "scene/flight.h"
+#include "scene/orbit.h"
+#include "scene/surface_pin.h"
+
+namespace terrella {
+
+enum class PointerButton { left, right };
+enum class NavigationKey { pan_left, pan_right, pan_up, pan_down, zoom_in, zoom_out, north_up, whole_globe };
+
+/// Turns pointer, wheel and key events into a camera.
+///
+/// Left drag holds the grabbed surface point under the cursor, and a flick glides on and stops; the wheel zooms and
+/// keeps the point under the cursor; right drag, or left with Ctrl, tilts (up: towards the horizon) and turns around
+/// the point at the picture's centre; a double click flies to a point. A new gesture ends what moved before.
+///
+/// Pure state: times come from the caller, any origin, and only their differences count, each clamped to [0 s, 0.25 s];
+/// so a clock that jumps, either way, moves nothing far. Positions are pixels of the viewport, centres at halves, and
+/// may lie outside it. Events with a value that is not finite are ignored. thread: any, one at a time
+class Navigator {
+ public:
+  Navigator(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport);
+
+  void set_viewport(Viewport viewport);   ///< sides below 1 count as 1
+  void set_camera(const Camera& camera);  ///< stops every motion
+
+  void pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, Seconds now);
+  void pointer_move(glm::dvec2 at_px, Seconds now);
+  void pointer_up(PointerButton button, Seconds now);
+  void double_click(glm::dvec2 at_px, Seconds now);
+  void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< steps: positive towards the ground
+  void key(NavigationKey key, Seconds now);
+  /// Lets time pass: flights, glides and zooms go on. Call it once a frame while animating().
+  void advance(Seconds now);
+
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  [[nodiscard]] Viewport viewport() const { return viewport_; }
+  /// Something moves by itself: frames are needed.
+  [[nodiscard]] bool animating() const;
+  /// Nothing moves and no button is held.
+  [[nodiscard]] bool at_rest() const { return std::holds_alternative<Rest>(motion_); }
+
+ private:
+  struct Rest {};
+  struct Drag {
+    Camera start;
+    Ecef held;
+    HeadingRule rule;
+    glm::dvec2 at_px;
+    glm::dvec2 speed_px_s{0.0};  ///< smoothed over the last tenth of a second
+    Seconds moved_at;
+  };
+  struct Turn {
+    std::optional<Orbit> orbit;  ///< none where the picture's centre shows the sky: the eye turns in its place
+    Camera start;
+    glm::dvec2 from_px;
+  };
+  struct Glide {
+    glm::dvec2 at_px;
+    glm::dvec2 speed_px_s;
+  };
+  struct Zoom {
+    Ecef held;
+    bool holds;  ///< there is a point under the cursor to keep there
+    HeadingRule rule;
+    glm::dvec2 at_px;
+    double target_m;
+  };
+  struct Pan {
+    glm::dvec2 left_px;  ///< what is still to move
+  };
+  struct Fly {
+    Flight flight;
+    Seconds flown{0.0};
+  };
+  struct TurnNorth {
+    Grab centre;
+    Angle from;
+    Seconds turned{0.0};
+  };
+  using Motion = std::variant<Rest, Drag, Turn, Glide, Zoom, Pan, Fly, TurnNorth>;
+
+  [[nodiscard]] Seconds pass(Seconds now);
+  [[nodiscard]] glm::dvec2 centre_px() const;
+  [[nodiscard]] Grab grab_at(glm::dvec2 at_px) const;
+  void pin_to(const Ecef& point, glm::dvec2 at_px, HeadingRule rule);
+  void pin_drag(const Drag& drag);
+  void shift(glm::dvec2 from_px, glm::dvec2 by_px);
+  void set_height(double height_m);
+  void zoom_by(double factor, std::optional<glm::dvec2> at_px);
+  void pan_by(glm::dvec2 by_px);
+  void fly_to(const Camera& camera);
+  void go_whole_globe();
+  void turn_to(const Turn& turn, glm::dvec2 at_px);
+
+  [[nodiscard]] Motion go_on(Rest rest, Seconds passed);
+  [[nodiscard]] Motion go_on(Drag drag, Seconds passed);
+  [[nodiscard]] Motion go_on(Turn turn, Seconds passed);
+  [[nodiscard]] Motion go_on(Glide glide, Seconds passed);
+  [[nodiscard]] Motion go_on(Zoom zoom, Seconds passed);
+  [[nodiscard]] Motion go_on(Pan pan, Seconds passed);
+  [[nodiscard]] Motion go_on(Fly fly, Seconds passed);
+  [[nodiscard]] Motion go_on(TurnNorth north, Seconds passed);
+
+  Camera camera_;
+  Ellipsoid ellipsoid_;
+  Viewport viewport_;
+  Motion motion_;
+  std::optional<Seconds> clock_;
+};
+
+}  // namespace terrella
