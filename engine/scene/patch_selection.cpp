@@ -1,0 +1,210 @@
+#include "scene/patch_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace terrella {
+namespace {
+
+class Selector {
+ public:
+  Selector(PatchTree& tree, const View& view, const PatchSelectionOptions& options, std::uint64_t stamp,
+           std::vector<SelectedPatch>& out)
+      : tree_(tree), view_(view), options_(options), stamp_(stamp), out_(out), planes_(view_planes(view)) {
+    const Ellipsoid& e = tree.ellipsoid();
+    eye_scaled_ = view.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
+    eye_scaled_length_ = glm::length(eye_scaled_);
+    // No surface point is nearer than the height; 1 % off for the mesh, which sags.
+    least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
+    radians_per_pixel_ = 1.0 / view.pixels_per_radian();
+    // Off the axis a perspective picture magnifies: the corner of the picture is where a metre is most pixels.
+    const double corner = view.tan_half_fov_y * std::hypot(1.0, view.aspect());
+    error_scale_px_ = view.pixels_per_radian() * std::hypot(1.0, corner);
+    texel_root_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
+    band_rad_ = options.band * std::numbers::pi;
+  }
+
+  void visit(PatchNode& node, bool inside) {
+    if (behind_horizon(node)) return;
+    if (!inside) {
+      const int side = classify(planes_, view_, node.sphere);
+      if (side < 0) return;
+      inside = side > 0;
+    }
+    SelectedPatch patch = assess(node);
+    if (needs_split(node, patch)) {
+      split(node, inside);
+    } else {
+      emit(node, patch, inside);
+    }
+  }
+
+  // Splits leaves until no neighbour in view is more than one level apart, then notes the coarse sides.
+  void balance() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t k = 0; k < out_.size(); ++k) changed = split_coarse_neighbours(*out_[k].node) || changed;
+      std::erase_if(out_, [this](const SelectedPatch& p) { return p.node->leaf_stamp != stamp_; });
+    }
+    for (SelectedPatch& patch : out_) patch.coarse_sides = coarse_sides(*patch.node);
+  }
+
+ private:
+  // Scaled space: a surface point q sees the eye iff q · eye ≥ 1. The most that a cone of directions reaches is
+  // |eye| cos(angle to its axis - half angle).
+  [[nodiscard]] bool behind_horizon(const PatchNode& node) const {
+    if (eye_scaled_length_ <= 1.0) return false;
+    const double c = glm::dot(node.cone_axis, eye_scaled_) / eye_scaled_length_;
+    if (c >= node.cos_cone) return false;
+    const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
+    return eye_scaled_length_ * (c * node.cos_cone + s * node.sin_cone) < 1.0;
+  }
+
+  [[nodiscard]] double nearest_m(const PatchNode& node) const {
+    const double center = glm::length(node.sphere.center_m - view_.eye.xyz_m);
+    return std::max({center - node.sphere.radius_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
+  }
+
+  [[nodiscard]] SelectedPatch assess(PatchNode& node) const {
+    SelectedPatch patch;
+    patch.node = &node;
+    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
+    const double center_m = glm::length(to_eye);
+    const double d = std::max(center_m - 0.7 * node.sphere.radius_m, nearest_m(node));
+    const double cos_incidence = std::clamp(std::abs(glm::dot(to_eye, node.normal)) / std::max(center_m, 1e-9), 0.05, 1.0);
+    const double pixel_m = d * radians_per_pixel_;
+    const double texel0_m = texel_root_m_ * node.row_stretch;
+    const double level = std::log2(texel0_m * options_.texels_per_pixel / (pixel_m / std::sqrt(cos_incidence)));
+    const TileGrid& grid = tree_.grid();
+    patch.tile_level = std::clamp(static_cast<int>(std::ceil(std::clamp(level, -64.0, 64.0) - 0.02)), grid.min_level, grid.max_level);
+    const double span = std::max(node.east_deg - node.west_deg, 0.0);
+    if (node.min_colatitude_rad < band_rad_) {
+      while (patch.tile_level > grid.min_level && span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
+        --patch.tile_level;
+      }
+    }
+    const double texel_m = std::ldexp(texel0_m, -patch.tile_level) * std::sin(std::max(node.min_colatitude_rad, 1e-3));
+    patch.footprint_texels = center_m * radians_per_pixel_ / cos_incidence / texel_m;
+    return patch;
+  }
+
+  [[nodiscard]] bool needs_split(const PatchNode& node, SelectedPatch& patch) const {
+    if (node.id.level < 1) return true;
+    if (node.id.level >= kMaxPatchLevel) return false;
+    const double px = error_scale_px_ / nearest_m(node);
+    if (node.geometric_error_m * px > options_.max_error_px) return true;
+    const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
+    patch.in_band = bent && node.min_colatitude_rad < band_rad_;
+    if (bent && !patch.in_band) return true;
+    return window_too_wide(node, patch);
+  }
+
+  [[nodiscard]] bool window_too_wide(const PatchNode& node, const SelectedPatch& patch) const {
+    const double most = options_.max_window * tile_span_deg(tree_.grid(), patch.tile_level);
+    if (node.north_row_deg - node.south_row_deg > most) return true;
+    return node.min_colatitude_rad >= band_rad_ && node.east_deg - node.west_deg > most;
+  }
+
+  void split(PatchNode& node, bool inside) {
+    node.split_stamp = stamp_;
+    node.leaf_stamp = 0;
+    tree_.ensure_children(node);
+    for (PatchNode* child : node.children) visit(*child, inside);
+  }
+
+  void emit(PatchNode& node, SelectedPatch patch, bool inside) {
+    node.leaf_stamp = stamp_;
+    patch.cut_by_view = !inside || nearly_behind_horizon(node);
+    out_.push_back(patch);
+  }
+
+  [[nodiscard]] bool nearly_behind_horizon(const PatchNode& node) const {
+    if (eye_scaled_length_ <= 1.0) return false;
+    const double c = glm::dot(node.cone_axis, eye_scaled_) / eye_scaled_length_;
+    const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
+    return eye_scaled_length_ * (c * node.cos_cone - s * node.sin_cone) < 1.0;
+  }
+
+  // The leaf that covers a patch, or nullptr where nothing is drawn (culled) or finer patches are.
+  [[nodiscard]] PatchNode* leaf_over(const PatchId& id) const {
+    PatchNode* node = &tree_.root(id.face);
+    while (node->split_stamp == stamp_ && node->id.level < id.level) {
+      const int shift = id.level - node->id.level - 1;
+      node = node->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
+    }
+    return node->leaf_stamp == stamp_ ? node : nullptr;
+  }
+
+  bool split_coarse_neighbours(PatchNode& node) {
+    bool changed = false;
+    if (node.leaf_stamp != stamp_) return false;
+    for (int side = 0; side < 4; ++side) {
+      PatchNode* other = leaf_over(neighbour(node.id, static_cast<PatchSide>(side)));
+      if (other == nullptr || other->id.level >= node.id.level - 1) continue;
+      split(*other, false);
+      changed = true;
+    }
+    return changed;
+  }
+
+  [[nodiscard]] unsigned coarse_sides(const PatchNode& node) const {
+    unsigned mask = 0;
+    for (int side = 0; side < 4; ++side) {
+      const PatchNode* other = leaf_over(neighbour(node.id, static_cast<PatchSide>(side)));
+      if (other != nullptr && other->id.level < node.id.level) mask |= 1U << side;
+    }
+    return mask;
+  }
+
+  PatchTree& tree_;
+  const View& view_;
+  const PatchSelectionOptions& options_;
+  std::uint64_t stamp_;
+  std::vector<SelectedPatch>& out_;
+  ViewPlanes planes_;
+  glm::dvec3 eye_scaled_{0.0};
+  double eye_scaled_length_ = 0.0;
+  double least_distance_m_ = 0.0;
+  double radians_per_pixel_ = 0.0;
+  double error_scale_px_ = 0.0;
+  double texel_root_m_ = 0.0;
+  double band_rad_ = 0.0;
+};
+
+bool finite(const View& view) {
+  const glm::dvec3 all = view.eye.xyz_m + view.right + view.up + view.forward;
+  return std::isfinite(all.x + all.y + all.z + view.tan_half_fov_y);
+}
+
+}  // namespace
+
+ViewPlanes view_planes(const View& view) {
+  const double ty = view.tan_half_fov_y;
+  const double tx = ty * view.aspect();
+  return {{glm::normalize(view.forward * tx + view.right), glm::normalize(view.forward * tx - view.right),
+           glm::normalize(view.forward * ty + view.up), glm::normalize(view.forward * ty - view.up)}};
+}
+
+int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere) {
+  const glm::dvec3 p = sphere.center_m - view.eye.xyz_m;
+  int result = 1;
+  for (const glm::dvec3& normal : planes.normals) {
+    const double d = glm::dot(normal, p);
+    if (d < -sphere.radius_m) return -1;
+    if (d < sphere.radius_m) result = 0;
+  }
+  return result;
+}
+
+void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
+                    std::vector<SelectedPatch>& out) {
+  out.clear();
+  if (!finite(view)) return;
+  Selector selector(tree, view, options, tree.next_stamp(), out);
+  for (int f = 0; f < kCubeFaces; ++f) selector.visit(tree.root(static_cast<CubeFace>(f)), false);
+  selector.balance();
+}
+
+}  // namespace terrella

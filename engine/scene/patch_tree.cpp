@@ -1,0 +1,151 @@
+#include "scene/patch_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace terrella {
+namespace {
+
+constexpr double kDeg = 180.0 / std::numbers::pi;
+
+double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
+
+// Longitude has no value at a pole: such a vertex takes no part in a patch's extent.
+bool on_axis(const EcefDir& n) { return n.xyz.x == 0.0 && n.xyz.y == 0.0; }
+
+double colatitude(const EcefDir& n) { return std::atan2(std::hypot(n.xyz.x, n.xyz.y), std::abs(n.xyz.z)); }
+
+// The points of the patch's border lattice. A patch has its pole, if any, at a corner, so the extremes of
+// latitude and longitude of all its vertices lie on the border.
+template <class Visit>
+void visit_border(const PatchId& id, int n, CubeMapping mapping, Visit visit) {
+  for (int k = 0; k < n; ++k) {
+    visit(patch_point(id, k, 0, n, mapping));
+    visit(patch_point(id, n, k, n, mapping));
+    visit(patch_point(id, n - k, n, n, mapping));
+    visit(patch_point(id, 0, n - k, n, mapping));
+  }
+}
+
+// Rows of an equal-area grid are taller on the ground towards the poles: d(latitude)/d(row latitude), at least.
+double least_row_stretch(const TileGrid& grid, double min_abs_lat_rad) {
+  if (grid.projection == Projection::equirectangular) return 1.0;
+  return (2.0 / std::numbers::pi) / std::max(1e-3, std::cos(min_abs_lat_rad));
+}
+
+void measure_extent(PatchNode& node, const Ellipsoid& ellipsoid, const TileGrid& grid, int n, CubeMapping mapping) {
+  const glm::dvec3 scale(1.0 / ellipsoid.a_m(), 1.0 / ellipsoid.a_m(), 1.0 / ellipsoid.b_m());
+  node.cone_axis = glm::normalize(node.sphere.center_m * scale);
+  node.west_deg = node.south_row_deg = 1e9;
+  node.east_deg = node.north_row_deg = -1e9;
+  node.min_colatitude_rad = 1e9;
+  double radius2 = 0.0;
+  double cos_cone = 1.0;
+  visit_border(node.id, n, mapping, [&](const EcefDir& normal) {
+    const glm::dvec3 p = ellipsoid.position(normal).xyz_m;
+    const glm::dvec3 d = p - node.sphere.center_m;
+    radius2 = std::max(radius2, glm::dot(d, d));
+    cos_cone = std::min(cos_cone, glm::dot(node.cone_axis, glm::normalize(p * scale)));
+    const double row = row_latitude_deg(grid, ellipsoid, normal);
+    node.south_row_deg = std::min(node.south_row_deg, row);
+    node.north_row_deg = std::max(node.north_row_deg, row);
+    node.min_colatitude_rad = std::min(node.min_colatitude_rad, colatitude(normal));
+    node.max_colatitude_rad = std::max(node.max_colatitude_rad, colatitude(normal));
+    if (on_axis(normal)) return;
+    const double lon = wrapped_deg(Ellipsoid::lat_lon(normal).lon.deg() - node.lon_center_deg);
+    node.west_deg = std::min(node.west_deg, lon);
+    node.east_deg = std::max(node.east_deg, lon);
+  });
+  // A hair wider than the vertices, for rounding: the spheres only ever cull.
+  node.sphere.radius_m = std::sqrt(radius2) * (1.0 + 1e-9) + 1e-9 * ellipsoid.a_m() * std::numeric_limits<float>::epsilon();
+  node.cos_cone = std::clamp(cos_cone, -1.0, 1.0) - 1e-15;
+  node.sin_cone = std::sqrt(std::max(0.0, 1.0 - node.cos_cone * node.cos_cone));
+}
+
+// The point of a patch's extent at fractions of its longitude and row range.
+glm::dvec3 extent_point(const PatchTree& tree, const PatchNode& node, double lon_deg, double row_deg) {
+  const Angle lat = latitude_of_row(tree.grid(), tree.ellipsoid(), row_deg);
+  return tree.ellipsoid().position(Ellipsoid::normal(lat, Angle::degrees(lon_deg + node.lon_center_deg))).xyz_m;
+}
+
+BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const TileBounds& cell) {
+  const double w = std::max(cell.west_deg - node.lon_center_deg, node.west_deg);
+  const double e = std::min(cell.east_deg - node.lon_center_deg, node.east_deg);
+  const double s = std::max(cell.south_deg, node.south_row_deg);
+  const double n = std::min(cell.north_deg, node.north_row_deg);
+  BoundingSphere sphere{extent_point(tree, node, 0.5 * (w + e), 0.5 * (s + n)), 0.0};
+  for (int k = 0; k < 9; ++k) {
+    const glm::dvec3 p = extent_point(tree, node, w + 0.5 * (k % 3) * (e - w), s + 0.5 * (k / 3) * (n - s));
+    sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
+  }
+  return sphere;
+}
+
+}  // namespace
+
+glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal) {
+  return {normal.x, normal.y, grid.latitude == LatitudeKind::centric ? normal.z * ellipsoid.one_minus_e2() : normal.z};
+}
+
+PatchTree::PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping)
+    : ellipsoid_(ellipsoid), grid_(grid), segments_(segments), mapping_(mapping) {
+  for (int f = 0; f < kCubeFaces; ++f) {
+    roots_[static_cast<std::size_t>(f)] = &make_node(PatchId{static_cast<CubeFace>(f), 0, 0, 0}, nullptr);
+  }
+}
+
+PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
+  PatchNode& node = nodes_.emplace_back();
+  node.id = id;
+  node.parent = parent_node;
+  const EcefDir center = patch_point(id, 1, 1, 2, mapping_);
+  node.normal = center.xyz;
+  node.sphere.center_m = ellipsoid_.position(center).xyz_m;
+  node.lon_center_deg = Ellipsoid::lat_lon(center).lon.deg();
+  const glm::dvec3 m = glm::normalize(row_direction(grid_, ellipsoid_, center.xyz));
+  const double equatorial = std::hypot(m.x, m.y);
+  node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z) : glm::dvec4(1.0, 0.0, 0.0, m.z);
+  measure_extent(node, ellipsoid_, grid_, segments_, mapping_);
+
+  // A segment spans at most π/2 / (2^level n); over the diagonal of a quad the chord sags (√2 Δ)²/8 of the radius of
+  // curvature, which is at most a²/b.
+  const double segment = 0.5 * std::numbers::pi / (std::ldexp(1.0, id.level) * segments_);
+  node.geometric_error_m = ellipsoid_.a_m() * (ellipsoid_.a_m() / ellipsoid_.b_m()) * segment * segment * 0.25;
+  // d²(longitude)/ds² · cos(latitude) and d²(latitude)/ds² are at most tan(latitude): the coordinate, interpolated along
+  // the chord, lags by that times the same Δ²/4.
+  const double colat = std::max(node.min_colatitude_rad, segment);
+  node.texture_error_factor = std::max(1.0, 1.0 / std::tan(std::min(colat, 1.5)));
+  node.row_stretch = least_row_stretch(grid_, 0.5 * std::numbers::pi - node.max_colatitude_rad);
+  return node;
+}
+
+void PatchTree::ensure_children(PatchNode& node) {
+  if (node.children[0] != nullptr) return;
+  const auto ids = terrella::children(node.id);
+  for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
+}
+
+const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
+  TileWindow& win = node.window;
+  if (win.level == tile_level) return win;
+  // Patch borders on tile borders must not claim the tile beyond: a millionth of a tile is 0.0003 of a texel.
+  constexpr double kSliver = 1e-6;
+  const TileXY nw = tile_xy(grid_, tile_level, node.north_row_deg, node.lon_center_deg + node.west_deg);
+  const TileXY se = tile_xy(grid_, tile_level, node.south_row_deg, node.lon_center_deg + node.east_deg);
+  win.level = tile_level;
+  win.x0 = static_cast<std::int64_t>(std::floor(nw.x + kSliver));
+  win.y0 = static_cast<std::int64_t>(std::floor(nw.y + kSliver));
+  win.w = static_cast<int>(std::max<std::int64_t>(win.x0 + 1, static_cast<std::int64_t>(std::ceil(se.x - kSliver))) - win.x0);
+  win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) - win.y0);
+  win.cells.clear();
+  for (int y = 0; y < win.h; ++y) {
+    for (int x = 0; x < win.w; ++x) {
+      win.cells.push_back(cell_sphere(*this, node, tile_bounds(grid_, TileId{tile_level, win.x0 + x, win.y0 + y})));
+    }
+  }
+  return win;
+}
+
+}  // namespace terrella

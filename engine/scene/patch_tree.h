@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "geo/camera.h"
+#include "geo/patch_id.h"
+#include "geo/tile_grid.h"
+
+namespace terrella {
+
+/// A sphere that holds something, ECEF metres.
+struct BoundingSphere {
+  glm::dvec3 center_m{0.0};
+  double radius_m = 0.0;
+};
+
+/// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
+/// each cell of the window names one tile (DESIGN 5).
+struct TileWindow {
+  int level = -1;
+  std::int64_t x0 = 0, y0 = 0;
+  int w = 0, h = 0;
+  std::vector<BoundingSphere> cells;  ///< row-major; what each cell shares with the patch
+};
+
+/// What never changes about a patch, worked out once and kept in the tree.
+struct PatchNode {
+  PatchId id;
+  BoundingSphere sphere;
+  /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its half angle.
+  glm::dvec3 cone_axis{0.0};
+  double cos_cone = 1.0, sin_cone = 0.0;
+  glm::dvec3 normal{0.0};              ///< geodetic normal at the centre
+  double geometric_error_m = 0.0;      ///< largest distance between the mesh and the ellipsoid
+  double texture_error_factor = 1.0;   ///< interpolated texture coordinates are off by at most this times geometric_error_m
+  /// Cosine and sine of the centre's longitude and of its counted latitude (graphic or centric, see row_direction()).
+  glm::dvec4 frame{1.0, 0.0, 1.0, 0.0};
+  double lon_center_deg = 0.0;         ///< longitude unwraps around this
+  double west_deg = 0.0, east_deg = 0.0;    ///< relative to lon_center_deg
+  double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
+  double min_colatitude_rad = 0.0;     ///< of the patch's point nearest to a pole
+  double max_colatitude_rad = 0.0;     ///< of the point farthest from that pole
+  double row_stretch = 1.0;            ///< ground metres per row degree over those of an equirectangular row, least in the patch
+
+  PatchNode* parent = nullptr;
+  std::array<PatchNode*, 4> children{};  ///< all or none
+  TileWindow window;                     ///< of the level last asked for
+  std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
+  std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
+};
+
+/// The direction whose latitude the grid's rows count, not normalised: the geodetic normal, or for planetocentric
+/// grids the radius vector of the surface point, (n.x, n.y, (1 - e²) n.z).
+[[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
+
+/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited.
+/// thread: main
+class PatchTree {
+ public:
+  /// `segments` a side of each patch: a power of two in [2, 128].
+  PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping = CubeMapping::tangent);
+
+  [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }
+  /// The four children, made if they are not there.
+  void ensure_children(PatchNode& node);
+  /// The node's window at a tile level; kept until another level is asked for.
+  const TileWindow& window(PatchNode& node, int tile_level);
+
+  [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+  [[nodiscard]] int segments() const { return segments_; }
+  [[nodiscard]] CubeMapping mapping() const { return mapping_; }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  /// A number for one selection: marks in nodes that carry another one are out of date.
+  [[nodiscard]] std::uint64_t next_stamp() { return ++stamp_; }
+
+ private:
+  PatchNode& make_node(const PatchId& id, PatchNode* parent);
+
+  Ellipsoid ellipsoid_;
+  TileGrid grid_;
+  int segments_;
+  CubeMapping mapping_;
+  std::deque<PatchNode> nodes_;
+  std::array<PatchNode*, kCubeFaces> roots_{};
+  std::uint64_t stamp_ = 0;
+};
+
+}  // namespace terrella

@@ -1,0 +1,45 @@
+// A patch's vertex relative to the eye, and the point of the patch's tile window under it.
+layout(location = 0) in vec3 position_high_ecef;
+layout(location = 1) in vec3 position_low_ecef;
+layout(location = 2) in vec3 direction;
+layout(location = 3) in vec2 offset_deg;
+layout(location = 4) in vec4 patch_center_and_scale;
+layout(location = 5) in vec4 patch_frame;
+layout(location = 6) in vec4 patch_row;
+layout(location = 7) in uvec4 patch_window;
+
+invariant gl_Position;
+out vec2 window_point;
+out vec3 row_direction;
+out float light;
+flat out uvec4 window;
+flat out vec4 center_and_scale;
+flat out vec4 frame;
+flat out vec4 row;
+
+// Soft light from the sun's side; the night side keeps a quarter.
+float light_of(vec3 normal_ecef) {
+  float day = smoothstep(-0.35, 0.75, dot(normal_ecef, sun_ecef.xyz));
+  return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
+}
+
+void main() {
+  // Highs first: near the eye their difference is exact (Sterbenz), and shared vertices of two patches come out the same.
+  precise vec3 position_from_eye = (position_high_ecef - eye_high_ecef.xyz) + (position_low_ecef - eye_low_ecef.xyz);
+  precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
+  float w = -position_view.z;
+#if defined(DEPTH_REVERSED)
+  gl_Position = vec4(position_view.xy * clip_scale.xy, clip_scale.z, w);
+#else
+  gl_Position = vec4(position_view.xy * clip_scale.xy, (w - clip_scale.z) * (clip_scale.w / (clip_scale.w - clip_scale.z)), w);
+#endif
+  window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
+  row_direction = direction;
+  vec3 center = vec3(patch_frame.xy * patch_frame.z, patch_frame.w);
+  vec3 m = center + direction;
+  light = light_of(normalize(vec3(m.xy, m.z / texels.w)));
+  window = patch_window;
+  center_and_scale = patch_center_and_scale;
+  frame = patch_frame;
+  row = patch_row;
+}

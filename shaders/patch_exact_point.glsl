@@ -1,0 +1,47 @@
+// Window point of a fragment from its direction, and how it changes across a pixel. All differences are taken
+// from the patch's centre, where the floats are small, so that the point is exact to the patch's own resolution.
+
+struct WindowPoint {
+  vec2 p;
+  vec2 dx;
+  vec2 dy;
+};
+
+const float kDegrees = 57.29577951308232;
+
+// East, outward and polar parts of a direction relative to the centre's meridian.
+vec3 in_meridian(vec3 d) {
+  return vec3(frame.x * d.y - frame.y * d.x, frame.x * d.x + frame.y * d.y, d.z);
+}
+
+WindowPoint exact_window_point() {
+  float c = frame.z, s = frame.w;                // cosine and sine of the centre's latitude
+  vec3 d = in_meridian(row_direction);           // small
+  float x = c + d.y, y = d.x, z = s + d.z;
+  float r = length(vec2(x, y));
+  float r_minus_c = (d.y * (x + c) + y * y) / (r + c);
+  float north = d.z * c - r_minus_c * s;         // of the polar angle from the centre
+  float along = z * s + r * c;
+  float lat = atan(north, along);
+  float lon = atan(y, x);
+
+  vec3 ddx = in_meridian(dFdx(row_direction)), ddy = in_meridian(dFdy(row_direction));
+  float r2 = max(r * r, 1e-30), q2 = r2 + z * z;
+  vec2 dlon = vec2(x * ddx.x - y * ddx.y, x * ddy.x - y * ddy.y) / r2;
+  vec2 dr = vec2(x * ddx.y + y * ddx.x, x * ddy.y + y * ddy.x) / max(r, 1e-15);
+  vec2 dlat = (r * vec2(ddx.z, ddy.z) - z * dr) / q2;
+
+  float drow_dlat = 1.0, row_offset = lat;
+  if (paper.z > 0.5) {
+    // Equal-area rows count the sine: 90° (sin a - sin b) = 180° cos((a + b)/2) sin((a - b)/2).
+    float half_angle = 0.5 * lat;
+    row_offset = 3.141592653589793 * (c * cos(half_angle) - s * sin(half_angle)) * sin(half_angle);
+    drow_dlat = 1.5707963267948966 * r / sqrt(q2);
+  }
+  vec2 per_radian = center_and_scale.zw * kDegrees;
+  WindowPoint w;
+  w.p = center_and_scale.xy + vec2(lon, -row_offset) * per_radian;
+  w.dx = vec2(dlon.x, -dlat.x * drow_dlat) * per_radian;
+  w.dy = vec2(dlon.y, -dlat.y * drow_dlat) * per_radian;
+  return w;
+}

@@ -1,0 +1,16 @@
+// Patches seen at a slant or squeezed towards a pole, coordinates still interpolated: the pixel's footprint is a long
+// parallelogram, integrated by up to 16 taps on a rank-1 lattice.
+void main() {
+  vec2 p = window_point;
+  vec4 cell = cell_at(p);
+  vec2 a = dFdx(p), b = dFdy(p);
+  float reach = sqrt(max(dot(a, a), dot(b, b))) * cell.x * texels.y;
+  int n = int(clamp(ceil(reach), 4.0, 16.0));
+  float step = 1.0 / float(n);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < n; ++i) {
+    float s = float(i) + 0.5;
+    sum += tap(cell, p + (s * step - 0.5) * a + (fract(s * 0.6180339887) - 0.5) * b);
+  }
+  finish(sum * step);
+}
