@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "streaming/tile_source.h"
+#include "streaming/tile_texels.h"
 
 namespace terrella {
 
@@ -14,15 +15,17 @@ struct TileRequest {
   double priority = 0.0;  ///< larger first
 };
 
-/// One finished request: pixels, or why there are none.
+/// One finished request: texels ready for upload, or why there are none.
 struct LoadedTile {
   TileId id;
-  Result<Image, TileFailure> pixels;
+  Result<TileTexels, TileFailure> pixels;
 };
 
 struct LoaderOptions {
   int workers = 2;                        ///< threads that read and decode, [1, 64]
   std::size_t max_finished_bytes = 64UL << 20;  ///< decoded tiles waiting to be polled; workers pause over it
+  int gutter = 4;                         ///< texels of border on each side of mip 0 (TileTexels)
+  int mips = 3;                           ///< mip levels with the finest, [1, kMaxMips]
 };
 
 struct LoaderCounts {

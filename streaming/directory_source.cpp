@@ -1,0 +1,117 @@
+#include "streaming/directory_source.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "streaming/file_bytes.h"
+#include "streaming/tileset_json.h"
+#include "streaming/tms_xml.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DirectorySource : public TileSource {
+ public:
+  DirectorySource(TileSetInfo info, DirectoryLayout layout) : info_(std::move(info)), layout_(std::move(layout)) {}
+
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
+    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    const fs::path path = path_of(id);
+    Result<std::vector<std::byte>, FileError> bytes = read_file(path, kMaxTileBytes);
+    if (!bytes) return failure(bytes.error());
+    if (bytes->empty()) return TileFailure{Absence::blank, path.string() + ": an empty file"};
+    return EncodedTile{*std::move(bytes)};
+  }
+
+ private:
+  [[nodiscard]] fs::path path_of(const TileId& id) const {
+    const std::int64_t row = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - id.y : id.y;
+    return layout_.root / layout_.folder.at(id.level) / std::to_string(id.x) /
+           fmt::format("{}.{}", row, layout_.extension);
+  }
+
+  static TileFailure failure(const FileError& error) {
+    switch (error.problem) {
+      case FileProblem::missing:
+        return {Absence::absent, error.message};
+      case FileProblem::too_large:
+        return {Absence::broken, error.message};
+      case FileProblem::unreadable:
+        break;
+    }
+    return {Absence::failed, error.message};
+  }
+
+  const TileSetInfo info_;
+  const DirectoryLayout layout_;
+};
+
+std::string_view as_text(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool has_any_level(const DirectoryLayout& layout) {
+  for (const auto& [level, folder] : layout.folder) {
+    std::error_code ignored;
+    if (fs::is_directory(layout.root / folder, ignored)) return true;
+  }
+  return false;
+}
+
+Result<std::unique_ptr<TileSource>> with_tiles(TileSetInfo info, DirectoryLayout layout, const fs::path& description) {
+  if (!has_any_level(layout)) {
+    return Error{fmt::format("{}: {} describes levels {} to {}, but there is no folder \"{}\" or any other with tiles",
+                             layout.root.string(), description.filename().string(), info.grid.min_level,
+                             info.grid.max_level, layout.folder.begin()->second)};
+  }
+  return make_directory_source(std::move(info), std::move(layout));
+}
+
+Result<std::unique_ptr<TileSource>> open_json(const fs::path& root, const fs::path& description) {
+  const auto bytes = read_file(description, kMaxTileSetJsonBytes);
+  if (!bytes) return Error{bytes.error().message};
+  Result<TileSetInfo> info = parse_tileset_json(as_text(*bytes), description.string());
+  if (!info) return info.error();
+  DirectoryLayout layout{.root = root, .folder = {}, .extension = info->format == ImageFormat::png ? "png" : "jpg"};
+  for (int level = info->grid.min_level; level <= info->grid.max_level; ++level) {
+    layout.folder[level] = std::to_string(level);
+  }
+  return with_tiles(*std::move(info), std::move(layout), description);
+}
+
+Result<std::unique_ptr<TileSource>> open_tms(const fs::path& root, const fs::path& description) {
+  const auto bytes = read_file(description, kMaxTmsXmlBytes);
+  if (!bytes) return Error{bytes.error().message};
+  Result<TmsDescription> tms = parse_tms_xml(as_text(*bytes), description.string());
+  if (!tms) return tms.error();
+  DirectoryLayout layout{
+      .root = root, .folder = std::move(tms->folder), .extension = tms->extension, .rows_from_south = true};
+  return with_tiles(std::move(tms->info), std::move(layout), description);
+}
+
+}  // namespace
+
+std::unique_ptr<TileSource> make_directory_source(TileSetInfo info, DirectoryLayout layout) {
+  return std::make_unique<DirectorySource>(std::move(info), std::move(layout));
+}
+
+Result<std::unique_ptr<TileSource>> open_directory(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path / kTileSetFile, ignored)) return open_json(path, path / kTileSetFile);
+  if (fs::exists(path / kTmsFile, ignored)) return open_tms(path, path / kTmsFile);
+  const bool empty = fs::is_empty(path, ignored);
+  return Error{
+      fmt::format("{}: {}, so it is not a tile set. A directory must hold tiles as {{z}}/{{x}}/{{y}}.jpg or .png and "
+                  "beside them {} (written "
+                  "by `terrella cut`) or the {} of a geodetic TMS",
+                  path.string(),
+                  empty ? "the directory is empty" : "the directory holds no tileset.json and no tilemapresource.xml",
+                  kTileSetFile, kTmsFile)};
+}
+
+}  // namespace terrella

@@ -1,0 +1,62 @@
+#include "streaming/file_bytes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace terrella {
+namespace {
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path)
+      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+FileError system_error(const std::filesystem::path& path, int code) {
+  const bool missing = code == ENOENT || code == ENOTDIR;
+  return {missing ? FileProblem::missing : FileProblem::unreadable,
+          fmt::format("{}: {}", path.string(), std::strerror(code))};
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  const OpenFile file(path);
+  if (file.descriptor() < 0) return system_error(path, errno);
+  struct stat status {};
+  if (fstat(file.descriptor(), &status) != 0) return system_error(path, errno);
+  // A pipe or a device under a tile's name would block a worker for ever.
+  if (!S_ISREG(status.st_mode)) return FileError{FileProblem::unreadable, path.string() + ": not a regular file"};
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size > max_bytes) {
+    return FileError{FileProblem::too_large,
+                     fmt::format("{}: {} bytes, at most {} are read", path.string(), size, max_bytes)};
+  }
+  std::vector<std::byte> bytes(size);
+  std::size_t filled = 0;
+  while (filled < size) {
+    const ssize_t got = read(file.descriptor(), bytes.data() + filled, size - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error(path, errno);
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+}  // namespace terrella

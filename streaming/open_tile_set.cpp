@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include "streaming/directory_source.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    return Error{fmt::format("{}: there is no such file or directory", path.string())};
+  }
+  if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
+  if (std::filesystem::is_directory(status)) return open_directory(path);
+  return Error{
+      fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
+                  "and a GeoPackage in EPSG:4326",
+                  path.string())};
+}
+
+}  // namespace terrella

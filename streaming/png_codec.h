@@ -1,0 +1,11 @@
+#pragma once
+
+#include "streaming/image.h"
+
+namespace terrella {
+
+/// decode_image() for bytes that sniff_format() took for a PNG. Sixteen bits are rounded to eight, palettes and gray
+/// are expanded; gamma and colour profiles are not applied. thread: any
+[[nodiscard]] Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
+
+}  // namespace terrella
