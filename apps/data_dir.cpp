@@ -24,7 +24,7 @@ std::vector<fs::path> data_folders() {
 fs::path data_file(std::string_view name) {
   std::string tried;
   for (const fs::path& folder : data_folders()) {
-    const fs::path candidate = folder / name;
+    fs::path candidate = folder / name;
     std::error_code failed;
     if (fs::is_regular_file(candidate, failed)) return candidate;
     tried += fmt::format("\n  {}", candidate.string());
