@@ -70,15 +70,15 @@ std::string preset_names() {
 }
 
 Error bad_body(std::string_view text, std::string_view reason) {
-  return {"body " + quoted(text) + ": " + std::string(reason) +
+  return {"body " + in_quotes(text) + ": " + std::string(reason) +
           "; give A,F (semi-major axis in metres, flattening) or one of " + preset_names()};
 }
 
 Result<Body> parse_figure(std::string_view text, std::string_view axis, std::string_view flattening) {
   const std::optional<double> a_m = read_number(axis);
   const std::optional<double> f = read_number(flattening);
-  if (!a_m) return bad_body(text, "A, " + quoted(axis) + ", is not a number");
-  if (!f) return bad_body(text, "F, " + quoted(flattening) + ", is not a number");
+  if (!a_m) return bad_body(text, "A, " + in_quotes(axis) + ", is not a number");
+  if (!f) return bad_body(text, "F, " + in_quotes(flattening) + ", is not a number");
   if (*a_m < kSmallestAxisM || *a_m > kLargestAxisM) return bad_body(text, "A must be from 1 to 1e10 metres");
   if (*f < 0.0 || *f >= kFlatteningLimit) return bad_body(text, "F must be from 0 to less than 0.5");
   return Body{.name = std::string(text), .ellipsoid = Ellipsoid(*a_m, *f)};

@@ -35,7 +35,7 @@ constexpr std::array<CameraField, 6> kFields = {{
 constexpr std::size_t kRequiredFields = 3;
 
 Error bad_camera(std::string_view text, const std::string& reason) {
-  return {"camera " + quoted(text) + ": " + reason};
+  return {"camera " + in_quotes(text) + ": " + reason};
 }
 
 /// A picture position as multiples of right and up where forward is 1.
@@ -58,7 +58,7 @@ Result<Camera> parse_camera(std::string_view text) {
     const std::optional<double> given = k < words.size() ? read_number(words[k]) : field.initial;
     if (!given || *given < field.low || *given > field.high) {
       return bad_camera(
-          text, std::string(field.name) + " is " + quoted(words[k]) + ", but must be " + std::string(field.range));
+          text, std::string(field.name) + " is " + in_quotes(words[k]) + ", but must be " + std::string(field.range));
     }
     values[k] = *given;
   }

@@ -35,7 +35,7 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   return pieces;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 80;
   std::string shown(text.substr(0, longest));
   for (char& c : shown) {

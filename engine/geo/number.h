@@ -15,6 +15,6 @@ namespace terrella {
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Text in double quotes for an error message: shortened if it is long, control characters shown as '?'.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace terrella

@@ -11,37 +11,41 @@
 namespace terrella {
 namespace {
 
-/// A strip narrower than this part of a tile (at most 1/250 of a pixel) is rounding, not imagery: without this,
-/// 360° / span = 2.0000000001 would ask for a third column that no server has.
+/// A strip narrower than this part of a tile of the finest level (at most 1/250 of a pixel) is rounding, not imagery:
+/// without this, 360° / span = 2.0000000001 would ask for a third column that no server has.
 constexpr double kSliverTiles = 1.0e-6;
 /// What rounding of angles to and from radians may leave of 360°, with a margin; 0.1 µm on Earth.
 constexpr double kAngleNoiseDeg = 1.0e-12;
 
-/// Tiles of a span that reach over an extent.
-std::int64_t tiles_over(double extent_deg, double span_deg) {
+/// Slivers are judged at the finest level for all levels alike, so that a tile that exists has a parent that exists.
+int finest_level(const TileGrid& grid, int level) { return std::max(level, grid.max_level); }
+
+/// Tiles of a level that reach over an extent.
+std::int64_t tiles_over(double extent_deg, const TileGrid& grid, int level) {
   constexpr double most = 0x1p53;  // beyond it doubles no longer count one by one
-  const double tiles = std::min(extent_deg / span_deg, most);
+  const int finest = finest_level(grid, level);
+  const double tiles = std::min(extent_deg / tile_span_deg(grid, finest), most);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * tiles;
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(tiles - std::max(kSliverTiles, rounding))));
+  const double whole_finest = std::ceil(tiles - std::max(kSliverTiles, rounding));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::ldexp(whole_finest, level - finest))));
 }
 
 struct Interval {
   double from, to;
 };
 
-/// True if a tile's side overlaps the data's by more than a sliver. Data without extent (a point) touches the tiles
+/// True if a tile's side overlaps the data's by a sliver or more. Data without extent (a point) touches the tiles
 /// around it.
-bool touches(const Interval& tile, const Interval& data) {
-  const double sliver = std::max(kSliverTiles * (tile.to - tile.from), kAngleNoiseDeg);
+bool touches(const Interval& tile, const Interval& data, double sliver_deg) {
   const double overlap = std::min(tile.to, data.to) - std::max(tile.from, data.from);
-  return overlap >= std::min(sliver, 0.5 * (data.to - data.from));
+  return overlap >= std::min(sliver_deg, 0.5 * (data.to - data.from));
 }
 
-bool touches_longitudes(const Interval& tile, const GeoRect& bounds) {
+bool touches_longitudes(const Interval& tile, const GeoRect& bounds, double sliver_deg) {
   const double west = bounds.west.deg();
   const double east = bounds.east < bounds.west ? bounds.east.deg() + 360.0 : bounds.east.deg();
   constexpr std::array turns = {-360.0, 0.0, 360.0};
-  return std::ranges::any_of(turns, [&](double turn) { return touches(tile, {west + turn, east + turn}); });
+  return std::ranges::any_of(turns, [&](double turn) { return touches(tile, {west + turn, east + turn}, sliver_deg); });
 }
 
 /// Polar to equatorial component of the direction that the grid's rows count: the normal, or the radius vector of the
@@ -66,16 +70,18 @@ bool TileGrid::operator==(const TileGrid& other) const {
 
 double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.root_span_deg, -level); }
 
-std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, tile_span_deg(grid, level)); }
+std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, grid, level); }
 
-std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(180.0, tile_span_deg(grid, level)); }
+std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(180.0, grid, level); }
 
 bool exists(const TileGrid& grid, const TileId& id) {
   if (id.level < grid.min_level || id.level > grid.max_level) return false;
   if (id.x < 0 || id.x >= columns(grid, id.level) || id.y < 0 || id.y >= rows(grid, id.level)) return false;
   const TileBounds tile = tile_bounds(grid, id);
-  return touches({tile.south_deg, tile.north_deg}, {grid.bounds.south.deg(), grid.bounds.north.deg()}) &&
-         touches_longitudes({tile.west_deg, tile.east_deg}, grid.bounds);
+  const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
+  const Interval data_rows{grid.bounds.south.deg(), grid.bounds.north.deg()};
+  return touches({tile.south_deg, tile.north_deg}, data_rows, sliver_deg) &&
+         touches_longitudes({tile.west_deg, tile.east_deg}, grid.bounds, sliver_deg);
 }
 
 TileId parent(const TileId& id) { return ancestor(id, 1); }
