@@ -6,6 +6,7 @@
 
 #include "streaming/file_bytes.h"
 #include "streaming/tileset_json.h"
+#include "streaming/tms_roots.h"
 #include "streaming/tms_xml.h"
 
 namespace terrella {
@@ -26,6 +27,20 @@ class DirectorySource : public TileSource {
     if (!bytes) return failure(bytes.error());
     if (bytes->empty()) return TileFailure{Absence::blank, path.string() + ": an empty file"};
     return EncodedTile{*std::move(bytes)};
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override {
+    const auto folder = layout_.folder.find(level);
+    if (folder == layout_.folder.end()) return 0;
+    std::int64_t count = 0;
+    std::error_code error;
+    for (const fs::directory_entry& column : fs::directory_iterator(layout_.root / folder->second, error)) {
+      std::error_code not_a_folder;
+      for (const fs::directory_entry& tile : fs::directory_iterator(column.path(), not_a_folder)) {
+        if (tile.path().extension() == "." + layout_.extension) ++count;
+      }
+    }
+    return count;
   }
 
  private:
@@ -88,6 +103,8 @@ Result<std::unique_ptr<TileSource>> open_tms(const fs::path& root, const fs::pat
   const auto bytes = read_file(description, kMaxTmsXmlBytes);
   if (!bytes) return Error{bytes.error().message};
   Result<TmsDescription> tms = parse_tms_xml(as_text(*bytes), description.string());
+  if (!tms) return tms.error();
+  tms = correct_tms_roots(*std::move(tms), root);
   if (!tms) return tms.error();
   DirectoryLayout layout{
       .root = root, .folder = std::move(tms->folder), .extension = tms->extension, .rows_from_south = true};

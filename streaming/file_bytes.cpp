@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -32,20 +33,10 @@ FileError system_error(const std::filesystem::path& path, int code) {
           fmt::format("{}: {}", path.string(), std::strerror(code))};
 }
 
-}  // namespace
+using Bytes = Result<std::vector<std::byte>, FileError>;
 
-Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
-  const OpenFile file(path);
-  if (file.descriptor() < 0) return system_error(path, errno);
-  struct stat status {};
-  if (fstat(file.descriptor(), &status) != 0) return system_error(path, errno);
-  // A pipe or a device under a tile's name would block a worker for ever.
-  if (!S_ISREG(status.st_mode)) return FileError{FileProblem::unreadable, path.string() + ": not a regular file"};
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > max_bytes) {
-    return FileError{FileProblem::too_large,
-                     fmt::format("{}: {} bytes, at most {} are read", path.string(), size, max_bytes)};
-  }
+/// Reads `size` bytes, or fewer where the file ends before.
+Bytes read_bytes(const OpenFile& file, const std::filesystem::path& path, std::size_t size) {
   std::vector<std::byte> bytes(size);
   std::size_t filled = 0;
   while (filled < size) {
@@ -57,6 +48,36 @@ Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path&
   }
   bytes.resize(filled);
   return bytes;
+}
+
+/// The size of a regular file.
+Result<std::size_t, FileError> size_of(const OpenFile& file, const std::filesystem::path& path) {
+  if (file.descriptor() < 0) return system_error(path, errno);
+  struct stat status {};
+  if (fstat(file.descriptor(), &status) != 0) return system_error(path, errno);
+  // A pipe or a device under a tile's name would block a worker for ever.
+  if (!S_ISREG(status.st_mode)) return FileError{FileProblem::unreadable, path.string() + ": not a regular file"};
+  return static_cast<std::size_t>(status.st_size);
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  const OpenFile file(path);
+  const Result<std::size_t, FileError> size = size_of(file, path);
+  if (!size) return size.error();
+  if (*size > max_bytes) {
+    return FileError{FileProblem::too_large,
+                     fmt::format("{}: {} bytes, at most {} are read", path.string(), *size, max_bytes)};
+  }
+  return read_bytes(file, path, *size);
+}
+
+Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path, std::size_t max_bytes) {
+  const OpenFile file(path);
+  const Result<std::size_t, FileError> size = size_of(file, path);
+  if (!size) return size.error();
+  return read_bytes(file, path, std::min(*size, max_bytes));
 }
 
 }  // namespace terrella

@@ -18,4 +18,8 @@ struct FileError {
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
 
+/// The first bytes of a regular file, at most `max_bytes`. thread: any
+[[nodiscard]] Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path,
+                                                                  std::size_t max_bytes);
+
 }  // namespace terrella

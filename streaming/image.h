@@ -27,8 +27,8 @@ enum class ImageFormat { jpeg, png, unknown };
 /// By the first bytes, not by a name.
 [[nodiscard]] ImageFormat sniff_format(std::span<const std::byte> bytes);
 
-/// Decodes a JPEG or PNG tile from memory. Never throws, never crashes on hostile bytes. A truncated picture is an error.
-/// thread: any
+/// Decodes a JPEG or PNG tile from memory. Never throws, never crashes on hostile bytes. A truncated picture is an
+/// error. thread: any
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
 
 /// thread: any. JPEG: quality 1…100, alpha dropped, 4:2:0. PNG: RGB if every alpha is 255, else RGBA.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "streaming/directory_source.h"
+#include "streaming/file_bytes.h"
+#include "streaming/geopackage_source.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -13,6 +15,8 @@ Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& p
   }
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
+  if (is_sqlite_file(path)) return open_geopackage(path);
+  if (const auto head = read_head(path, 1); !head) return Error{head.error().message};
   return Error{
       fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
                   "and a GeoPackage in EPSG:4326",

@@ -22,10 +22,10 @@ struct LoadedTile {
 };
 
 struct LoaderOptions {
-  int workers = 2;                        ///< threads that read and decode, [1, 64]
+  int workers = 2;                              ///< threads that read and decode, [1, 64]
   std::size_t max_finished_bytes = 64UL << 20;  ///< decoded tiles waiting to be polled; workers pause over it
-  int gutter = 4;                         ///< texels of border on each side of mip 0 (TileTexels)
-  int mips = 3;                           ///< mip levels with the finest, [1, kMaxMips]
+  int gutter = 4;                               ///< texels of border on each side of mip 0 (TileTexels)
+  int mips = 3;                                 ///< mip levels with the finest, [1, kMaxMips]
 };
 
 struct LoaderCounts {
@@ -50,7 +50,8 @@ class TileLoader {
   void request(std::span<const TileRequest> wanted);
   /// Finished tiles, at most `max_bytes` of pixels but at least one if there is one. thread: main
   [[nodiscard]] std::vector<LoadedTile> poll(std::size_t max_bytes);
-  /// Waits until something is finished, nothing is under way, or the deadline; true if something is finished. thread: main
+  /// Waits until something is finished, nothing is under way, or the deadline; true if something is finished. thread:
+  /// main
   bool wait(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts counts() const;  ///< thread: main
 

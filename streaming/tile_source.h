@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,7 +18,7 @@ namespace terrella {
 struct TileSetInfo {
   std::string name;
   std::string attribution;
-  std::string body;                       ///< preset name or "A,F"; empty: not said
+  std::string body;  ///< preset name or "A,F"; empty: not said
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
 };
@@ -47,10 +48,15 @@ class TileSource {
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
   /// Reads one tile. Outside the grid, the levels or the bounds: absent.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
+  /// Tiles that are there at a level, if that can be counted without asking for each. May take long. thread: worker
+  [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
+    static_cast<void>(level);
+    return std::nullopt;
+  }
 };
 
-/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 (ours, GDAL's).
-/// The error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
+/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 (ours,
+/// GDAL's). The error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path);
 
 }  // namespace terrella

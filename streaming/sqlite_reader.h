@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "geo/result.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace terrella {
+
+/// How long one row may take, in steps of SQLite's virtual machine; the file's schema decides what a query does, and a
+/// hostile view never ends. Several seconds.
+inline constexpr std::int64_t kMaxRowSteps = 300'000'000;
+
+enum class SqlProblem {
+  busy,    ///< another process holds the file; may be asked again
+  broken,  ///< anything else
+};
+struct SqlError {
+  SqlProblem problem = SqlProblem::broken;
+  std::string message;  ///< SQLite's words, without the path
+};
+
+/// One prepared query. Columns are read strictly: a value of another type than asked for is nullopt. What text() and
+/// blob() point to lives until the next step() or reset(). thread: the connection's
+class SqliteQuery {
+ public:
+  /// True: there is a row. False: there are no more.
+  [[nodiscard]] Result<bool, SqlError> step();
+  void reset();
+  /// `index` counts from 1.
+  void bind(int index, std::int64_t value);
+  void bind(int index, const std::string& value);
+
+  [[nodiscard]] std::optional<std::int64_t> integer(int column) const;
+  [[nodiscard]] std::optional<double> number(int column) const;  ///< INTEGER or REAL, finite
+  [[nodiscard]] std::optional<std::string> text(int column) const;
+  [[nodiscard]] std::optional<std::span<const std::byte>> blob(int column) const;
+
+ private:
+  friend class SqliteReader;
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  SqliteQuery(sqlite3_stmt* statement, std::int64_t* steps_left) : statement_(statement), steps_left_(steps_left) {}
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::int64_t* steps_left_;
+};
+
+/// A read-only connection to a database that nobody vouches for. Queries must not outlive it. thread: one at a time
+class SqliteReader {
+ public:
+  /// Values over `max_value_bytes` are errors of the query. The error does not name the path.
+  [[nodiscard]] static Result<SqliteReader, SqlError> open(const std::filesystem::path& path,
+                                                           std::size_t max_value_bytes);
+
+  [[nodiscard]] Result<SqliteQuery, SqlError> prepare(const std::string& sql);
+  /// A table or view of that name.
+  [[nodiscard]] Result<bool, SqlError> has_table(const std::string& name);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<std::int64_t> steps_left_;  ///< on the heap: SQLite keeps its address
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// A name in double quotes, as SQL takes it.
+[[nodiscard]] std::string quote_identifier(const std::string& name);
+
+}  // namespace terrella
