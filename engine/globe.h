@@ -7,16 +7,11 @@
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "geo/result.h"
+#include "scene/render_modes.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
-
-/// How the pole bands are textured; see shaders/README.md. `automatic` is the command line's `auto`.
-enum class Texturing { vertex, paper, exact, automatic };
-
-/// How depth is stored: DESIGN 6.
-enum class DepthMode { reversed, logarithmic, standard };
 
 struct GlobeOptions {
   Body body = earth();
@@ -59,7 +54,6 @@ class Globe {
   [[nodiscard]] const Camera& camera() const;
   [[nodiscard]] const GlobeOptions& options() const;
   void set_unlit(bool unlit);
-  void set_graticule(bool on);
 
   /// Draws one frame into `framebuffer` (a GL name, 0 the window) and uploads what has arrived, within the budget.
   /// Returns what the frame did. The GL state is changed.

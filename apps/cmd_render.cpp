@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.h"
+#include "apps/open_imagery.h"
+#include "apps/scene_options.h"
+#include "engine/globe.h"
+#include "render/offscreen.h"
+#include "streaming/image.h"
+
+namespace terrella {
+namespace {
+
+struct RenderCommand {
+  SceneOptions scene;
+  std::string output;
+  double timeout_s = 600.0;
+  bool json = false;
+};
+
+Status write_png(const std::filesystem::path& path, Viewport size, std::vector<std::uint8_t> rgba) {
+  const Result<std::vector<std::byte>> png = encode_png({size.width_px, size.height_px, std::move(rgba)});
+  if (!png) return Error{path.string() + ": " + png.error().message};
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
+  file.close();
+  if (!file) return Error{path.string() + ": cannot be written; check the folder, its rights and the free space"};
+  return Done{};
+}
+
+void report(const RenderCommand& command, const FrameStats& stats) {
+  const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
+  if (command.json) {
+    const nlohmann::json result = {{"output", command.output},          {"tiles_asked", stats.tiles_wanted},
+                                   {"tiles_got", got},                  {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
+                                   {"patches", stats.patches},          {"band_patches", stats.band_patches},
+                                   {"draw_calls", stats.draw_calls},    {"triangles", stats.triangles}};
+    fmt::print("{}\n", result.dump());
+    return;
+  }
+  fmt::print("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
+             stats.tiles_lacked + stats.tiles_missing);
+}
+
+Result<FrameStats> render_picture(const RenderCommand& command) {
+  Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
+  if (!imagery) return imagery.error();
+  const Result<Body> body = scene_body(command.scene, (*imagery)->info());
+  if (!body) return body.error();
+  const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
+  if (!context) return context.error();
+  GlobeOptions options = globe_options(command.scene, *body);
+  // Nobody watches the frames in between: as much as has come goes up at once.
+  options.upload_bytes_per_frame = options.gpu_bytes;
+  options.upload_time_per_frame = std::chrono::seconds(1);
+  Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery);
+  if (!globe) return globe.error();
+  (*globe)->set_camera(command.scene.camera);
+  const OffscreenTarget target(command.scene.size);
+  const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  (*globe)->render_until_settled(target.framebuffer(), command.scene.size, std::chrono::steady_clock::now() + limit);
+  const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  const Status written = write_png(command.output, command.scene.size, target.read());
+  if (!written) return written.error();
+  return stats;
+}
+
+int run(const RenderCommand& command) {
+  const Result<FrameStats> stats = render_picture(command);
+  if (!stats) {
+    fmt::print(stderr, "terrella render: {}\n", stats.error().message);
+    return kFailed;
+  }
+  report(command, *stats);
+  return stats->tiles_lacked + stats->tiles_missing > 0 ? kDoneInPart : kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
+  auto command = std::make_shared<RenderCommand>();
+  add_scene_options(sub, command->scene);
+  sub.add_option("-o,--output", command->output, "PNG file to write")->required();
+  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  sub.add_flag("--json", command->json, "Print the result as one JSON object");
+  sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
+  sub.callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace terrella

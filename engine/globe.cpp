@@ -1,0 +1,167 @@
+#include "engine/globe.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/geometric.hpp>
+
+#include "render/globe_renderer.h"
+
+namespace terrella {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSegments = 16;
+constexpr int kMips = 4;
+constexpr int kGutter_px = 8;
+constexpr std::chrono::milliseconds kPoll{20};
+
+// Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
+glm::dvec3 sun_over_the_shoulder(const View& view) {
+  return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
+}
+
+Status check_context() {
+  if (epoxy_gl_version() < 45) return Error{"the globe needs a current OpenGL 4.5 context"};
+  return Done{};
+}
+
+}  // namespace
+
+struct Globe::Impl {
+  Impl(const GlobeOptions& o, std::shared_ptr<TileSource> imagery)
+      : options(o),
+        grid(imagery->info().grid),
+        layout{grid.tile_px, kGutter_px},
+        tree(o.body.ellipsoid, grid, kSegments),
+        tiles(grid, layout, kMips, o.gpu_bytes),
+        loader(std::move(imagery), {.workers = o.workers, .gutter = kGutter_px, .mips = kMips}) {}
+
+  void select(Viewport viewport);
+  void ask();
+  std::size_t take_finished();
+  FrameStats draw(unsigned framebuffer, Viewport viewport);
+
+  GlobeOptions options;
+  TileGrid grid;
+  SlotLayout layout;
+  Camera camera;
+  PatchTree tree;
+  TileTextures tiles;
+  TileLoader loader;
+  std::unique_ptr<GlobeRenderer> renderer;
+  View view;
+  std::vector<SelectedPatch> patches;
+  TileCoverage coverage;
+  std::uint64_t frame = 0;
+  double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
+  FrameStats stats;
+};
+
+void Globe::Impl::select(Viewport viewport) {
+  view = make_view(camera, options.body.ellipsoid, viewport);
+  PatchSelectionOptions selection;
+  selection.texels_per_pixel = detail;
+  select_patches(tree, view, selection, patches);
+  cover_with_tiles(tree, view, patches, tiles.residency(), layout, frame, coverage);
+}
+
+// Root tiles come first: an ancestor for everything.
+void Globe::Impl::ask() {
+  std::vector<TileRequest> requests;
+  for (const TileId& id : root_tiles(grid)) {
+    const TileResidency::Entry& entry = tiles.residency().entry(id);
+    if (entry.state == TileState::unknown) requests.push_back({id, 1e9});
+  }
+  for (const WantedTile& wanted : coverage.wanted) requests.push_back({wanted.id, wanted.priority});
+  loader.request(requests);
+}
+
+std::size_t Globe::Impl::take_finished() {
+  const auto deadline = Clock::now() + options.upload_time_per_frame;
+  std::size_t bytes = 0;
+  while (bytes < options.upload_bytes_per_frame) {
+    std::vector<LoadedTile> batch = loader.poll(1);
+    if (batch.empty()) break;
+    for (LoadedTile& tile : batch) {
+      if (!tile.pixels) {
+        tiles.set_state(tile.id, TileState::lacking);
+      } else if (tiles.upload(tile.id, tile.pixels->mips, frame)) {
+        bytes += tiles.slot_bytes();
+      }
+    }
+    if (Clock::now() > deadline) break;
+  }
+  return bytes;
+}
+
+FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
+  stats = {};
+  ++frame;
+  stats.uploaded_bytes = take_finished();
+  const auto start = Clock::now();
+  select(viewport);
+  // A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
+  for (int step = 0; step < 8 && coverage.tiles > tiles.capacity() * 9 / 10; ++step) {
+    detail *= 0.75;
+    select(viewport);
+  }
+  stats.selection_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  ask();
+  const FrameInput input{.view = view,
+                         .patches = &patches,
+                         .coverage = &coverage,
+                         .lit = !options.unlit,
+                         .sun = sun_over_the_shoulder(view),
+                         .frame = frame};
+  const FrameCounts counts = renderer->draw(input, tiles, layout, framebuffer);
+  stats.patches = static_cast<int>(patches.size());
+  for (const SelectedPatch& patch : patches) stats.band_patches += patch.in_band ? 1 : 0;
+  stats.draw_calls = counts.draw_calls;
+  stats.triangles = counts.triangles;
+  stats.tiles_wanted = coverage.tiles;
+  stats.tiles_missing = coverage.missing;
+  stats.tiles_lacked = coverage.lacking;
+  stats.patches_uncovered = coverage.uncovered;
+  return stats;
+}
+
+Globe::Globe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Globe::~Globe() = default;
+
+Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery) {
+  if (const Status context = check_context(); !context) return context.error();
+  auto impl = std::make_unique<Impl>(options, std::move(imagery));
+  const RenderOptions render{options.texturing, options.depth, options.paper_a, options.paper_band};
+  Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(render, impl->tree);
+  if (!renderer) return renderer.error();
+  impl->renderer = std::move(*renderer);
+  return std::unique_ptr<Globe>(new Globe(std::move(impl)));
+}
+
+void Globe::set_camera(const Camera& camera) {
+  impl_->camera = camera;
+  impl_->detail = 1.0;
+}
+const Camera& Globe::camera() const { return impl_->camera; }
+const GlobeOptions& Globe::options() const { return impl_->options; }
+void Globe::set_unlit(bool unlit) { impl_->options.unlit = unlit; }
+
+FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
+
+bool Globe::settled() const { return impl_->frame > 0 && impl_->coverage.wanted.empty() && impl_->stats.patches_uncovered == 0; }
+
+bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
+  for (;;) {
+    render(framebuffer, viewport);
+    if (settled()) return true;
+    if (Clock::now() >= deadline) return false;
+    impl_->loader.wait(std::min(deadline, Clock::now() + kPoll));
+  }
+}
+
+LoaderCounts Globe::loading() const { return impl_->loader.counts(); }
+
+View Globe::view(Viewport viewport) const { return make_view(impl_->camera, impl_->options.body.ellipsoid, viewport); }
+
+}  // namespace terrella

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace terrella {
+
+/// The uniform block of shaders/frame.glsl, std140.
+struct FrameBlock {
+  glm::mat4 view_from_ecef;
+  glm::vec4 eye_high_ecef;
+  glm::vec4 eye_low_ecef;
+  glm::vec4 clip_scale;
+  glm::vec4 sun_ecef;
+  glm::vec4 texels;
+  glm::vec4 paper;
+};
+static_assert(sizeof(FrameBlock) == 64 + 6 * 16);
+
+}  // namespace terrella

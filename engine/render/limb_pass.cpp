@@ -1,0 +1,48 @@
+#include "render/limb_pass.h"
+
+#include <cstddef>
+
+#include "render/shader_library.h"
+#include "scene/limb.h"
+
+namespace terrella {
+namespace {
+// Half a pixel of coverage either way, and the mesh's own error.
+constexpr double kHalfWidth_px = 1.0;
+}  // namespace
+
+Result<std::unique_ptr<LimbPass>> LimbPass::create() {
+  Result<gl::Program> program = build_program({{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {"limb.frag"}}}, {});
+  if (!program) return program.error();
+  std::unique_ptr<LimbPass> pass(new LimbPass);
+  pass->program_ = std::move(*program);
+  pass->vertex_array_ = gl::make_vertex_array();
+  pass->vertices_ = gl::make_buffer();
+  const GLuint array = pass->vertex_array_.name();
+  glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(LimbVertex));
+  const auto attribute = [array](GLuint index, GLint size, std::size_t offset) {
+    glEnableVertexArrayAttrib(array, index);
+    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(array, index, 0);
+  };
+  attribute(0, 2, offsetof(LimbVertex, position_ndc));
+  attribute(1, 2, offsetof(LimbVertex, outward_px));
+  attribute(2, 1, offsetof(LimbVertex, distance_px));
+  return pass;
+}
+
+int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, GLuint picture) {
+  const std::vector<LimbVertex> strip = limb_ribbon(view, ellipsoid, kHalfWidth_px);
+  if (strip.empty()) return 0;
+  glNamedBufferData(vertices_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(LimbVertex)), strip.data(), GL_STREAM_DRAW);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glUseProgram(program_.name());
+  glBindTextureUnit(0, picture);
+  glBindSampler(0, 0);
+  glBindVertexArray(vertex_array_.name());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
+  return 1;
+}
+
+}  // namespace terrella

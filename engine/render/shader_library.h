@@ -1,0 +1,24 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "geo/result.h"
+#include "render/gl_handle.h"
+
+namespace terrella {
+
+/// One stage of a program: files of shaders/, one after the other.
+struct ShaderStage {
+  GLenum type;
+  std::initializer_list<std::string_view> files;
+};
+
+/// Compiles and links a program from the embedded files, or from the folder that the environment variable
+/// TERRELLA_SHADER_DIR names, read anew each time. `defines` are names put before the text with #define.
+/// The error names the file and carries the compiler's words. thread: main
+[[nodiscard]] Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
+                                                std::initializer_list<std::string_view> defines);
+
+}  // namespace terrella
