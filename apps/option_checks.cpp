@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 std::string outside(std::string_view text, double low, double high) {
-  return fmt::format("{} is out of range; it takes {} to {}", terrella::quoted(text), low, high);
+  return fmt::format("{} is out of range; it takes {} to {}", in_quotes(text), low, high);
 }
 
 }  // namespace
@@ -19,7 +19,7 @@ std::string outside(std::string_view text, double low, double high) {
 CLI::Validator number_in(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = read_number(text);
-    if (!value) return fmt::format("{} is not a number; it takes {} to {}", terrella::quoted(text), low, high);
+    if (!value) return fmt::format("{} is not a number; it takes {} to {}", in_quotes(text), low, high);
     return *value < low || *value > high ? outside(text, low, high) : std::string();
   };
   return {check, fmt::format("{}...{}", low, high)};
@@ -29,7 +29,7 @@ CLI::Validator whole_number_in(long low, long high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = read_number(text);
     if (!value || *value != std::floor(*value)) {
-      return fmt::format("{} is not a whole number; it takes {} to {}", terrella::quoted(text), low, high);
+      return fmt::format("{} is not a whole number; it takes {} to {}", in_quotes(text), low, high);
     }
     return *value < double(low) || *value > double(high) ? outside(text, double(low), double(high)) : std::string();
   };
@@ -41,11 +41,11 @@ Result<Viewport> parse_size(std::string_view text) {
   const auto width = read_number(text.substr(0, x));
   const auto height = read_number(x == std::string_view::npos ? "" : text.substr(x + 1));
   if (!width || !height || *width != std::floor(*width) || *height != std::floor(*height)) {
-    return Error{terrella::quoted(text) + " is not a size; write WIDTHxHEIGHT in pixels, as 1024x768"};
+    return Error{in_quotes(text) + " is not a size; write WIDTHxHEIGHT in pixels, as 1024x768"};
   }
   for (const double side : {*width, *height}) {
     if (side < 1 || side > kMaxSide_px) {
-      return Error{fmt::format("{}: a side takes 1 to {} pixels", terrella::quoted(text), kMaxSide_px)};
+      return Error{fmt::format("{}: a side takes 1 to {} pixels", in_quotes(text), kMaxSide_px)};
     }
   }
   return Viewport{.width_px = static_cast<int>(*width), .height_px = static_cast<int>(*height)};
