@@ -15,7 +15,8 @@ struct Body {
   Ellipsoid ellipsoid;
 };
 
-/// Presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn … ; source of each figure in body.cpp.
+/// Presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn … ; source of each figure in
+/// body.cpp.
 [[nodiscard]] std::span<const Body> body_presets();
 
 /// Earth, WGS 84: a = 6378137 m, f = 1/298.257223563.

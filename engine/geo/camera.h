@@ -21,8 +21,8 @@ struct Camera {
   Angle fov_y = Angle::degrees(40.0);  ///< vertical field of view, (0°, 170°]
 };
 
-/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses what is not finite, |LAT| > 90, |PITCH| > 90,
-/// FOV outside [0.01, 170], ALT outside ±1e12; the error names the field.
+/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses what is not finite, |LAT| > 90, |PITCH| >
+/// 90, FOV outside [0.01, 170], ALT outside ±1e12; the error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
 
 /// Picture size in pixels, each ≥ 1.

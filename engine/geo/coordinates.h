@@ -42,7 +42,9 @@ struct Local {
 };
 
 /// The one door from double on the planet to float near the eye: subtracts in double, then narrows.
-[[nodiscard]] inline Local local_to(const Ecef& origin, const Ecef& p) { return Local{glm::vec3(p.xyz_m - origin.xyz_m)}; }
+[[nodiscard]] inline Local local_to(const Ecef& origin, const Ecef& p) {
+  return Local{glm::vec3(p.xyz_m - origin.xyz_m)};
+}
 
 /// A latitude-longitude rectangle. May cross the antimeridian: then east < west.
 struct GeoRect {

@@ -45,8 +45,8 @@ const CubeFaceFrame& face_frame(CubeFace face) { return kFrames.at(static_cast<s
 
 EcefDir cube_to_sphere(const FacePoint& p, CubeMapping mapping) {
   const CubeFaceFrame& frame = face_frame(p.face);
-  // The frames hold 0 and ±1 only, so this sum is exact: two faces reach the same cube point with the same bits. N
-  // comes first and its zeros are +0: +0 plus a zero of either sign is +0, so no -0 gets out to turn 180° into -180°.
+  // The frames hold 0 and ±1 only, so this sum is exact: two faces reach the same cube point with the same bits. N's
+  // zeros are +0, and +0 plus a zero of either sign is +0, so no -0 gets out to turn 180° into -180°.
   const glm::dvec3 on_cube = frame.n + warp(p.i, mapping) * frame.t + warp(p.j, mapping) * frame.b;
   // x, y, z in this order on every face: rounding must not depend on which of them is the face's axis.
   const double length = std::sqrt(on_cube.x * on_cube.x + on_cube.y * on_cube.y + on_cube.z * on_cube.z);

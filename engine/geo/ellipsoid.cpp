@@ -56,8 +56,7 @@ Geodetic Ellipsoid::to_geodetic(const Ecef& p) const {
   double lat_deg = 0.0;
   double lon_deg = 0.0;
   double height_m = 0.0;
-  // Adding zero turns -0 into +0: the equatorial plane within e²a of the axis belongs to the northern answer.
-  geocentric.Reverse(p.xyz_m.x, p.xyz_m.y, p.xyz_m.z + 0.0, lat_deg, lon_deg, height_m);
+  geocentric.Reverse(p.xyz_m.x, p.xyz_m.y, p.xyz_m.z, lat_deg, lon_deg, height_m);
   // The longitude straight from the position spares it the rounding of a turn through degrees.
   return {.lat = Angle::degrees(lat_deg), .lon = longitude(p.xyz_m.x, p.xyz_m.y), .height_m = height_m};
 }
@@ -84,12 +83,12 @@ std::optional<double> Ellipsoid::intersect_m(const Ecef& origin, const EcefDir& 
 
   if (q.c < 0.0) {  // inside: there is always a crossing, so a discriminant below 0 is rounding
     const double root = std::sqrt(std::max(q.discriminant, 0.0));
-    // Of the two forms of the far root, the one that adds numbers of like sign.
+    // Of the two forms of the far root, the one that adds numbers of like sign: the other may come out negative.
     return q.b >= 0.0 ? (q.b + root) / q.a : q.c / (q.b - root);
   }
   if (q.b < 0.0 || q.discriminant < 0.0) return std::nullopt;
   if (q.c == 0.0) return 0.0;
-  return q.c / (q.b + std::sqrt(q.discriminant));
+  return q.c / (q.b + std::sqrt(q.discriminant));  // (b - root) / a may come out negative just over the surface
 }
 
 }  // namespace terrella

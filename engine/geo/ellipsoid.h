@@ -14,8 +14,8 @@ class Ellipsoid {
 
   [[nodiscard]] double a_m() const { return a_m_; }
   [[nodiscard]] double f() const { return f_; }
-  [[nodiscard]] double b_m() const { return a_m_ * (1.0 - f_); }      ///< semi-minor (polar) axis
-  [[nodiscard]] double e2() const { return f_ * (2.0 - f_); }         ///< first eccentricity squared
+  [[nodiscard]] double b_m() const { return a_m_ * (1.0 - f_); }  ///< semi-minor (polar) axis
+  [[nodiscard]] double e2() const { return f_ * (2.0 - f_); }     ///< first eccentricity squared
   [[nodiscard]] double one_minus_e2() const { return (1.0 - f_) * (1.0 - f_); }
 
   /// Prime-vertical radius of curvature N = a / sqrt(1 - e² n_z²) for a unit normal with that z.

@@ -23,7 +23,7 @@ inline constexpr int kMaxPatchLevel = 26;
 /// Sides in the face's own (i, j) axes.
 enum class PatchSide : int { west = 0, east = 1, south = 2, north = 3 };  // -i, +i, -j, +j
 
-[[nodiscard]] PatchId parent(const PatchId& id);                 ///< id.level ≥ 1
+[[nodiscard]] PatchId parent(const PatchId& id);                   ///< id.level ≥ 1
 [[nodiscard]] std::array<PatchId, 4> children(const PatchId& id);  ///< (0,0) (1,0) (0,1) (1,1) in (x, y)
 /// The patch of the same level across a side, on this face or the next one.
 [[nodiscard]] PatchId neighbour(const PatchId& id, PatchSide side);

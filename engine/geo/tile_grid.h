@@ -10,8 +10,8 @@
 
 namespace terrella {
 
-/// How a row of the imagery relates to latitude. Paper 1's (3) is `equirectangular` (rows linear in latitude), its (4) is
-/// `equal_area` (Lambert's cylinder, rows linear in the sine); the paper names them the other way round.
+/// How a row of the imagery relates to latitude. Paper 1's (3) is `equirectangular` (rows linear in latitude), its (4)
+/// is `equal_area` (Lambert's cylinder, rows linear in the sine); the paper names them the other way round.
 enum class Projection { equirectangular, equal_area };
 
 /// Which latitude the rows count: `graphic` geodetic (planetographic), `centric` planetocentric.
@@ -29,16 +29,16 @@ struct TileIdHash {
 };
 inline constexpr int kMaxTileLevel = 24;
 
-/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (DESIGN 4; shared GRIDS).
-/// Degrees of "row latitude": for equal_area grids one degree is 1/180 of the picture's height.
+/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (DESIGN 4; shared
+/// GRIDS). Degrees of "row latitude": for equal_area grids one degree is 1/180 of the picture's height.
 struct TileGrid {
   double root_span_deg = 180.0;  ///< what a level-0 tile spans, degrees, both ways; (0, 1e4]
   int tile_px = 256;             ///< pixels a side, [16, 4096]
   int min_level = 0;
-  int max_level = 0;             ///< [min_level, kMaxTileLevel]
+  int max_level = 0;  ///< [min_level, kMaxTileLevel]
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
-  GeoRect bounds{};              ///< where there is data, in row latitude; whole planet by default
+  GeoRect bounds{};  ///< where there is data, in row latitude; whole planet by default
   bool operator==(const TileGrid&) const;
 };
 
@@ -48,12 +48,14 @@ struct TileXY {
   double y;
 };
 
-[[nodiscard]] double tile_span_deg(const TileGrid& grid, int level);       ///< root_span / 2^level
-[[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);       ///< tiles that reach over [-180°, 180°], ≥ 1
-[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);          ///< tiles that reach over [90°, -90°], ≥ 1
+[[nodiscard]] double tile_span_deg(const TileGrid& grid, int level);  ///< root_span / 2^level
+/// Matrix size. A strip under 1e-6 of a tile of the finest level is rounding and gets no tile of its own; because all
+/// levels are counted from the finest, every tile that exists has a parent that exists (down to min_level).
+[[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);  ///< tiles that reach over [-180°, 180°], ≥ 1
+[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);     ///< tiles that reach over [90°, -90°], ≥ 1
 /// True if the tile exists on the planet, in the level range and touches the bounds.
 [[nodiscard]] bool exists(const TileGrid& grid, const TileId& id);
-[[nodiscard]] TileId parent(const TileId& id);                             ///< id.level ≥ 1
+[[nodiscard]] TileId parent(const TileId& id);  ///< id.level ≥ 1
 /// The ancestor `steps` levels up.
 [[nodiscard]] TileId ancestor(const TileId& id, int steps);
 

@@ -129,6 +129,21 @@ TEST(Ray, OneMetreUpStraightDown) {
   }
 }
 
+TEST(Ray, JustOverAndJustUnderTheSurfaceTheDistanceIsNeverNegative) {
+  Draw draw(15);
+  const Ellipsoid& e = earth().ellipsoid;
+  for (int k = 0; k < 20000; ++k) {
+    const EcefDir n = draw.direction();
+    const double height_m = std::exp(draw.between(std::log(1e-10), std::log(1e-8)));
+    const EcefDir slanted{glm::normalize(n.xyz + glm::cross(n.xyz, draw.direction().xyz))};
+    for (const double side : {1.0, -1.0}) {  // over the surface looking down, under it looking up
+      const std::optional<double> found = e.intersect_m(e.position(n, side * height_m), {-side * slanted.xyz});
+      if (!found) continue;  // within an ulp of the surface the eye's side of it is chance
+      EXPECT_GE(*found, 0.0) << k << ' ' << side * height_m;
+    }
+  }
+}
+
 TEST(Ray, MissesAndSurfacesBehind) {
   const Ellipsoid& e = earth().ellipsoid;
   const Ecef eye{{1e9, 0, 0}};

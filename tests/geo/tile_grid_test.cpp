@@ -21,6 +21,10 @@ TileGrid grid_of(double root_span_deg, int max_level = kMaxTileLevel) {
   return {.root_span_deg = root_span_deg, .max_level = max_level};
 }
 
+GeoRect rect(double west, double south, double east, double north) {
+  return {Angle::degrees(west), Angle::degrees(south), Angle::degrees(east), Angle::degrees(north)};
+}
+
 struct Matrix {
   std::int64_t columns, rows;
 };
@@ -74,6 +78,30 @@ TEST(TileGrid, CutPicturesOfAnySizeCountWholeTiles) {
   }
 }
 
+TEST(TileGrid, SpansPrintedWithNineDigitsCountTheSame) {
+  // 21504 px are 84 tiles of 256; the span of level 0 is 274.285714 285…°, so the cut text asks for 84.00000009
+  // columns.
+  EXPECT_EQ(columns(grid_of(274.285714, 6), 6), 84);
+  EXPECT_EQ(rows(grid_of(274.285714, 6), 6), 42);
+}
+
+TEST(TileGrid, OnePixelMoreIsAColumnOnEveryLevel) {
+  // 2^20 tiles and one pixel: 4e-9 of a root tile, and yet its tiles must have ancestors.
+  const int finest = 20;
+  const double width_px = 256.0 * 0x1p20 + 1.0;
+  const TileGrid grid = grid_of(std::ldexp(256.0 * 360.0 / width_px, finest), finest);
+  for (int level = 0; level <= finest; ++level) EXPECT_EQ(columns(grid, level), (std::int64_t{1} << level) + 1);
+}
+
+TEST(TileGrid, DataJustOverATileEdgeReachesAllAncestors) {
+  const int finest = 20;
+  TileGrid grid = grid_of(180.0, finest);
+  grid.bounds = rect(-10.0, 1.0, 1.5e-6 * tile_span_deg(grid, finest), 2.0);  // 1.5 slivers east of 0°
+  TileId id{finest, std::int64_t{1} << finest, (std::int64_t{1} << finest) / 2 - 7000};
+  for (; id.level > 0; id = parent(id)) EXPECT_TRUE(exists(grid, id)) << id.level;
+  EXPECT_TRUE(exists(grid, id));
+}
+
 TEST(TileGrid, ExtremeSpansStillCount) {
   EXPECT_EQ(columns(grid_of(1e4), 0), 1);
   EXPECT_EQ(rows(grid_of(1e4), 0), 1);
@@ -92,10 +120,6 @@ TEST(TileGrid, TilesOutsidePlanetAndLevelsDoNotExist) {
   EXPECT_TRUE(exists(grid, {5, 39, 19}));
   EXPECT_FALSE(exists(grid, {5, 40, 19}));
   EXPECT_FALSE(exists(grid, {6, 0, 0}));
-}
-
-GeoRect rect(double west, double south, double east, double north) {
-  return {Angle::degrees(west), Angle::degrees(south), Angle::degrees(east), Angle::degrees(north)};
 }
 
 TEST(TileGrid, BoundsThatCrossTheAntimeridian) {
