@@ -19,7 +19,7 @@ struct Octave {
   float amplitude_levels;
 };
 // Calibrated, see the header. The finest octave is what a filter may blur and must not alias.
-constexpr std::array<Octave, 6> kOctaves{{{2.0, 60}, {4.0, 60}, {8.0, 50}, {16.0, 40}, {32.0, 30}, {64.0, 30}}};
+constexpr std::array<Octave, 6> kOctaves{{{2.0, 17}, {4.0, 17}, {8.0, 16}, {16.0, 18}, {32.0, 24}, {64.0, 34}}};
 constexpr float kMeanLevel = 127.5F;
 
 struct Rgb {
