@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "streaming/geopackage_matrix.h"
+#include "streaming/tile_range.h"
 #include "streaming/tileset_check.h"
 #include "streaming/tileset_json.h"
 
@@ -146,14 +147,6 @@ Result<bool, SqlError> has_tiles(SqliteReader& reader, const std::string& table,
   return query->step();
 }
 
-std::int64_t tiles_in_bounds(const TileGrid& grid, int level) {
-  const double span = tile_span_deg(grid, level);
-  const double west = grid.bounds.west.deg();
-  const double east = grid.bounds.east.deg() + (grid.bounds.east < grid.bounds.west ? 360.0 : 0.0);
-  const double height = grid.bounds.north.deg() - grid.bounds.south.deg();
-  return static_cast<std::int64_t>(std::ceil((east - west) / span) * std::ceil(height / span));
-}
-
 /// gdal_translate lists all zoom levels but writes the finest alone; gdaladdo fills the others.
 Status drop_empty_levels(SqliteReader& reader, GeoPackageTiles& tiles, const std::string& where) {
   while (!tiles.levels.empty()) {
@@ -165,7 +158,7 @@ Status drop_empty_levels(SqliteReader& reader, GeoPackageTiles& tiles, const std
   if (tiles.levels.empty()) return Error{fmt::format("{}: the tile table \"{}\" holds no tiles", where, tiles.table)};
   TileGrid& grid = tiles.info.grid;
   grid.min_level = tiles.levels.begin()->first;
-  const std::int64_t roots = tiles_in_bounds(grid, grid.min_level);
+  const std::int64_t roots = count_places(grid, grid.min_level);
   if (roots > kMaxRootTiles) {
     return Error{
         fmt::format("{}: its coarsest tiles are {} in number, at most {} can be a base: add overviews with `gdaladdo "

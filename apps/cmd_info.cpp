@@ -1,0 +1,97 @@
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/commands.h"
+#include "apps/open_imagery.h"
+#include "apps/tile_set_report.h"
+#include "apps/verify_tiles.h"
+#include "streaming/tile_range.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoOptions {
+  std::string tile_set;
+  bool verify = false;
+  bool json = false;
+};
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
+    "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
+    "  terrella info planet.gpkg --json      the same for a program to read";
+
+std::optional<std::uintmax_t> size_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    const std::uintmax_t size = fs::file_size(path, error);
+    return error ? std::nullopt : std::optional(size);
+  }
+  std::uintmax_t sum = 0;
+  for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code vanished;
+    if (entry->is_regular_file(vanished)) sum += entry->file_size(vanished);
+  }
+  return error ? std::nullopt : std::optional(sum);
+}
+
+std::vector<LevelReport> count_levels(TileSource& source) {
+  const TileGrid& grid = source.info().grid;
+  std::vector<LevelReport> levels;
+  for (int level = grid.min_level; level <= grid.max_level; ++level) {
+    levels.push_back({level, tile_span_deg(grid, level), count_places(grid, level), source.count_tiles(level)});
+  }
+  return levels;
+}
+
+/// A line on standard error every second or so: results go to standard output alone.
+auto progress_lines() {
+  return [last = std::chrono::steady_clock::now()](std::int64_t done, std::int64_t total) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < std::chrono::seconds(1)) return;
+    last = now;
+    fmt::print(stderr, "{} of {} tiles read\n", done, total);
+  };
+}
+
+int run_info(const InfoOptions& options) {
+  SceneOptions scene;
+  scene.tile_set = options.tile_set;
+  const Result<std::shared_ptr<TileSource>> source = open_imagery(scene);
+  if (!source) {
+    fmt::print(stderr, "terrella info: {}\n", source.error().message);
+    return kFailed;
+  }
+  TileSetReport report{
+      .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .verified = {}};
+  report.size_bytes = size_of(options.tile_set);
+  report.levels = count_levels(**source);
+  if (options.verify) report.verified = verify_tiles(*source, progress_lines());
+  fmt::print("{}", options.json ? to_json(report) : to_text(report));
+  return report.verified && report.verified->bad > 0 ? kFailed : kDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("info", "Say what a tile set holds, and check it.");
+  command->footer(kExamples);
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
+  command->add_flag("--verify", options->verify,
+                    "decode every tile, name the broken ones; exit code 1 if there are any");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, &exit_code] { exit_code = run_info(*options); });
+}
+
+}  // namespace terrella

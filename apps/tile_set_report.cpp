@@ -1,0 +1,100 @@
+#include "apps/tile_set_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+std::string human_bytes(std::uintmax_t bytes) {
+  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
+  if (bytes < 10'000'000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+  if (bytes < 10'000'000'000) return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+  return fmt::format("{:.1f} GB", static_cast<double>(bytes) / 1e9);
+}
+
+const char* format_name(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::jpeg:
+      return "JPEG";
+    case ImageFormat::png:
+      return "PNG";
+    case ImageFormat::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string rows_text(const TileGrid& grid) {
+  return fmt::format(
+      "{}, {} latitude",
+      grid.projection == Projection::equal_area ? "equal-area (linear in the sine of latitude)" : "equirectangular",
+      grid.latitude == LatitudeKind::centric ? "planetocentric" : "planetographic");
+}
+
+std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : text; }
+
+std::string verify_text(const VerifyReport& verified) {
+  std::string text = fmt::format("verified     {} tiles are good, {} absent, {} blank, {} broken\n", verified.good,
+                                 verified.absent, verified.blank, verified.bad);
+  for (const BadTile& tile : verified.first_bad) {
+    text += fmt::format("broken       {}/{}/{}: {}\n", tile.id.level, tile.id.x, tile.id.y, tile.why);
+  }
+  const auto listed = static_cast<std::int64_t>(verified.first_bad.size());
+  if (verified.bad > listed) text += fmt::format("             and {} more\n", verified.bad - listed);
+  return text;
+}
+
+nlohmann::ordered_json verify_json(const VerifyReport& verified) {
+  nlohmann::ordered_json object{
+      {"good", verified.good}, {"absent", verified.absent}, {"blank", verified.blank}, {"broken", verified.bad}};
+  auto& list = object["broken_tiles"] = nlohmann::ordered_json::array();
+  for (const BadTile& tile : verified.first_bad) {
+    list.push_back({{"level", tile.id.level}, {"x", tile.id.x}, {"y", tile.id.y}, {"why", tile.why}});
+  }
+  return object;
+}
+
+}  // namespace
+
+std::string to_text(const TileSetReport& report) {
+  const TileGrid& grid = report.info.grid;
+  std::string text = fmt::format("tile set     {}\n", report.path);
+  text += fmt::format("name         {}\n", or_not_said(report.info.name));
+  text += fmt::format("attribution  {}\n", or_not_said(report.info.attribution));
+  text += fmt::format("body         {}\n", or_not_said(report.info.body));
+  text += fmt::format("rows         {}\n", rows_text(grid));
+  text +=
+      fmt::format("grid         a root tile spans {}°, {} px a tile, levels {} to {}, {:.6g}° a pixel at the finest\n",
+                  grid.root_span_deg, grid.tile_px, grid.min_level, grid.max_level,
+                  tile_span_deg(grid, grid.max_level) / grid.tile_px);
+  text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", grid.bounds.west.deg(),
+                      grid.bounds.south.deg(), grid.bounds.east.deg(), grid.bounds.north.deg());
+  text += fmt::format("format       {}\n", format_name(report.info.format));
+  if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
+  for (const LevelReport& level : report.levels) {
+    const std::string tiles = level.tiles ? fmt::format("{} of ", *level.tiles) : "";
+    text += fmt::format("level {:<6} {}{} tiles of {:.6g}°\n", level.level, tiles, level.places, level.span_deg);
+  }
+  return report.verified ? text + verify_text(*report.verified) : text;
+}
+
+std::string to_json(const TileSetReport& report) {
+  auto object = nlohmann::ordered_json::parse(to_tileset_json(report.info));
+  if (report.info.format == ImageFormat::unknown) object["format"] = nullptr;
+  object["path"] = report.path;
+  if (report.size_bytes) object["size_bytes"] = *report.size_bytes;
+  auto& levels = object["levels"] = nlohmann::ordered_json::array();
+  for (const LevelReport& level : report.levels) {
+    nlohmann::ordered_json entry{{"level", level.level}, {"tile_span_deg", level.span_deg}, {"places", level.places}};
+    if (level.tiles) entry["tiles"] = *level.tiles;
+    levels.push_back(std::move(entry));
+  }
+  if (report.verified) object["verified"] = verify_json(*report.verified);
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace terrella
