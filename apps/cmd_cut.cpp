@@ -1,0 +1,158 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.h"
+#include "apps/option_checks.h"
+#include "apps/progress.h"
+#include "geo/body.h"
+#include "geo/number.h"
+#include "streaming/cut.h"
+
+namespace terrella {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
+    "  terrella cut alps.tif -o tiles --bounds 5,43,17,49 --format png";
+
+struct CutCommand {
+  std::vector<std::string> images;
+  std::string output;
+  CutOptions cut;
+  bool json = false;
+};
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+/// While it lives, Ctrl-C asks the cutter to stop, which then removes what it has written.
+class StopOnInterrupt {
+ public:
+  StopOnInterrupt() : before_(std::signal(SIGINT, [](int) { g_interrupted = 1; })) {}
+  ~StopOnInterrupt() { std::signal(SIGINT, before_); }
+  StopOnInterrupt(const StopOnInterrupt&) = delete;
+  StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+Result<GeoRect> parse_bounds(const std::string& text) {
+  std::vector<Angle> sides;
+  for (const std::string_view piece : split_at_commas(text)) {
+    if (const auto degrees = read_number(piece)) sides.push_back(Angle::degrees(*degrees));
+  }
+  if (sides.size() != 4 || split_at_commas(text).size() != 4) {
+    return Error{fmt::format("{} is not W,S,E,N; write four numbers in degrees, as 5,43,17,49", in_quotes(text))};
+  }
+  const bool on_planet = std::abs(sides[0].deg()) <= 180.0 && std::abs(sides[2].deg()) <= 180.0 &&
+                         std::abs(sides[1].deg()) <= 90.0 && std::abs(sides[3].deg()) <= 90.0;
+  if (!on_planet || sides[0] >= sides[2] || sides[1] >= sides[3]) {
+    return Error{fmt::format("{}: it takes WEST < EAST in -180...180 and SOUTH < NORTH in -90...90", in_quotes(text))};
+  }
+  return GeoRect{.west = sides[0], .south = sides[1], .east = sides[2], .north = sides[3]};
+}
+
+void print_summary(const CutCommand& command, const CutSummary& summary) {
+  const TileGrid& grid = summary.grid;
+  if (command.json) {
+    const nlohmann::json result = {{"output", command.output},
+                                   {"tiles", summary.tiles},
+                                   {"bytes", summary.bytes},
+                                   {"tile_size", grid.tile_px},
+                                   {"root_span_deg", grid.root_span_deg},
+                                   {"min_level", grid.min_level},
+                                   {"max_level", grid.max_level}};
+    // A path need not be UTF-8.
+    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB\n", command.output, summary.tiles, grid.tile_px,
+             grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
+}
+
+int run(CutCommand& command) {
+  command.cut.images.assign(command.images.begin(), command.images.end());
+  command.cut.output = command.output;
+  const StopOnInterrupt stop;
+  Result<CutSummary> summary = Error{};
+  {
+    Progress progress("cutting " + command.cut.images.front().filename().string());
+    command.cut.progress = [&](std::int64_t done, std::int64_t total) {
+      progress.show(done, total);
+      return g_interrupted == 0;
+    };
+    summary = cut(command.cut);
+  }
+  if (!summary) {
+    fmt::print(stderr, "terrella cut: {}\n", summary.error().message);
+    return kFailed;
+  }
+  print_summary(command, *summary);
+  return kDone;
+}
+
+void add_description_options(CLI::App& app, CutOptions& cut) {
+  app.add_option_function<std::string>(
+         "--body",
+         [&cut](const std::string& text) {
+           (void)parsed_or_throw("--body", parse_body(text));
+           cut.body = text;
+         },
+         "The planet that the picture shows; kept in the tile set")
+      ->type_name("earth|moon|mars|sphere|A,F");
+  add_choice<Projection>(app, "--projection", cut.projection,
+                         {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
+                         "What the picture's rows are linear in: latitude, or its sine");
+  add_choice<LatitudeKind>(app, "--latitude", cut.latitude,
+                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
+                           "Which latitude the picture's rows count: planetographic or planetocentric");
+  app.add_option("--name", cut.name, "What the tile set is called (default: the picture's file name)");
+  app.add_option("--attribution", cut.attribution, "Whom to thank for the picture; shown with it");
+}
+
+}  // namespace
+
+void add_cut_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("cut", "Cuts a picture of a planet into a tile set");
+  sub.footer(kExamples);
+  const auto command = std::make_shared<CutCommand>();
+  CutOptions& cut = command->cut;
+  sub.add_option("image", command->images, "The picture: JPEG, PNG, TIFF or BigTIFF")
+      ->required()
+      ->type_name("IMAGE...");
+  sub.add_option("-o,--output", command->output, "What to write: a GeoPackage if it ends in .gpkg, else a folder")
+      ->required()
+      ->type_name("OUT.gpkg|DIR");
+  sub.add_option("--tile-size", cut.tile_px, "Pixels a side of a tile, an even number")
+      ->check(whole_number_in(16, 4096))
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return text.back() % 2 == 0 ? std::string() : text + " is odd; it takes an even number";
+          },
+          "even"))
+      ->capture_default_str();
+  sub.add_option("--quality", cut.quality, "Of JPEG tiles")->check(whole_number_in(1, 100))->capture_default_str();
+  sub.add_option_function<std::string>(
+         "--format",
+         [&cut](const std::string& text) { cut.format = text == "png" ? ImageFormat::png : ImageFormat::jpeg; },
+         "Of the tiles (default: png if the picture has transparency, else jpg)")
+      ->check(CLI::IsMember({"jpg", "png"}))
+      ->type_name("jpg|png");
+  sub.add_option_function<std::string>(
+         "--bounds", [&cut](const std::string& text) { cut.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
+         "What the picture covers, degrees (default: the whole planet)")
+      ->type_name("W,S,E,N");
+  add_description_options(sub, cut);
+  sub.add_option("--jobs", cut.jobs, "Threads that encode tiles; 0: as many as cores")
+      ->check(whole_number_in(0, 256))
+      ->capture_default_str();
+  sub.add_flag("--json", command->json, "Print the result as one JSON object");
+  sub.callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace terrella

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include "streaming/cut.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Part of every name: a change of what the cutter makes makes old files unknown.
+constexpr int kCacheVersion = 1;
+constexpr std::size_t kMaxStemBytes = 80;
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo): names need no more than to differ.
+std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3U;
+  return hash;
+}
+
+std::string options_text(const CutOptions& options) {
+  const GeoRect bounds = options.bounds.value_or(GeoRect{});
+  return fmt::format("{}|{}|{}|{}|{:a},{:a},{:a},{:a}|{}|{}|{}|{}|{}", options.tile_px, options.quality,
+                     options.format ? static_cast<int>(*options.format) : -1, options.bounds.has_value(),
+                     bounds.west.rad(), bounds.south.rad(), bounds.east.rad(), bounds.north.rad(),
+                     static_cast<int>(options.projection), static_cast<int>(options.latitude), options.name,
+                     options.attribution, options.body);
+}
+
+Result<std::string> cache_name(const CutOptions& options) {
+  const fs::path& image = options.images.front();
+  struct stat found {};
+  if (stat(image.c_str(), &found) != 0) {
+    return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
+  }
+  std::error_code failed;
+  const fs::path canonical = fs::canonical(image, failed);
+  if (failed) return Error{fmt::format("{}: cannot be opened: {}", image.string(), failed.message())};
+  const std::string key = fmt::format("{}|{}|{}|{}.{}|{}", kCacheVersion, canonical.string(), found.st_size,
+                                      found.st_mtim.tv_sec, found.st_mtim.tv_nsec, options_text(options));
+  return fmt::format("{}-{:016x}.gpkg", image.stem().string().substr(0, kMaxStemBytes), hash_of(key));
+}
+
+}  // namespace
+
+Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
+  if (options.images.size() != 1) return Error{"one picture is cut into the cache at a time"};
+  const auto name = cache_name(options);
+  if (!name) return name.error();
+  CutOptions into = options;
+  into.output = cache_dir / *name;
+  std::error_code failed;
+  // A file has this name only when it is whole.
+  if (fs::is_regular_file(into.output, failed)) return into.output;
+  fs::create_directories(cache_dir, failed);
+  if (failed) return Error{fmt::format("{}: cannot be made: {}", cache_dir.string(), failed.message())};
+  const auto done = cut(into);
+  if (!done) return done.error();
+  return into.output;
+}
+
+}  // namespace terrella

@@ -1,0 +1,166 @@
+#include "streaming/cut/cut_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace terrella {
+namespace {
+
+/// How far the picture's edge may be off the pixels of its own grid, pixels: what degrees with six decimals leave.
+constexpr double kAlignment_px = 0.01;
+
+std::string name_of(const CutOptions& options) {
+  return options.images.empty() ? std::string("picture") : options.images.front().string();
+}
+
+Status check_options(const CutOptions& options) {
+  if (options.tile_px < 16 || options.tile_px > 4096 || options.tile_px % 2 != 0) {
+    return Error{fmt::format("tile size {}: it takes an even number of pixels from 16 to 4096", options.tile_px)};
+  }
+  if (options.quality < 1 || options.quality > 100) {
+    return Error{fmt::format("quality {}: it takes 1 to 100", options.quality)};
+  }
+  if (options.jobs < 0 || options.jobs > 256) return Error{fmt::format("jobs {}: it takes 0 to 256", options.jobs)};
+  return Done{};
+}
+
+/// The coarsest root that needs no more than two tiles round the planet.
+Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name) {
+  constexpr double kRounding = 1.0 - 1e-9;
+  int level = 0;
+  while (std::ldexp(pixel_deg * tile_px, level) < 180.0 * kRounding) ++level;
+  if (level <= kMaxTileLevel) return level;
+  return Error{fmt::format("{}: pixels of {:.3g} degrees need {} levels, more than {}; give a larger --tile-size", name,
+                           pixel_deg, level + 1, kMaxTileLevel + 1)};
+}
+
+Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
+  const auto level = finest_level(plan.pixel_deg, options.tile_px, name_of(options));
+  if (!level) return level.error();
+  plan.grid.tile_px = options.tile_px;
+  plan.grid.max_level = *level;
+  plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
+  plan.grid.projection = options.projection;
+  plan.grid.latitude = options.latitude;
+  return plan;
+}
+
+Result<CutPlan> plan_planet(const PictureInfo& picture, const CutOptions& options) {
+  const std::int64_t width = picture.width_px;
+  // Half the width of an odd one is no whole number of rows: either neighbour will do.
+  if (std::abs(width - 2 * picture.height_px) > 1) {
+    return Error{
+        fmt::format("{}: {}x{} pixels are not 2:1, so it is not a picture of a whole planet; say what it "
+                    "covers with --bounds W,S,E,N",
+                    name_of(options), width, picture.height_px)};
+  }
+  CutPlan plan;
+  plan.pixel_deg = 360.0 / static_cast<double>(width);
+  plan.finest = {.x0 = 0, .y0 = 0, .x1 = width, .y1 = (width + 1) / 2};
+  plan.wraps = true;
+  plan.picture_rows = picture.height_px;
+  return with_grid(plan, options);
+}
+
+struct Degrees {
+  double west, south, east, north;
+};
+
+/// Rounds away what the way through radians has left.
+Degrees in_degrees(const GeoRect& rect) {
+  const auto tidy = [](Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; };
+  return {.west = tidy(rect.west), .south = tidy(rect.south), .east = tidy(rect.east), .north = tidy(rect.north)};
+}
+
+Status check_bounds(const Degrees& b, const std::string& name) {
+  const bool on_planet = b.west >= -180.0 && b.east <= 180.0 && b.south >= -90.0 && b.north <= 90.0;
+  if (on_planet && b.west < b.east && b.south < b.north) return Done{};
+  return Error{
+      fmt::format("{}: bounds {},{},{},{}: it takes WEST < EAST in [-180, 180] and SOUTH < NORTH in [-90, 90]; cut a "
+                  "picture that crosses 180 degrees as two",
+                  name, b.west, b.south, b.east, b.north)};
+}
+
+/// The pixel size that the bounds say, made a whole part of 360° if that moves no edge of the picture noticeably.
+double pixel_size_deg(const Degrees& b, std::int64_t width_px) {
+  const double said = (b.east - b.west) / static_cast<double>(width_px);
+  const double whole = 360.0 / std::round(360.0 / said);
+  return std::abs(whole - said) * static_cast<double>(width_px) < kAlignment_px * said ? whole : said;
+}
+
+std::string nearest_bounds(const PixelRect& rect, double pixel_deg) {
+  const auto lon = [&](std::int64_t x) { return -180.0 + static_cast<double>(x) * pixel_deg; };
+  const auto lat = [&](std::int64_t y) { return 90.0 - static_cast<double>(y) * pixel_deg; };
+  return fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}", lon(rect.x0), lat(rect.y1), lon(rect.x1), lat(rect.y0));
+}
+
+Status check_alignment(const Degrees& b, const PixelRect& rect, double pixel_deg, const std::string& name) {
+  const double x_off = (b.west + 180.0) / pixel_deg - static_cast<double>(rect.x0);
+  const double y_off = (90.0 - b.north) / pixel_deg - static_cast<double>(rect.y0);
+  if (std::abs(x_off) <= kAlignment_px && std::abs(y_off) <= kAlignment_px) return Done{};
+  return Error{
+      fmt::format("{}: the bounds lie {:.3f} pixels in longitude and {:.3f} in latitude off the grid of the picture's "
+                  "own pixels from (-180, 90), and it is not resampled; the nearest bounds that fit are {}",
+                  name, x_off, y_off, nearest_bounds(rect, pixel_deg))};
+}
+
+Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& options) {
+  const std::string name = name_of(options);
+  const Degrees b = in_degrees(*options.bounds);
+  if (Status sane = check_bounds(b, name); !sane) return sane.error();
+  const double pixel_deg = pixel_size_deg(b, picture.width_px);
+  const auto height = static_cast<double>(picture.height_px);
+  // An odd whole planet has half a row too few or too many (plan_planet()).
+  const bool planet = b.west == -180.0 && b.east == 180.0 && b.south == -90.0 && b.north == 90.0;
+  if (planet) return plan_planet(picture, options);
+  if (std::abs(height * pixel_deg - (b.north - b.south)) > kAlignment_px * pixel_deg) {
+    return Error{
+        fmt::format("{}: {}x{} pixels over these bounds are not square ({:.9g} degrees wide, {:.9g} high); check "
+                    "--bounds, or resample the picture",
+                    name, picture.width_px, picture.height_px, pixel_deg, (b.north - b.south) / height)};
+  }
+  CutPlan plan;
+  plan.pixel_deg = pixel_deg;
+  plan.finest.x0 = std::llround((b.west + 180.0) / pixel_deg);
+  plan.finest.y0 = std::llround((90.0 - b.north) / pixel_deg);
+  plan.finest.x1 = plan.finest.x0 + picture.width_px;
+  plan.finest.y1 = plan.finest.y0 + picture.height_px;
+  plan.picture_rows = picture.height_px;
+  plan.wraps = plan.finest.x0 == 0 && b.east == 180.0;
+  if (Status aligned = check_alignment(b, plan.finest, pixel_deg, name); !aligned) return aligned.error();
+  plan.grid.bounds = {.west = Angle::degrees(-180.0 + static_cast<double>(plan.finest.x0) * pixel_deg),
+                      .south = Angle::degrees(std::max(-90.0, 90.0 - static_cast<double>(plan.finest.y1) * pixel_deg)),
+                      .east = Angle::degrees(std::min(180.0, -180.0 + static_cast<double>(plan.finest.x1) * pixel_deg)),
+                      .north = Angle::degrees(90.0 - static_cast<double>(plan.finest.y0) * pixel_deg)};
+  return with_grid(plan, options);
+}
+
+}  // namespace
+
+Result<CutPlan> plan_cut(const PictureInfo& picture, const CutOptions& options) {
+  if (Status sane = check_options(options); !sane) return sane.error();
+  return options.bounds ? plan_region(picture, options) : plan_planet(picture, options);
+}
+
+PixelRect pixels_at(const CutPlan& plan, int level) {
+  const int shift = plan.grid.max_level - level;
+  const std::int64_t rest = (std::int64_t{1} << shift) - 1;
+  return {.x0 = plan.finest.x0 >> shift,
+          .y0 = plan.finest.y0 >> shift,
+          .x1 = (plan.finest.x1 + rest) >> shift,
+          .y1 = (plan.finest.y1 + rest) >> shift};
+}
+
+double finest_row_area(const CutPlan& plan, std::int64_t y) {
+  if (plan.grid.projection == Projection::equal_area) return 1.0;
+  const auto sine = [&](std::int64_t edge) {
+    const double lat_deg = std::max(-90.0, 90.0 - static_cast<double>(edge) * plan.pixel_deg);
+    return std::sin(lat_deg * (std::numbers::pi / 180.0));
+  };
+  return sine(y) - sine(y + 1);
+}
+
+}  // namespace terrella

@@ -1,0 +1,116 @@
+#include "streaming/cut/encode_pool.h"
+
+#include <new>
+
+#include "streaming/cut/tile_encoder.h"
+
+namespace terrella {
+
+EncodePool::EncodePool(int jobs, ImageFormat format, int quality, TileWriter& writer) : writer_(writer) {
+  for (int i = 0; i < jobs; ++i) threads_.emplace_back([this, format, quality] { run_encoder(format, quality); });
+  threads_.emplace_back([this] { run_writer(); });
+}
+
+EncodePool::~EncodePool() {
+  if (threads_.empty()) return;
+  fail(Error{"stopped"});
+  join();
+}
+
+void EncodePool::submit(std::shared_ptr<const Strip> strip) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (error_) return;
+    for (std::int64_t i = 0; i < strip->tiles; ++i) jobs_.push_back({strip, i, submitted_++});
+  }
+  work_.notify_all();
+}
+
+bool EncodePool::failed() const {
+  const std::scoped_lock lock(mutex_);
+  return error_.has_value();
+}
+
+Result<TileCounts> EncodePool::finish() {
+  {
+    const std::scoped_lock lock(mutex_);
+    closed_ = true;
+  }
+  join();
+  if (error_) return *error_;
+  return counts_;
+}
+
+void EncodePool::fail(const Error& error) {
+  std::deque<Job> dropped;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!error_) error_ = error;
+    dropped.swap(jobs_);
+  }
+  work_.notify_all();
+  encoded_.notify_all();
+  written_.notify_all();
+}
+
+void EncodePool::join() {
+  work_.notify_all();
+  encoded_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+// ---- encoder threads
+
+void EncodePool::run_encoder(ImageFormat format, int quality) {
+  TileEncoder encoder(format, quality);
+  while (true) {
+    std::optional<Job> job;
+    {
+      std::unique_lock lock(mutex_);
+      work_.wait(lock, [&] { return error_ || closed_ || !jobs_.empty(); });
+      if (error_ || jobs_.empty()) return;
+      job = std::move(jobs_.front());
+      jobs_.pop_front();
+      // The tile that the writer waits for never waits itself.
+      written_.wait(lock, [&] { return error_ || job->order < next_to_write_ + kMaxUnwrittenTiles; });
+    }
+    auto bytes = encoder.encode(*job->strip, job->index);
+    const TileId id{.level = job->strip->level, .x = job->strip->tile_x0 + job->index, .y = job->strip->tile_y};
+    job->strip.reset();
+    if (!bytes) return fail(bytes.error());
+    {
+      const std::scoped_lock lock(mutex_);
+      finished_.emplace(job->order, Encoded{id, *std::move(bytes)});
+    }
+    encoded_.notify_one();
+  }
+}
+
+// ---- writer thread
+
+void EncodePool::run_writer() {
+  while (true) {
+    Encoded tile;
+    {
+      std::unique_lock lock(mutex_);
+      encoded_.wait(lock, [&] {
+        return error_ || finished_.contains(next_to_write_) || (closed_ && next_to_write_ == submitted_);
+      });
+      const auto found = finished_.find(next_to_write_);
+      if (error_ || found == finished_.end()) return;
+      tile = std::move(found->second);
+      finished_.erase(found);
+    }
+    if (Status put = writer_.put(tile.id, tile.bytes); !put) return fail(put.error());
+    {
+      const std::scoped_lock lock(mutex_);
+      ++next_to_write_;
+      ++counts_.tiles;
+      counts_.bytes += static_cast<std::int64_t>(tile.bytes.size());
+    }
+    written_.notify_all();
+  }
+}
+
+}  // namespace terrella

@@ -1,0 +1,123 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "streaming/cut/part_name.h"
+#include "streaming/cut/tile_writer.h"
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 0, or the number of the error.
+int write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  int failed = 0;
+  while (!bytes.empty() && failed == 0) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      failed = written == 0 ? ENOSPC : errno;
+    }
+  }
+  if (close(file) != 0 && failed == 0) failed = errno;
+  return failed;
+}
+
+class FolderWriter : public TileWriter {
+ public:
+  FolderWriter(fs::path output, TileSetInfo info)
+      : output_(std::move(output)), part_(part_name(output_)), info_(std::move(info)) {}
+  ~FolderWriter() override {
+    std::error_code ignored;
+    fs::remove_all(part_, ignored);
+  }
+  FolderWriter(const FolderWriter&) = delete;
+  FolderWriter& operator=(const FolderWriter&) = delete;
+
+  [[nodiscard]] Status open() {
+    std::error_code failed;
+    fs::create_directory(part_, failed);
+    if (failed) return cannot_write(output_, failed.value());
+    return Done{};
+  }
+
+  [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override {
+    const fs::path folder = part_ / std::to_string(id.level) / std::to_string(id.x);
+    const fs::path file = folder / fmt::format("{}.{}", id.y, info_.format == ImageFormat::png ? "png" : "jpg");
+    int failed = write_file(file, bytes);
+    if (failed == ENOENT) {
+      std::error_code ignored;
+      fs::create_directories(folder, ignored);
+      failed = write_file(file, bytes);
+    }
+    if (failed != 0) return cannot_write(output_, failed);
+    return Done{};
+  }
+
+  [[nodiscard]] Status finish() override {
+    const std::string description = to_tileset_json(info_);
+    if (const int failed = write_file(part_ / kTileSetFile, std::as_bytes(std::span(description))); failed != 0) {
+      return cannot_write(output_, failed);
+    }
+    // One call for all files: a sync for each of a million takes hours.
+    if (const int folder = ::open(part_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY); folder >= 0) {
+      const int failed = syncfs(folder) == 0 ? 0 : errno;
+      close(folder);
+      if (failed != 0) return cannot_write(output_, failed);
+    }
+    return replace_output();
+  }
+
+ private:
+  /// A folder cannot replace one that is not empty, so the old one steps aside first and is removed at last.
+  [[nodiscard]] Status replace_output() {
+    std::error_code failed;
+    if (!fs::exists(output_, failed)) return take_name(part_, output_);
+    const fs::path old = part_name(output_);
+    fs::rename(output_, old, failed);
+    if (failed) return cannot_write(output_, failed.value());
+    if (Status taken = take_name(part_, output_); !taken) {
+      fs::rename(old, output_, failed);
+      return taken;
+    }
+    fs::remove_all(old, failed);
+    return Done{};
+  }
+
+  fs::path output_;
+  fs::path part_;
+  TileSetInfo info_;
+};
+
+fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
+
+/// Nothing there, an empty directory, or a tile set that may be replaced.
+Status check_replaceable(const fs::path& output) {
+  std::error_code failed;
+  if (!fs::exists(output, failed)) return Done{};
+  if (!fs::is_directory(output, failed)) {
+    return Error{fmt::format("{}: is a file; name one that ends in .gpkg, or a folder", output.string())};
+  }
+  if (fs::is_empty(output, failed) || fs::exists(output / kTileSetFile, failed)) return Done{};
+  return Error{
+      fmt::format("{}: is a folder with other things in it, which would be lost; name a new one", output.string())};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TileWriter>> make_folder_writer(const fs::path& output, const TileSetInfo& info) {
+  const fs::path folder = without_trailing_slash(output);
+  if (Status may = check_replaceable(folder); !may) return may.error();
+  auto writer = std::make_unique<FolderWriter>(folder, info);
+  if (Status opened = writer->open(); !opened) return opened.error();
+  return std::unique_ptr<TileWriter>(std::move(writer));
+}
+
+}  // namespace terrella

@@ -1,0 +1,83 @@
+#include "streaming/cut/gpkg_schema.h"
+
+#include <cmath>
+
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+// clang-format off
+constexpr const char* kTables[] = {
+    "CREATE TABLE gpkg_spatial_ref_sys (srs_name TEXT NOT NULL, srs_id INTEGER NOT NULL PRIMARY KEY, "
+    "organization TEXT NOT NULL, organization_coordsys_id INTEGER NOT NULL, definition TEXT NOT NULL, description TEXT)",
+    "CREATE TABLE gpkg_contents (table_name TEXT NOT NULL PRIMARY KEY, data_type TEXT NOT NULL, identifier TEXT UNIQUE, "
+    "description TEXT DEFAULT '', last_change DATETIME NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')), "
+    "min_x DOUBLE, min_y DOUBLE, max_x DOUBLE, max_y DOUBLE, srs_id INTEGER, "
+    "CONSTRAINT fk_gc_r_srs_id FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id))",
+    "CREATE TABLE gpkg_tile_matrix_set (table_name TEXT NOT NULL PRIMARY KEY, srs_id INTEGER NOT NULL, "
+    "min_x DOUBLE NOT NULL, min_y DOUBLE NOT NULL, max_x DOUBLE NOT NULL, max_y DOUBLE NOT NULL, "
+    "CONSTRAINT fk_gtms_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name), "
+    "CONSTRAINT fk_gtms_srs FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id))",
+    "CREATE TABLE gpkg_tile_matrix (table_name TEXT NOT NULL, zoom_level INTEGER NOT NULL, matrix_width INTEGER NOT NULL, "
+    "matrix_height INTEGER NOT NULL, tile_width INTEGER NOT NULL, tile_height INTEGER NOT NULL, "
+    "pixel_x_size DOUBLE NOT NULL, pixel_y_size DOUBLE NOT NULL, "
+    "CONSTRAINT pk_ttm PRIMARY KEY (table_name, zoom_level), "
+    "CONSTRAINT fk_tmm_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name))",
+    "CREATE TABLE tiles (id INTEGER PRIMARY KEY AUTOINCREMENT, zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
+    "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))",
+};
+
+constexpr const char* kReferenceSystems =
+    "INSERT INTO gpkg_spatial_ref_sys VALUES "
+    "('Undefined cartesian SRS', -1, 'NONE', -1, 'undefined', 'undefined cartesian coordinate reference system'), "
+    "('Undefined geographic SRS', 0, 'NONE', 0, 'undefined', 'undefined geographic coordinate reference system'), "
+    "('WGS 84 geodetic', 4326, 'EPSG', 4326, 'GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+    "298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\","
+    "\"8901\"]],UNIT[\"degree\",0.0174532925199433,AUTHORITY[\"EPSG\",\"9122\"]],AXIS[\"Latitude\",NORTH],"
+    "AXIS[\"Longitude\",EAST],AUTHORITY[\"EPSG\",\"4326\"]]', 'longitude and latitude in decimal degrees')";
+// clang-format on
+
+/// Rounds away what the way through radians has left; 1e-11 degrees is a micrometre on Earth.
+double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; }
+
+SqlStatement tile_matrix(const TileGrid& grid, int level) {
+  const double columns_of_level = std::ldexp(static_cast<double>(columns(grid, 0)), level);
+  const double rows_of_level = std::ldexp(static_cast<double>(rows(grid, 0)), level);
+  const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
+  return {.sql =
+              "INSERT INTO gpkg_tile_matrix VALUES ('tiles', CAST(?1 AS INTEGER), CAST(?2 AS INTEGER), "
+              "CAST(?3 AS INTEGER), CAST(?4 AS INTEGER), CAST(?4 AS INTEGER), ?5, ?5)",
+          .texts = {},
+          .numbers = {static_cast<double>(level), columns_of_level, rows_of_level, static_cast<double>(grid.tile_px),
+                      pixel_deg}};
+}
+
+}  // namespace
+
+std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info) {
+  const TileGrid& grid = info.grid;
+  std::vector<SqlStatement> all;
+  // 'GPKG', and version 1.3.0.
+  all.push_back({"PRAGMA application_id = 1196444487", {}});
+  all.push_back({"PRAGMA user_version = 10300", {}});
+  for (const char* table : kTables) all.push_back({table, {}});
+  all.push_back({kReferenceSystems, {}});
+  all.push_back(
+      {"INSERT INTO gpkg_contents (table_name, data_type, identifier, description, min_x, min_y, max_x, max_y, "
+       "srs_id) VALUES ('tiles', 'tiles', ?1, ?2, ?3, ?4, ?5, ?6, 4326)",
+       {info.name.empty() ? "tiles" : info.name, info.attribution},
+       {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
+        tidy_degrees(grid.bounds.north)}});
+  all.push_back({"INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', 4326, -180, ?1, ?2, 90)",
+                 {},
+                 {90.0 - static_cast<double>(rows(grid, 0)) * grid.root_span_deg,
+                  -180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg}});
+  for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix(grid, level));
+  all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
+  all.push_back(
+      {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});
+  return all;
+}
+
+}  // namespace terrella

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// A statement of SQL with the values of its parameters ?1, ?2 …
+struct SqlStatement {
+  std::string sql;
+  std::vector<std::string> texts;    ///< bound first
+  std::vector<double> numbers = {};  ///< bound after the texts
+};
+
+/// What makes an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the set, and with
+/// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own.
+/// The tile matrix set's extent is matrix size × tile size × pixel size at every level, so it can reach beyond the
+/// planet; what there is stands in gpkg_contents.
+[[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info);
+
+}  // namespace terrella

@@ -1,0 +1,128 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "streaming/cut/gpkg_schema.h"
+#include "streaming/cut/part_name.h"
+#include "streaming/cut/tile_writer.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseDatabase {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+};
+struct FinalizeStatement {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
+
+class GpkgWriter : public TileWriter {
+ public:
+  explicit GpkgWriter(fs::path output) : output_(std::move(output)), part_(part_name(output_)) {}
+  ~GpkgWriter() override {
+    insert_.reset();
+    database_.reset();
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+  }
+  GpkgWriter(const GpkgWriter&) = delete;
+  GpkgWriter& operator=(const GpkgWriter&) = delete;
+
+  [[nodiscard]] Status open(const TileSetInfo& info) {
+    // The name must be new: SQLite would go on in a file that is there.
+    const int file = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) return cannot_write(output_, errno);
+    close(file);
+    sqlite3* database = nullptr;
+    const int opened = sqlite3_open_v2(part_.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr);
+    database_.reset(database);
+    if (opened != SQLITE_OK) return failure();
+    // Nobody else knows the file and a broken one is thrown away, so there is nothing to roll back; what must be on the
+    // disk before the file gets its name is synced once, in finish().
+    for (const char* pragma : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF",
+                               "PRAGMA locking_mode = EXCLUSIVE", "PRAGMA page_size = 8192"}) {
+      if (!run({pragma, {}})) return failure();
+    }
+    const auto schema = geopackage_schema(info);
+    // The first two are pragmas that a transaction would hold back.
+    for (std::size_t i = 0; i < schema.size(); ++i) {
+      if (i == 2 && !run({"BEGIN", {}})) return failure();
+      if (!run(schema[i])) return failure();
+    }
+    insert_ = prepare("INSERT INTO tiles (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)");
+    return insert_ ? Status(Done{}) : Status(failure());
+  }
+
+  [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override {
+    sqlite3_stmt* insert = insert_.get();
+    sqlite3_bind_int(insert, 1, id.level);
+    sqlite3_bind_int64(insert, 2, id.x);
+    sqlite3_bind_int64(insert, 3, id.y);
+    sqlite3_bind_blob64(insert, 4, bytes.data(), bytes.size(), SQLITE_STATIC);
+    const int stepped = sqlite3_step(insert);
+    if (stepped != SQLITE_DONE) return failure();
+    sqlite3_reset(insert);
+    return Done{};
+  }
+
+  [[nodiscard]] Status finish() override {
+    insert_.reset();
+    if (!run({"COMMIT", {}})) return failure();
+    database_.reset();
+    if (Status synced = sync_to_disk(part_); !synced) return synced;
+    return take_name(part_, output_);
+  }
+
+ private:
+  Statement prepare(const std::string& sql) {
+    sqlite3_stmt* statement = nullptr;
+    sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr);
+    return Statement(statement);
+  }
+
+  bool run(const SqlStatement& said) {
+    const Statement statement = prepare(said.sql);
+    if (!statement) return false;
+    int parameter = 0;
+    for (const std::string& text : said.texts) {
+      sqlite3_bind_text(statement.get(), ++parameter, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+    }
+    for (const double number : said.numbers) sqlite3_bind_double(statement.get(), ++parameter, number);
+    const int stepped = sqlite3_step(statement.get());
+    return stepped == SQLITE_DONE || stepped == SQLITE_ROW;
+  }
+
+  /// Why the last call failed: by the system's reason if it has one, else by SQLite's.
+  [[nodiscard]] Error failure() const {
+    if (!database_) return Error{fmt::format("{}: cannot be written: out of memory", output_.string())};
+    if (sqlite3_errcode(database_.get()) == SQLITE_FULL) return cannot_write(output_, ENOSPC);
+    if (const int number = sqlite3_system_errno(database_.get()); number != 0) return cannot_write(output_, number);
+    return Error{fmt::format("{}: cannot be written: {}", output_.string(), sqlite3_errmsg(database_.get()))};
+  }
+
+  fs::path output_;
+  fs::path part_;
+  Database database_;
+  Statement insert_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const fs::path& output, const TileSetInfo& info) {
+  std::error_code failed;
+  if (fs::is_directory(output, failed)) {
+    return Error{fmt::format("{}: is a folder; name a file, or a folder that does not end in .gpkg", output.string())};
+  }
+  auto writer = std::make_unique<GpkgWriter>(output);
+  if (Status opened = writer->open(info); !opened) return opened.error();
+  return std::unique_ptr<TileWriter>(std::move(writer));
+}
+
+}  // namespace terrella

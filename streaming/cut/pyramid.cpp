@@ -1,0 +1,214 @@
+#include "streaming/cut/pyramid.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "streaming/cut/halve.h"
+
+namespace terrella {
+namespace {
+
+std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+
+Strip strip_shape(const CutPlan& plan, int level) {
+  const PixelRect px = pixels_at(plan, level);
+  const int tile_px = plan.grid.tile_px;
+  return {.level = level,
+          .tile_y = 0,
+          .tile_x0 = px.x0 / tile_px,
+          .tiles = ceil_divide(px.x1, tile_px) - px.x0 / tile_px,
+          .tile_px = tile_px,
+          .rgba = {}};
+}
+
+std::size_t shape_bytes(const Strip& shape) { return shape.stride_bytes() * static_cast<std::size_t>(shape.tile_px); }
+
+}  // namespace
+
+Pyramid::Pyramid(const CutPlan& plan, bool has_alpha, StripPool& pool, TakeStrip take)
+    : plan_(plan), has_alpha_(has_alpha), pool_(pool), take_(std::move(take)) {
+  for (int level = 0; level <= plan.grid.max_level; ++level) levels_.push_back(make_level(plan, level));
+  for (Level& level : levels_) {
+    if (level.level == plan.grid.max_level && !has_alpha) continue;
+    for (auto& row : level.rows) row.resize(level.width() * 4);
+  }
+}
+
+std::size_t Pyramid::finest_strip_bytes(const CutPlan& plan) {
+  return shape_bytes(strip_shape(plan, plan.grid.max_level));
+}
+
+std::size_t Pyramid::strip_bytes(const CutPlan& plan) {
+  std::size_t bytes = 0;
+  for (int level = 0; level <= plan.grid.max_level; ++level) bytes += shape_bytes(strip_shape(plan, level));
+  return bytes;
+}
+
+Pyramid::Level Pyramid::make_level(const CutPlan& plan, int level) {
+  Level made;
+  made.level = level;
+  made.px = pixels_at(plan, level);
+  made.shape = strip_shape(plan, level);
+  made.lead_px = made.px.x0 - made.shape.tile_x0 * plan.grid.tile_px;
+  made.y = made.px.y0;
+  if (plan.wraps) {
+    // One more than the tiles show: the partner of an odd last column.
+    const std::int64_t end = made.shape.tiles * plan.grid.tile_px;
+    for (std::int64_t x = made.px.x1; x <= end; ++x) made.beyond.push_back(wrapped(plan, level, x));
+  } else {
+    made.first_cover = cover(plan, level, made.px.x0);
+    made.last_cover = cover(plan, level, made.px.x1 - 1);
+  }
+  return made;
+}
+
+float Pyramid::cover(const CutPlan& plan, int level, std::int64_t x) {
+  const int shift = plan.grid.max_level - level;
+  const std::int64_t from = std::max(x << shift, plan.finest.x0);
+  const std::int64_t to = std::min((x + 1) << shift, plan.finest.x1);
+  return static_cast<float>(static_cast<double>(to - from) / static_cast<double>(std::int64_t{1} << shift));
+}
+
+Pyramid::WrappedColumn Pyramid::wrapped(const CutPlan& plan, int level, std::int64_t x) {
+  const int shift = plan.grid.max_level - level;
+  const std::int64_t turn = plan.finest.x1;
+  const std::int64_t finest = (x << shift) % turn;
+  const std::int64_t column = finest >> shift;
+  const std::int64_t rest = finest - (column << shift);
+  return {column, static_cast<float>(static_cast<double>(rest) / static_cast<double>(std::int64_t{1} << shift))};
+}
+
+std::uint8_t* Pyramid::strip_row(Level& level) {
+  const std::int64_t tile_y = level.y / plan_.grid.tile_px;
+  if (!level.strip) {
+    level.shape.tile_y = tile_y;
+    level.strip = pool_.lend(level.shape);
+  }
+  return level.strip->row(level.y - tile_y * plan_.grid.tile_px);
+}
+
+std::span<std::uint8_t> Pyramid::next_row() {
+  Level& finest = levels_.back();
+  return {strip_row(finest) + finest.lead_px * 4, finest.width() * 4};
+}
+
+void Pyramid::row_written() {
+  Level& finest = levels_.back();
+  finest.areas[finest.y & 1] = finest_row_area(plan_, finest.y);
+  const std::uint8_t* row = strip_row(finest) + finest.lead_px * 4;
+  if (has_alpha_) {
+    premultiply({row, finest.width() * 4}, finest.rows[finest.y & 1].data());
+    halve_if_due(finest, finest.rows[0].data(), finest.rows[1].data());
+  } else {
+    // Tiles have an even number of rows, so both rows of a pair stand in the same strip.
+    const std::uint8_t* even = (finest.y & 1) == 0 ? row : row - finest.shape.stride_bytes();
+    halve_if_due(finest, even, row);
+  }
+  close_strip_row(finest);
+}
+
+void Pyramid::coarse_row_done(Level& level) {
+  std::uint8_t* bytes = strip_row(level) + level.lead_px * 4;
+  const std::vector<float>& row = level.rows[level.y & 1];
+  has_alpha_ ? unpremultiply(row, bytes) : to_bytes(row, bytes);
+  halve_if_due(level, level.rows[0].data(), level.rows[1].data());
+  close_strip_row(level);
+}
+
+/// A pair of rows is complete with its odd row, or with the last of all. A row without partner is its own.
+template <class T>
+void Pyramid::halve_if_due(Level& from, const T* even, const T* odd) {
+  if (from.level == 0) return;
+  const bool is_odd = (from.y & 1) != 0;
+  if (!is_odd && from.y + 1 < from.px.y1) return;
+  if (!is_odd) {
+    odd = even;
+    from.areas[1] = 0.0;
+  } else if (from.y == from.px.y0) {
+    even = odd;
+    from.areas[0] = 0.0;
+  }
+  Level& to = levels_[static_cast<std::size_t>(from.level - 1)];
+  halve_into(from, even, odd, to);
+  coarse_row_done(to);
+}
+
+template <class T>
+void Pyramid::halve_into(const Level& from, const T* even, const T* odd, Level& to) {
+  const double area = from.areas[0] + from.areas[1];
+  const auto weight = [&](std::size_t row) { return static_cast<float>(from.areas[row] / area); };
+  const std::array<float, 2> weights = {weight(0), weight(1)};
+  to.areas[to.y & 1] = area;
+  float* out = to.rows[to.y & 1].data();
+  const std::int64_t first = from.px.x0 & 1;  // columns before the first pair
+  const std::int64_t pairs = (from.px.x1 - from.px.x0 - first) / 2;
+  halve_rows(even + first * 4, odd + first * 4, weights[0], weights[1], out + first * 4,
+             static_cast<std::size_t>(pairs));
+  mix_edge(from, even, odd, weights, to.px.x0, to);
+  mix_edge(from, even, odd, weights, to.px.x1 - 1, to);
+}
+
+/// A coarse column whose two finer ones may be covered in part, missing, or beyond ±180°.
+template <class T>
+void Pyramid::mix_edge(const Level& from, const T* even, const T* odd, const std::array<float, 2>& weights,
+                       std::int64_t column, Level& to) {
+  std::array<float, 4> sum{};
+  float covered = 0.0F;
+  const auto add = [&](std::int64_t x, float share) {
+    const auto at = static_cast<std::size_t>(x - from.px.x0) * 4;
+    for (std::size_t c = 0; c < 4; ++c) {
+      sum[c] += share * (weights[0] * static_cast<float>(even[at + c]) + weights[1] * static_cast<float>(odd[at + c]));
+    }
+    covered += share;
+  };
+  for (std::int64_t x = 2 * column; x < 2 * column + 2; ++x) {
+    if (x == from.px.x1 && plan_.wraps) {
+      const WrappedColumn& beyond = from.beyond.front();
+      add(beyond.column, 1.0F - beyond.share);
+      add((beyond.column + 1) % from.px.x1, beyond.share);
+    } else if (x >= from.px.x0 && x < from.px.x1) {
+      add(x, x == from.px.x0 ? from.first_cover : x == from.px.x1 - 1 ? from.last_cover : 1.0F);
+    }
+  }
+  float* out = to.rows[to.y & 1].data() + static_cast<std::size_t>(column - to.px.x0) * 4;
+  for (std::size_t c = 0; c < 4; ++c) out[c] = sum[c] / covered;
+}
+
+void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
+  const std::uint8_t* first = row + level.lead_px * 4;
+  for (std::int64_t x = 0; x < level.lead_px; ++x) std::memcpy(row + x * 4, first, 4);
+  const auto width = static_cast<std::int64_t>(level.width());
+  const std::int64_t end = level.shape.tiles * level.shape.tile_px;
+  for (std::int64_t x = level.lead_px + width; x < end; ++x) {
+    if (!plan_.wraps) {
+      std::memcpy(row + x * 4, first + (width - 1) * 4, 4);
+      continue;
+    }
+    const WrappedColumn& beyond = level.beyond[static_cast<std::size_t>(x - width)];
+    const std::uint8_t* a = row + beyond.column * 4;
+    const std::uint8_t* b = row + (beyond.column + 1) % width * 4;
+    for (int c = 0; c < 4; ++c) {
+      const float mixed = (1.0F - beyond.share) * static_cast<float>(a[c]) + beyond.share * static_cast<float>(b[c]);
+      row[x * 4 + c] = static_cast<std::uint8_t>(static_cast<int>(mixed + 0.5F));
+    }
+  }
+}
+
+/// Ends a row of a strip; the strip goes out with its last one, its rows outside the picture filled.
+void Pyramid::close_strip_row(Level& level) {
+  const std::int64_t in_strip = level.y % plan_.grid.tile_px;
+  std::uint8_t* row = level.strip->row(in_strip);
+  pad_row(level, row);
+  const std::size_t stride = level.shape.stride_bytes();
+  if (level.y == level.px.y0) {
+    for (std::int64_t y = 0; y < in_strip; ++y) std::memcpy(level.strip->row(y), row, stride);
+  }
+  ++level.y;
+  const bool last = level.y == level.px.y1;
+  if (!last && level.y % plan_.grid.tile_px != 0) return;
+  for (std::int64_t y = in_strip + 1; y < plan_.grid.tile_px; ++y) std::memcpy(level.strip->row(y), row, stride);
+  take_(std::move(level.strip));
+  level.strip.reset();
+}
+
+}  // namespace terrella

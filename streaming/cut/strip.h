@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace terrella {
+
+/// One row of tiles of a level, as one picture: RGBA8, `tiles` · tile_px wide, tile_px high.
+struct Strip {
+  int level = 0;
+  std::int64_t tile_y = 0;
+  std::int64_t tile_x0 = 0;  ///< column of its first tile
+  std::int64_t tiles = 0;
+  int tile_px = 0;
+  std::vector<std::uint8_t> rgba;
+
+  [[nodiscard]] std::size_t stride_bytes() const {
+    return static_cast<std::size_t>(tiles) * static_cast<std::size_t>(tile_px) * 4;
+  }
+  [[nodiscard]] std::uint8_t* row(std::int64_t y) { return rgba.data() + static_cast<std::size_t>(y) * stride_bytes(); }
+  [[nodiscard]] const std::uint8_t* tile(std::int64_t index) const {
+    return rgba.data() + static_cast<std::size_t>(index) * static_cast<std::size_t>(tile_px) * 4;
+  }
+};
+
+/// Lends strips and takes their memory back for the next one: fresh pages cost as much as halving does. What is lent at
+/// a time is bounded, which is what bounds the cutter's memory.
+/// thread: any. Outlives what it lends.
+class StripPool {
+ public:
+  explicit StripPool(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+
+  /// A strip of that shape, its pixels undefined. Waits until enough of what is lent has come back.
+  [[nodiscard]] std::shared_ptr<Strip> lend(const Strip& shape);
+
+ private:
+  void take_back(Strip* strip);
+
+  std::size_t max_bytes_;
+  std::mutex mutex_;
+  std::condition_variable returned_;
+  std::size_t lent_bytes_ = 0;
+  std::multimap<std::size_t, std::vector<std::uint8_t>> free_;
+};
+
+}  // namespace terrella

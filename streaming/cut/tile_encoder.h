@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geo/result.h"
+#include "streaming/cut/strip.h"
+#include "streaming/image.h"
+
+namespace terrella {
+
+/// Encodes tiles out of strips; keeps its codec from tile to tile. JPEG: 4:2:0, the accurate DCT, Huffman tables as
+/// they come. PNG: as encode_png(). thread: one at a time
+class TileEncoder {
+ public:
+  TileEncoder(ImageFormat format, int quality);
+  [[nodiscard]] Result<std::vector<std::byte>> encode(const Strip& strip, std::int64_t index);
+
+ private:
+  struct DestroyHandle {
+    void operator()(void* handle) const;
+  };
+  [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg_tile(const Strip& strip, std::int64_t index);
+
+  ImageFormat format_;
+  int quality_;
+  std::unique_ptr<void, DestroyHandle> jpeg_;
+  std::vector<unsigned char> buffer_;
+};
+
+}  // namespace terrella
