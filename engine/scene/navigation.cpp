@@ -12,6 +12,7 @@ namespace {
 constexpr Seconds kLongestStep(0.25);  // a slower frame, or a clock that jumps, counts as this
 constexpr Seconds kFlickMemory(0.1);   // a pointer that rested as long before its release does not flick
 constexpr double kSlowestFlick_px_s = 60.0;
+constexpr double kClickSlack_px = 6.0;    // a hand that clicks slips as far
 constexpr double kFastestFlick_px_s = 6000.0;
 constexpr double kGlideStops_px_s = 4.0;
 constexpr Seconds kGlideDecay(0.3);
@@ -64,7 +65,7 @@ void Navigator::pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, 
   advance(now);
   if (button == PointerButton::left && !ctrl) {
     const Grab held = grab_at(at_px);
-    motion_ = Drag{camera_, held.point, heading_rule(camera_, ellipsoid_, held.point), at_px, {}, now};
+    motion_ = Drag{camera_, held.point, heading_rule(camera_, ellipsoid_, held.point), at_px, at_px, {}, now};
     return;
   }
   const Grab centre = grab_at(centre_px());
@@ -97,6 +98,7 @@ void Navigator::pointer_up(PointerButton, Seconds now) {
     return;
   }
   const bool flick = now >= drag->moved_at && now - drag->moved_at < kFlickMemory &&
+                     glm::distance(drag->at_px, drag->from_px) > kClickSlack_px &&
                      glm::length(drag->speed_px_s) > kSlowestFlick_px_s;
   if (flick) {
     motion_ = Glide{drag->at_px, limited(drag->speed_px_s, kFastestFlick_px_s)};

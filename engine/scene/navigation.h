@@ -52,6 +52,7 @@ class Navigator {
     Camera start;
     Ecef held;
     HeadingRule rule;
+    glm::dvec2 from_px;
     glm::dvec2 at_px;
     glm::dvec2 speed_px_s{0.0};  ///< smoothed over the last tenth of a second
     Seconds moved_at;

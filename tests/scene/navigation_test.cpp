@@ -152,6 +152,14 @@ TEST(Glide, GoesOnInTheSameDirectionAndStops) {
   EXPECT_LT(took, Seconds(4.0));
 }
 
+TEST(Glide, DoesNotFollowFromAClickThatSlipped) {
+  Hand hand(camera(20.0, 50.0, 4.0e6));
+  hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
+  hand.navigator.pointer_move(kCentre + glm::dvec2(4.0, 2.0), hand.now += Seconds(kFrame_s));
+  hand.navigator.pointer_up(PointerButton::left, hand.now);
+  EXPECT_TRUE(hand.navigator.at_rest());
+}
+
 TEST(Glide, IsCaughtByAPress) {
   Hand hand(camera(20.0, 50.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);

@@ -1,0 +1,85 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "apps/commands.h"
+#include "apps/open_imagery.h"
+#include "apps/scene_options.h"
+#include "apps/viewer/viewer.h"
+#include "scene/view_limits.h"
+
+namespace terrella {
+namespace {
+
+constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
+
+constexpr const char* kHelpFooter =
+    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns, "
+    "a\n"
+    "double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
+    "F12 saves a picture, F1 or ? lists the keys, Esc leaves.\n"
+    "\n"
+    "Examples:\n"
+    "  terrella view                                      the Earth\n"
+    "  terrella view moon.jpg --body moon                 a picture of the whole Moon\n"
+    "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
+
+struct ViewOptions {
+  SceneOptions scene;
+  bool camera_given = false;
+  bool print_camera = false;
+};
+
+/// Over the tropics of the Atlantic: with the whole globe in view, continents on both sides.
+Camera first_camera(const ViewOptions& options, const Body& body, Viewport framebuffer) {
+  if (options.camera_given) return options.scene.camera;
+  Camera camera;
+  camera.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
+  camera.eye.height_m = whole_globe_height_m(body.ellipsoid, camera.fov_y, framebuffer);
+  return camera;
+}
+
+int fail(const Error& error) {
+  fmt::print(stderr, "terrella view: {}\n", error.message);
+  return kFailed;
+}
+
+int view(const ViewOptions& options) {
+  // The window comes first: without a display nobody should wait for a picture to be cut.
+  auto window = Window::create("Terrella", options.scene.size);
+  if (!window) return fail(window.error());
+  auto imagery = open_imagery(options.scene);
+  if (!imagery) return fail(imagery.error());
+  const auto body = scene_body(options.scene, (*imagery)->info());
+  if (!body) return fail(body.error());
+  const std::string attribution = (*imagery)->info().attribution;
+  auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery));
+  if (!globe) return fail(globe.error());
+  (*window)->show();
+  const ViewerOptions viewer_options{.camera = first_camera(options, *body, (*window)->framebuffer()),
+                                     .attribution = attribution,
+                                     .print_camera = options.print_camera};
+  Viewer(**window, **globe, viewer_options).run();
+  return kDone;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("view", "Turn a globe in a window");
+  const auto options = std::make_shared<ViewOptions>();
+  options->scene.size = kWindow;
+  add_scene_options(*command, options->scene);
+  command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
+  command->add_flag("--print-camera", options->print_camera,
+                    "Print the camera, as --camera takes it, on standard output each time it comes to rest");
+  command->footer(kHelpFooter);
+  command->callback([command, options, &exit_code] {
+    options->camera_given = command->count("--camera") > 0;
+    exit_code = view(*options);
+  });
+}
+
+}  // namespace terrella

@@ -1,0 +1,158 @@
+#include "apps/viewer/input.h"
+
+#include <epoxy/gl.h>
+// epoxy before GLFW, which otherwise brings its own gl.h
+#include <GLFW/glfw3.h>
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace terrella {
+namespace {
+
+constexpr Seconds kDoubleClick(0.4);
+constexpr double kClickSlack_px = 6.0;  // at 96 dots per inch
+
+Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
+
+std::optional<NavigationKey> navigation_key(int key) {
+  switch (key) {
+    case GLFW_KEY_LEFT:
+      return NavigationKey::pan_left;
+    case GLFW_KEY_RIGHT:
+      return NavigationKey::pan_right;
+    case GLFW_KEY_UP:
+      return NavigationKey::pan_up;
+    case GLFW_KEY_DOWN:
+      return NavigationKey::pan_down;
+    case GLFW_KEY_HOME:
+      return NavigationKey::whole_globe;
+    default:
+      return {};
+  }
+}
+
+std::optional<ViewerAction> function_key(int key) {
+  switch (key) {
+    case GLFW_KEY_F1:
+      return ViewerAction::toggle_help;
+    case GLFW_KEY_F12:
+      return ViewerAction::save_screenshot;
+    case GLFW_KEY_ESCAPE:
+      return ViewerAction::leave;
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
+  const bool second = first_ && now - first_->when >= Seconds(0.0) && now - first_->when <= kDoubleClick &&
+                      glm::distance(at_px, first_->at_px) <= slack_px;
+  if (second) {
+    first_.reset();
+  } else {
+    first_ = Press{at_px, now};
+  }
+  return second;
+}
+
+Input::Input(Window& window, Navigator& navigator) : window_(window), navigator_(navigator) {
+  glfwSetWindowUserPointer(window_.handle(), this);
+  listen_to_pointer();
+  listen_to_keys();
+  listen_to_window();
+}
+
+Seconds Input::now() { return Seconds(glfwGetTime()); }
+
+std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_, {}); }
+
+bool Input::take_dirty() { return std::exchange(dirty_, false); }
+
+std::optional<glm::dvec2> Input::cursor_px() const {
+  if (glfwGetWindowAttrib(window_.handle(), GLFW_HOVERED) != GLFW_TRUE) return {};
+  return window_.cursor_px();
+}
+
+void Input::listen_to_pointer() {
+  glfwSetMouseButtonCallback(window_.handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
+    input_of(w).on_button(button, action, modifiers);
+  });
+  glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double, double) {
+    Input& self = input_of(w);
+    self.navigator_.pointer_move(self.window_.cursor_px(), now());
+    self.dirty_ = true;
+  });
+  glfwSetCursorEnterCallback(window_.handle(), [](GLFWwindow* w, int) { input_of(w).dirty_ = true; });
+  glfwSetScrollCallback(window_.handle(), [](GLFWwindow* w, double, double steps) {
+    Input& self = input_of(w);
+    self.navigator_.wheel(self.window_.cursor_px(), steps, now());
+    self.dirty_ = true;
+  });
+}
+
+void Input::listen_to_keys() {
+  glfwSetKeyCallback(window_.handle(),
+                     [](GLFWwindow* w, int key, int, int action, int) { input_of(w).on_key(key, action); });
+  // Letters and signs come as characters: so they are where the keyboard's layout has them.
+  glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) { input_of(w).on_character(character); });
+}
+
+void Input::listen_to_window() {
+  glfwSetFramebufferSizeCallback(window_.handle(), [](GLFWwindow* w, int, int) { input_of(w).dirty_ = true; });
+  glfwSetWindowRefreshCallback(window_.handle(), [](GLFWwindow* w) { input_of(w).dirty_ = true; });
+}
+
+void Input::on_button(int button, int action, int modifiers) {
+  if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
+  dirty_ = true;
+  const PointerButton which = button == GLFW_MOUSE_BUTTON_LEFT ? PointerButton::left : PointerButton::right;
+  if (action == GLFW_RELEASE) {
+    navigator_.pointer_up(which, now());
+    return;
+  }
+  const glm::dvec2 at = window_.cursor_px();
+  const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
+  if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), kClickSlack_px * window_.text_scale())) {
+    navigator_.double_click(at, now());
+  } else {
+    navigator_.pointer_down(which, ctrl, at, now());
+  }
+}
+
+void Input::on_key(int key, int action) {
+  repeating_ = action == GLFW_REPEAT;
+  if (action == GLFW_RELEASE) return;
+  dirty_ = true;
+  if (const auto moves = navigation_key(key)) {
+    navigator_.key(*moves, now());
+  } else if (const auto asked = function_key(key); asked && !repeating_) {
+    actions_.push_back(*asked);
+  }
+}
+
+void Input::on_character(unsigned character) {
+  dirty_ = true;
+  if (character == '+' || character == '=') return navigator_.key(NavigationKey::zoom_in, now());
+  if (character == '-' || character == 0x2212) return navigator_.key(NavigationKey::zoom_out, now());
+  if (repeating_) return;
+  switch (character) {
+    case 'n':
+    case 'N':
+      return navigator_.key(NavigationKey::north_up, now());
+    case 'f':
+    case 'F':
+      return actions_.push_back(ViewerAction::toggle_full_screen);
+    case 'g':
+    case 'G':
+      return actions_.push_back(ViewerAction::toggle_graticule);
+    case '?':
+      return actions_.push_back(ViewerAction::toggle_help);
+    default:
+      return;
+  }
+}
+
+}  // namespace terrella

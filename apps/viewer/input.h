@@ -1,0 +1,61 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "apps/viewer/window.h"
+#include "scene/navigation.h"
+
+namespace terrella {
+
+/// What a key asks of the viewer beside the navigation.
+enum class ViewerAction { toggle_help, toggle_graticule, toggle_full_screen, save_screenshot, leave };
+
+/// Finds double clicks by time and distance.
+class ClickPair {
+ public:
+  /// True if this press is the second of a pair; a third begins a new one. `slack_px`: how far apart they may be.
+  [[nodiscard]] bool press(glm::dvec2 at_px, Seconds now, double slack_px);
+
+ private:
+  struct Press {
+    glm::dvec2 at_px;
+    Seconds when;
+  };
+  std::optional<Press> first_;
+};
+
+/// Listens to a window's events: hands them to the navigator and keeps the actions for the viewer. Lives as long as
+/// the window does. thread: main
+class Input {
+ public:
+  Input(Window& window, Navigator& navigator);
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+
+  /// What was asked for since the last call, in order.
+  [[nodiscard]] std::vector<ViewerAction> take_actions();
+  /// True if anything happened since the last call that can change the picture.
+  [[nodiscard]] bool take_dirty();
+  /// Where the cursor is, framebuffer pixels; nothing while it is outside the window.
+  [[nodiscard]] std::optional<glm::dvec2> cursor_px() const;
+  [[nodiscard]] static Seconds now();
+
+ private:
+  void listen_to_pointer();
+  void listen_to_keys();
+  void listen_to_window();
+  void on_button(int button, int action, int modifiers);
+  void on_key(int key, int action);
+  void on_character(unsigned character);
+
+  Window& window_;
+  Navigator& navigator_;
+  ClickPair clicks_;
+  std::vector<ViewerAction> actions_;
+  bool dirty_ = true;
+  bool repeating_ = false;  ///< the character that follows is a held key's
+};
+
+}  // namespace terrella

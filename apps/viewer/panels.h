@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/viewer/readout.h"
+#include "scene/graticule.h"
+
+namespace terrella {
+
+/// What the status line says.
+struct PanelStatus {
+  std::string cursor;       ///< latitude and longitude under the cursor; empty beside the globe
+  std::string eye;          ///< height of the eye
+  std::string tiles;        ///< empty when none is loading
+  std::string frame;        ///< frame time
+  std::string message;      ///< of the last action, for some seconds; may be empty
+  std::string attribution;  ///< of the imagery; may be empty
+  std::optional<ScaleBar> scale;
+};
+
+// Each is called between Ui::begin_frame() and Ui::end_frame(). `unit_px`: framebuffer pixels per unit of the window.
+// thread: main
+
+/// The line along the bottom, the scale bar and the attribution.
+void draw_status(const PanelStatus& status, double unit_px);
+/// The list of keys, in the middle.
+void draw_help();
+/// Lines and labels, under the panels.
+void draw_graticule(const Graticule& graticule, double unit_px);
+
+}  // namespace terrella

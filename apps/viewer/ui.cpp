@@ -1,0 +1,81 @@
+#include "apps/viewer/ui.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <filesystem>
+
+namespace terrella {
+namespace {
+
+constexpr float kText_px = 15.0F;
+
+// Where distributions put DejaVu Sans; without it ImGui's own small font serves.
+constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+// Latin, general punctuation, arrows, the minus sign: pairs of first and last.
+constexpr ImWchar kGlyphs[] = {0x20, 0x17F, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0};
+
+void load_font(float scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  std::error_code missing;
+  for (const char* path : kFonts) {
+    if (!std::filesystem::exists(path, missing)) continue;
+    if (io.Fonts->AddFontFromFileTTF(path, kText_px * scale, nullptr, kGlyphs) != nullptr) return;
+  }
+  ImFontConfig config;
+  config.SizePixels = 13.0F * scale;
+  io.Fonts->AddFontDefault(&config);
+}
+
+void set_style(float scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 7.0F;
+  style.WindowBorderSize = 0.0F;
+  style.WindowPadding = ImVec2(12.0F, 7.0F);
+  style.ItemSpacing = ImVec2(10.0F, 5.0F);
+  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05F, 0.08F, 0.12F, 0.72F);
+  style.Colors[ImGuiCol_Text] = ImVec4(0.91F, 0.94F, 0.97F, 1.0F);
+  style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62F, 0.70F, 0.78F, 1.0F);
+  style.ScaleAllSizes(scale);
+}
+
+}  // namespace
+
+Ui::Ui(const Window& window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
+  // Where the window's units are larger than pixels the font is made at pixel size and shown at unit size.
+  const float unit_px = static_cast<float>(window.pixels_per_unit().x);
+  load_font(window.text_scale());
+  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
+  set_style(window.text_scale() / unit_px);
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Ui::~Ui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Ui::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Ui::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+double Ui::text_height() { return double(ImGui::GetFontSize()); }
+
+}  // namespace terrella

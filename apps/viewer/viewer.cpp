@@ -1,0 +1,140 @@
+#include "apps/viewer/viewer.h"
+
+#include <epoxy/gl.h>
+// epoxy before GLFW, which otherwise brings its own gl.h
+#include <GLFW/glfw3.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "apps/viewer/screenshot.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::chrono::seconds kMessageTime(4);
+constexpr double kLoadingPause_s = 1.0 / 60.0;  // between frames that only wait for tiles
+constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
+constexpr double kFoot = 3.4;                   // of the text's height, that the panels below take
+
+}  // namespace
+
+Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
+    : window_(window),
+      globe_(globe),
+      options_(options),
+      ui_(window),
+      navigator_(options.camera, globe.options().body.ellipsoid, window.framebuffer()),
+      input_(window, navigator_) {}
+
+void Viewer::run() {
+  while (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
+    wait_for_work();
+    for (const ViewerAction action : input_.take_actions()) act(action);
+    const Viewport framebuffer = window_.framebuffer();
+    if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
+    (void)input_.take_dirty();
+    navigator_.set_viewport(framebuffer);
+    navigator_.advance(Input::now());
+    draw_frame(framebuffer);
+    print_camera_at_rest();
+  }
+}
+
+void Viewer::wait_for_work() {
+  if (input_.take_dirty() || navigator_.animating() || screenshot_wanted_) return glfwPollEvents();
+  if (!globe_.settled()) return glfwWaitEventsTimeout(kLoadingPause_s);
+  if (message_.empty()) return glfwWaitEvents();
+  const std::chrono::duration<double> left = message_until_ - Clock::now();
+  glfwWaitEventsTimeout(std::max(left.count(), 0.001));
+}
+
+void Viewer::act(ViewerAction action) {
+  switch (action) {
+    case ViewerAction::toggle_help:
+      help_ = !help_;
+      return;
+    case ViewerAction::toggle_graticule:
+      graticule_ = !graticule_;
+      return;
+    case ViewerAction::toggle_full_screen:
+      window_.toggle_full_screen();
+      return;
+    case ViewerAction::save_screenshot:
+      screenshot_wanted_ = true;
+      return;
+    case ViewerAction::leave:
+      glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
+      return;
+  }
+}
+
+void Viewer::draw_frame(Viewport framebuffer) {
+  const auto start = Clock::now();
+  globe_.set_camera(navigator_.camera());
+  const FrameStats stats = globe_.render(0, framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
+  draw_panels(framebuffer, stats);
+  if (std::exchange(screenshot_wanted_, false)) save_screenshot(framebuffer);
+  glfwSwapBuffers(window_.handle());
+  frame_time_ = Clock::now() - start;
+}
+
+void Viewer::draw_panels(Viewport framebuffer, const FrameStats& stats) {
+  const View view = globe_.view(framebuffer);
+  const double unit_px = window_.pixels_per_unit().x;
+  if (!message_.empty() && Clock::now() >= message_until_) message_.clear();
+  ui_.begin_frame();
+  if (graticule_) {
+    const double text_px = Ui::text_height() * unit_px;
+    const LabelSize label{.character_px = 0.62 * text_px, .line_px = 1.2 * text_px, .foot_px = kFoot * text_px};
+    draw_graticule(make_graticule(view, globe_.options().body.ellipsoid, label), unit_px);
+  }
+  draw_status(status(view, stats), unit_px);
+  if (help_) draw_help();
+  ui_.end_frame();
+}
+
+PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
+  const Ellipsoid& ellipsoid = globe_.options().body.ellipsoid;
+  PanelStatus status;
+  const auto cursor = input_.cursor_px();
+  if (const auto place = cursor ? pick(view, ellipsoid, *cursor) : std::nullopt) {
+    status.cursor = place_text(*place, pixel_step_deg(view, ellipsoid));
+  }
+  const Camera& camera = navigator_.camera();
+  status.eye = "Eye " + length_text(camera.eye.height_m);
+  if (stats.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats.tiles_missing);
+  status.frame = fmt::format("{:.0f} ms", frame_time_.count());
+  status.message = message_;
+  status.attribution = options_.attribution;
+  status.scale = scale_bar(view, ellipsoid, kScaleBar_px * window_.text_scale());
+  return status;
+}
+
+void Viewer::save_screenshot(Viewport framebuffer) {
+  std::error_code unknown;
+  const auto file = screenshot_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
+  const Status saved = save_back_buffer(file, framebuffer);
+  say(saved ? "Saved " + file.filename().string() : saved.error().message);
+}
+
+void Viewer::say(std::string message) {
+  message_ = std::move(message);
+  message_until_ = Clock::now() + kMessageTime;
+}
+
+void Viewer::print_camera_at_rest() {
+  if (!options_.print_camera || !navigator_.at_rest()) return;
+  std::string text = camera_text(navigator_.camera());
+  if (text == printed_camera_) return;
+  printed_camera_ = std::move(text);
+  fmt::print("{}\n", printed_camera_);
+  std::fflush(stdout);
+}
+
+}  // namespace terrella

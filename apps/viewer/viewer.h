@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+
+#include "apps/viewer/input.h"
+#include "apps/viewer/panels.h"
+#include "apps/viewer/ui.h"
+#include "apps/viewer/window.h"
+#include "engine/globe.h"
+
+namespace terrella {
+
+struct ViewerOptions {
+  Camera camera;
+  std::string attribution;
+  bool print_camera = false;  ///< a line on standard output each time the camera comes to rest
+};
+
+/// The window's life: events in, frames out. Draws only when something changed, moves or is still loading; otherwise it
+/// sleeps until the next event. thread: main
+class Viewer {
+ public:
+  /// The window must be shown, its context current, and both outlive the viewer.
+  Viewer(Window& window, Globe& globe, const ViewerOptions& options);
+
+  /// Until the person leaves.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void wait_for_work();
+  void act(ViewerAction action);
+  void draw_frame(Viewport framebuffer);
+  void draw_panels(Viewport framebuffer, const FrameStats& stats);
+  void save_screenshot(Viewport framebuffer);
+  void say(std::string message);
+  void print_camera_at_rest();
+  [[nodiscard]] PanelStatus status(const View& view, const FrameStats& stats) const;
+
+  Window& window_;
+  Globe& globe_;
+  ViewerOptions options_;
+  Ui ui_;
+  Navigator navigator_;
+  Input input_;
+  bool help_ = false;
+  bool graticule_ = false;
+  bool screenshot_wanted_ = false;
+  std::string message_;
+  Clock::time_point message_until_{};
+  std::chrono::duration<double, std::milli> frame_time_{0.0};
+  std::string printed_camera_;
+};
+
+}  // namespace terrella
