@@ -36,7 +36,9 @@ class IndexWriter {
 
   void quad(int i, int j) {
     const std::uint16_t a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
-    if (forward_) {
+    // Where two coarse sides meet in this corner, a lies on the line from b to d: no triangle of the three.
+    const bool on_a_line = i == n_ - 1 && j == n_ - 1 && coarse(PatchSide::east) && coarse(PatchSide::north);
+    if (forward_ || on_a_line) {
       triangle(a, b, c);
       triangle(a, c, d);
     } else {
@@ -54,7 +56,10 @@ class IndexWriter {
 }  // namespace
 
 SplitPosition split_position(const glm::dvec3& p_m) {
-  const glm::vec3 high(p_m);
+  // volatile: GCC 12 at -O2 takes float and back for no change where it does two components at a time, and then all
+  // lows are 0.
+  volatile float x = static_cast<float>(p_m.x), y = static_cast<float>(p_m.y), z = static_cast<float>(p_m.z);
+  const glm::vec3 high(x, y, z);
   return {high, glm::vec3(p_m - glm::dvec3(high))};
 }
 

@@ -1,0 +1,180 @@
+#include "scene/patch_selection.h"
+
+#include <gtest/gtest.h>
+
+#include "patch_test_support.h"
+
+namespace terrella::test {
+namespace {
+
+constexpr int kSegments = 16;
+// What a frame may hold at the most, whatever the camera: more would mean that the subdivision ran away.
+constexpr std::size_t kRunaway = 20000;
+
+std::ostream& operator<<(std::ostream& out, const Camera& c) {
+  return out << c.eye.lat.deg() << ',' << c.eye.lon.deg() << ',' << c.eye.height_m << ',' << c.heading.deg() << ','
+             << c.pitch.deg() << ',' << c.fov_y.deg();
+}
+
+void expect_no_overlap(const std::vector<SelectedPatch>& patches) {
+  const PatchSet leaves = ids_of(patches);
+  EXPECT_EQ(leaves.size(), patches.size()) << "a patch was selected twice";
+  for (const PatchId& id : leaves) {
+    ASSERT_GE(id.level, 1) << "below level 1 a patch may straddle the antimeridian";
+    EXPECT_FALSE(leaf_over(leaves, parent(id))) << "a patch and its ancestor are both drawn";
+  }
+}
+
+void expect_balanced(const std::vector<SelectedPatch>& patches) {
+  const PatchSet leaves = ids_of(patches);
+  for (const SelectedPatch& patch : patches) {
+    for (int side = 0; side < 4; ++side) {
+      const auto other = leaf_over(leaves, neighbour(patch.node->id, static_cast<PatchSide>(side)));
+      const bool coarser = other && other->level < patch.node->id.level;
+      EXPECT_TRUE(!other || other->level >= patch.node->id.level - 1) << "side " << side;
+      EXPECT_EQ((patch.coarse_sides >> side & 1U) != 0, coarser) << "side " << side;
+    }
+  }
+}
+
+/// Rays through the picture's corners, edges and inside: what they hit must be drawn.
+void expect_nothing_visible_culled(const View& view, const Ellipsoid& body, const std::vector<SelectedPatch>& patches,
+                                   Draw& draw) {
+  const PatchSet leaves = ids_of(patches);
+  const double w = view.viewport.width_px, h = view.viewport.height_px;
+  for (int k = 0; k < 60; ++k) {
+    const double x = k % 4 == 0 ? w * draw.whole(0, 1) : draw.between(0.0, w);
+    const double y = k % 4 <= 1 ? h * draw.whole(0, 1) : draw.between(0.0, h);
+    const EcefDir ray = pixel_ray(view, {x, y});
+    const auto distance_m = body.intersect_m(view.eye, ray);
+    if (!distance_m) continue;
+    const EcefDir normal = body.surface_normal(Ecef{view.eye.xyz_m + *distance_m * ray.xyz});
+    EXPECT_TRUE(leaf_over(leaves, patch_at(normal, kMaxPatchLevel))) << "pixel " << x << ", " << y << " has no patch";
+  }
+}
+
+void check(PatchTree& tree, const Camera& camera, Viewport viewport, Draw& draw) {
+  std::ostringstream name;
+  name << "camera " << camera << " picture " << viewport.width_px << 'x' << viewport.height_px << " a "
+       << tree.ellipsoid().a_m();
+  SCOPED_TRACE(name.str());
+  const View view = make_view(camera, tree.ellipsoid(), viewport);
+  std::vector<SelectedPatch> patches;
+  select_patches(tree, view, {}, patches);
+  ASSERT_LT(patches.size(), kRunaway);
+  expect_no_overlap(patches);
+  expect_balanced(patches);
+  expect_nothing_visible_culled(view, tree.ellipsoid(), patches, draw);
+}
+
+TileGrid deep_grid() { return {.max_level = 18}; }
+
+TEST(PatchSelection, TilesWhatIsVisibleForRandomCamerasOnEveryBody) {
+  Draw draw(1);
+  for (const Body& body : selection_bodies()) {
+    PatchTree tree(body.ellipsoid, deep_grid(), kSegments);
+    const double a = body.ellipsoid.a_m();
+    for (int k = 0; k < 100 && !HasFailure(); ++k)
+      check(tree, random_camera(draw, 1.6e-7 * a, 16.0 * a), {1024, 768}, draw);
+  }
+}
+
+TEST(PatchSelection, SurvivesTheHardCameras) {
+  Draw draw(2);
+  for (const Body& body : selection_bodies()) {
+    PatchTree tree(body.ellipsoid, deep_grid(), kSegments);
+    const double a = body.ellipsoid.a_m(), b = body.ellipsoid.b_m();
+    std::vector<Camera> cameras = {camera_at(47, 8, 1.0),
+                                   camera_at(47, 8, 1.0, 30, 0),
+                                   camera_at(47, 8, 1.0, 30, 90),
+                                   camera_at(0, 0, 3.844e8),
+                                   camera_at(-30, 100, 3.844e8, 0, 0),
+                                   camera_at(90, 0, 0.3 * a, 77),
+                                   camera_at(-90, 0, 10, 200, -10),
+                                   camera_at(90, 123, a, 10, -60),
+                                   camera_at(10, 180, 1000, 0, -5),
+                                   camera_at(10, -180, 0.1 * a, 0),
+                                   camera_at(0, 180, 0.01 * a, 90, -89),
+                                   camera_at(45, 45, 0.2 * a, 0, -90, 120),
+                                   camera_at(5, 5, 0.1 * a, 0, 90),
+                                   camera_at(20, 20, -1.0),
+                                   camera_at(20, 20, -0.001 * a, 0, 20),
+                                   camera_at(90, 0, -b),
+                                   camera_at(0, 0, -a, 40, 10),
+                                   camera_at(1, 2, -0.5 * a, 0, 60, 120),
+                                   camera_at(47, 8, 0.0, 0, -10),
+                                   camera_at(47, 8, 1e12)};
+    for (const Camera& camera : cameras) {
+      for (const double fov : {1.0, 40.0, 120.0}) {
+        Camera c = camera;
+        c.fov_y = Angle::degrees(fov);
+        check(tree, c, {512, 512}, draw);
+      }
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(PatchSelection, SurvivesTheSmallestAndTheWidestPicture) {
+  Draw draw(3);
+  PatchTree tree(earth().ellipsoid, deep_grid(), kSegments);
+  for (const Viewport viewport : {Viewport{1, 1}, Viewport{16384, 16}, Viewport{16, 16384}}) {
+    for (const double fov : {1.0, 40.0, 120.0}) {
+      check(tree, camera_at(47, 8, 2000, 30, -20, fov), viewport, draw);
+      check(tree, camera_at(80, 180, 1.0e6, 0, -60, fov), viewport, draw);
+      check(tree, camera_at(0, 0, 4.0e8, 0, -90, fov), viewport, draw);
+    }
+  }
+}
+
+TEST(PatchSelection, SelectsNothingForAViewThatIsNotFinite) {
+  PatchTree tree(earth().ellipsoid, deep_grid(), kSegments);
+  std::vector<SelectedPatch> patches;
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    for (int field = 0; field < 6; ++field) {
+      View view = make_view(camera_at(10, 20, 1.0e6), earth().ellipsoid, {100, 100});
+      double* const fields[] = {&view.eye.xyz_m.x, &view.eye.xyz_m.z, &view.right.y,
+                                &view.up.x,        &view.forward.z,   &view.tan_half_fov_y};
+      *fields[field] = bad;
+      select_patches(tree, view, {}, patches);
+      EXPECT_TRUE(patches.empty()) << "field " << field << " = " << bad;
+    }
+  }
+}
+
+TEST(PatchSelection, GivesTheSameListWhateverWasSelectedBefore) {
+  Draw draw(4);
+  PatchTree used(earth().ellipsoid, deep_grid(), kSegments);
+  std::vector<SelectedPatch> first, again;
+  for (int k = 0; k < 30; ++k) {
+    const View view = make_view(random_camera(draw, 10.0, 1.0e8), earth().ellipsoid, {640, 480});
+    PatchTree fresh(earth().ellipsoid, deep_grid(), kSegments);
+    select_patches(fresh, view, {}, first);
+    select_patches(used, view, {}, again);
+    ASSERT_EQ(first.size(), again.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_EQ(first[i].node->id, again[i].node->id);
+      EXPECT_EQ(first[i].coarse_sides, again[i].coarse_sides);
+      EXPECT_EQ(first[i].tile_level, again[i].tile_level);
+    }
+  }
+}
+
+TEST(PatchSelection, SpheresHoldTheirPatches) {
+  Draw draw(5);
+  for (const Body& body : selection_bodies()) {
+    PatchTree tree(body.ellipsoid, deep_grid(), kSegments);
+    for (int level = 1; level <= 22; level += 3) {
+      const PatchNode& node = node_of(tree, random_patch(draw, level));
+      for (int k = 0; k < 200; ++k) {
+        const EcefDir n = patch_point(node.id, draw.whole(0, 64), draw.whole(0, 64), 64, tree.mapping());
+        const double d = glm::distance(body.ellipsoid.position(n).xyz_m, node.sphere.center_m);
+        // What lies between the mesh's vertices bulges by the mesh's error.
+        EXPECT_LE(d, node.sphere.radius_m + node.geometric_error_m);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace terrella::test
