@@ -19,21 +19,6 @@ constexpr const char* kExamples =
     "  terrella render -o shot.png --camera 46,7,3e5  a picture, without display or GPU\n"
     "  terrella cut picture.tif -o planet.gpkg        tiles from a picture of any size";
 
-void add_commands([[maybe_unused]] CLI::App& app, [[maybe_unused]] int& exit_code) {
-#ifdef TERRELLA_COMMAND_view
-  add_view_command(app, exit_code);
-#endif
-#ifdef TERRELLA_COMMAND_render
-  add_render_command(app, exit_code);
-#endif
-#ifdef TERRELLA_COMMAND_cut
-  add_cut_command(app, exit_code);
-#endif
-#ifdef TERRELLA_COMMAND_info
-  add_info_command(app, exit_code);
-#endif
-}
-
 /// The subcommand that the command line got as far as, or the program: whose --help answers the mistake.
 const CLI::App& innermost(const CLI::App& app) {
   const auto parsed = app.get_subcommands();
@@ -61,7 +46,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kExamples);
   int exit_code = kDone;
-  add_commands(app, exit_code);
+  add_view_command(app, exit_code);
+  add_render_command(app, exit_code);
+  add_cut_command(app, exit_code);
+  add_info_command(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "apps/data_dir.h"
+#include "apps/progress.h"
 #include "streaming/cut.h"
 
 namespace terrella {
@@ -73,6 +74,11 @@ Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const 
   CutOptions cut;
   cut.images = {picture};
   cut.name = picture.stem().string();
+  Progress progress("cutting " + picture.filename().string());
+  cut.progress = [&progress](std::int64_t done, std::int64_t total) {
+    progress.show(done, total);
+    return true;
+  };
   const auto tiles = cut_into_cache(cut, folder);
   if (!tiles) return tiles.error();
   return open_tile_set(*tiles);
