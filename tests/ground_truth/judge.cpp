@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +18,7 @@ constexpr double kFacing_deg = 12.0;
 constexpr double kMidLatitude_deg = 60.0;
 constexpr double kAntimeridian_deg = 2.0;
 constexpr double kAntimeridianSurroundings_deg = 6.0;
+constexpr double kBorderIncidence_deg = 60.0;
 constexpr int kLimbReach_px = 2;
 constexpr int kBorderGap_px = 1;
 constexpr int kBorderSurroundings_px = 12;
@@ -28,6 +30,9 @@ struct Spot {
   bool at_border;
   bool near_border;
 };
+
+// Where borders crowd together, at the limb and the pole, they would be compared with the surroundings of other places.
+bool border_is_open(const Spot& s) { return s.incidence_deg < kBorderIncidence_deg && s.abs_lat_deg < kPoleBand_deg; }
 
 bool contains(Zone zone, const Spot& s) {
   switch (zone) {
@@ -48,9 +53,9 @@ bool contains(Zone zone, const Spot& s) {
     case Zone::mid_latitudes:
       return s.abs_lat_deg < kMidLatitude_deg;
     case Zone::tile_borders:
-      return s.at_border;
+      return s.at_border && border_is_open(s);
     case Zone::border_surroundings:
-      return s.near_border;
+      return s.near_border && border_is_open(s);
   }
   return false;
 }
@@ -69,6 +74,43 @@ PixelError pixel_error(const Picture& shot, const TruthImage& truth, std::size_t
   }
   return error;
 }
+
+// Cells of 10° of incidence by 10° of latitude: within one, a renderer's error is much the same everywhere.
+constexpr double kCell_deg = 10.0;
+constexpr std::size_t kCells = 100;
+std::size_t cell_of(const Spot& s) {
+  return 10 * static_cast<std::size_t>(std::min(9.0, s.incidence_deg / kCell_deg)) +
+         static_cast<std::size_t>(std::min(9.0, s.abs_lat_deg / kCell_deg));
+}
+
+struct ZoneSums {
+  std::array<double, kCells> squares{};
+  std::array<std::size_t, kCells> pixels{};
+  double max = 0.0;
+
+  void add(const PixelError& error, std::size_t cell) {
+    squares[cell] += error.squares;
+    ++pixels[cell];
+    max = std::max(max, error.max);
+  }
+  [[nodiscard]] ZoneError error() const {
+    const std::size_t count = std::accumulate(pixels.begin(), pixels.end(), std::size_t{0});
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    return {count == 0 ? 0.0 : std::sqrt(sum / (3.0 * static_cast<double>(count))), max, count};
+  }
+  // The RMS that these errors would have if they were spread over the cells as the other zone's pixels are.
+  [[nodiscard]] double rms_weighted_like(const ZoneSums& other) const {
+    double sum = 0.0;
+    double weight = 0.0;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      if (pixels[cell] == 0) continue;
+      const auto share = static_cast<double>(other.pixels[cell]);
+      sum += share * squares[cell] / (3.0 * static_cast<double>(pixels[cell]));
+      weight += share;
+    }
+    return weight > 0.0 ? std::sqrt(sum / weight) : error().rms;
+  }
+};
 
 void count(LimbError& limb, const PixelError& error) {
   ++limb.pixels;
@@ -98,6 +140,11 @@ BorderMasks border_masks(const TruthImage& truth, const Spheroid& body, const Ro
   return masks;
 }
 
+Spot spot_of(const TruthImage& truth, const BorderMasks& border, std::size_t at) {
+  return {std::abs(static_cast<double>(truth.lat_deg[at])), 180.0 - std::abs(static_cast<double>(truth.lon_deg[at])),
+          static_cast<double>(truth.incidence_deg[at]), border.at.set[at] != 0, border.surroundings.set[at] != 0};
+}
+
 }  // namespace
 
 std::string_view zone_name(Zone zone) {
@@ -116,6 +163,7 @@ Judgement judge(const Picture& shot, const TruthImage& truth, const Spheroid& bo
   const BorderMasks border = border_masks(truth, body, rows, borders);
   const Mask limb = grown(partly_covered(truth), kLimbReach_px);
   Judgement result{};
+  std::array<ZoneSums, kZones> sums{};
   for (std::size_t at = 0; at < truth.hits.size(); ++at) {
     const PixelError error = pixel_error(shot, truth, at);
     if (!truth.covered(at)) {
@@ -123,20 +171,18 @@ Judgement judge(const Picture& shot, const TruthImage& truth, const Spheroid& bo
       if (limb.set[at]) count(result.limb, error);
       continue;
     }
-    const Spot spot{
-        std::abs(static_cast<double>(truth.lat_deg[at])), 180.0 - std::abs(static_cast<double>(truth.lon_deg[at])),
-        static_cast<double>(truth.incidence_deg[at]), border.at.set[at] != 0, border.surroundings.set[at] != 0};
+    const Spot spot = spot_of(truth, border, at);
     for (std::size_t z = 0; z < kZones; ++z) {
-      if (!contains(static_cast<Zone>(z), spot)) continue;
-      ZoneError& zone = result.zones[z];
-      zone.rms += error.squares;
-      zone.max = std::max(zone.max, error.max);
-      ++zone.pixels;
+      if (contains(static_cast<Zone>(z), spot)) sums[z].add(error, cell_of(spot));
     }
   }
-  for (ZoneError& zone : result.zones) {
-    if (zone.pixels > 0) zone.rms = std::sqrt(zone.rms / (3.0 * static_cast<double>(zone.pixels)));
-  }
+  for (std::size_t z = 0; z < kZones; ++z) result.zones[z] = sums[z].error();
+  const auto weigh = [&](Zone beside, Zone zone) {
+    const auto b = static_cast<std::size_t>(beside);
+    result.zones[b].rms = sums[b].rms_weighted_like(sums[static_cast<std::size_t>(zone)]);
+  };
+  weigh(Zone::antimeridian_surroundings, Zone::antimeridian);
+  weigh(Zone::border_surroundings, Zone::tile_borders);
   return result;
 }
 

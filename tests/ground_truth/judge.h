@@ -21,11 +21,14 @@ enum class Zone {
   clear,                      ///< incidence under 81°
   facing,               ///< incidence under 12°: from four radii, what the pole band is when seen from over the pole
   mid_latitudes,        ///< latitude under 60°
-  tile_borders,         ///< within a pixel of a border between tiles
-  border_surroundings,  ///< 2 to 12 pixels from a tile border
+  tile_borders,         ///< within a pixel of a border between tiles; incidence under 60°, outside the pole bands
+  border_surroundings,  ///< 2 to 12 pixels from a tile border, likewise
 };
 inline constexpr std::size_t kZones = 10;
 [[nodiscard]] std::string_view zone_name(Zone zone);
+
+/// The two surroundings are weighed: their errors count, by cells of 10° of incidence and of latitude, as often as the
+/// zone that they surround has pixels there, so that like is compared with like.
 
 /// The grid whose tile borders are looked at: origin (-180°, 90°), tiles of root_span / 2^level degrees.
 struct TileBorders {

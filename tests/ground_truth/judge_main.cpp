@@ -59,16 +59,16 @@ Picture rounded(const TruthImage& truth) {
 }
 
 void run(const Arguments& arguments) {
-  const Source source = make_source(read_picture(arguments.picture),
-                                    {arguments.projection == "equal-area", arguments.latitude == "centric"});
+  const Source source = make_source(read_picture(arguments.picture));
+  const RowRule rows{arguments.projection == "equal-area", arguments.latitude == "centric"};
   const Picture shot = read_picture(arguments.shot);
   const Spheroid body{arguments.body[0], arguments.body[1]};
   const TruthOptions options{.width = shot.width, .height = shot.height, .rays_per_side = arguments.rays_per_side};
-  const TruthImage truth = cast_cached(source, body, camera_of(arguments.camera), options, arguments.cache);
+  const TruthImage truth = cast_cached(source, rows, body, camera_of(arguments.camera), options, arguments.cache);
   if (!arguments.write_truth.empty()) write_png(rounded(truth), arguments.write_truth);
   std::optional<TileBorders> borders;
   if (!arguments.tiles.empty()) borders = TileBorders{arguments.tiles[0], static_cast<int>(arguments.tiles[1])};
-  const Judgement judgement = judge(shot, truth, body, source.rows, borders);
+  const Judgement judgement = judge(shot, truth, body, rows, borders);
   fmt::print("{}", arguments.json ? as_json(judgement).dump() + "\n" : as_table(judgement));
 }
 

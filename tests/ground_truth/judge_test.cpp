@@ -64,6 +64,20 @@ TEST(JudgeTest, AnErrorCountsInItsZonesOnly) {
   EXPECT_EQ(after[Zone::antimeridian_surroundings].rms, before[Zone::antimeridian_surroundings].rms);
 }
 
+TEST(JudgeTest, SurroundingsAreWeighedLikeTheZone) {
+  // An error that grows with incidence alone: the border zone and its surroundings differ in their pixels' incidence,
+  // but the figures that are compared agree to what a cell of 10° leaves.
+  Picture shot{128, 128, std::vector<std::uint8_t>(3 * 128 * 128)};
+  TruthImage image = truth();
+  for (std::size_t i = 0; i < image.hits.size(); ++i) {
+    const float incidence = std::isnan(image.incidence_deg[i]) ? 0.0F : image.incidence_deg[i];
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) image.rgb[c] = incidence;
+  }
+  const Judgement judgement = judge(shot, image, Spheroid{}, {}, TileBorders{15, 0});
+  constexpr double kWithinCells = 0.03;
+  EXPECT_NEAR(judgement[Zone::tile_borders].rms / judgement[Zone::border_surroundings].rms, 1.0, kWithinCells);
+}
+
 TEST(JudgeTest, ABrightPixelBesideTheDiscCountsAtTheLimb) {
   Picture shot = rounded_truth();
   int x = 0;
@@ -98,8 +112,8 @@ TEST(TileBorderMaskTest, GrowsIntoASquare) {
 TEST(TruthCacheTest, AnswersFromTheFileAndSurvivesADamagedOne) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "terrella_truth_cache_test";
   std::filesystem::remove_all(folder);
-  const Source source = make_source(noise_planet({.width = 256, .height = 128}), {});
-  const auto ask = [&] { return cast_cached(source, Spheroid{}, kCamera, kOptions, folder); };
+  const Source source = make_source(noise_planet({.width = 256, .height = 128}));
+  const auto ask = [&] { return cast_cached(source, {}, Spheroid{}, kCamera, kOptions, folder); };
   EXPECT_EQ(ask().rgb, truth().rgb);
   EXPECT_EQ(ask().hits, truth().hits);
   ASSERT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);

@@ -68,28 +68,28 @@ void store(const std::filesystem::path& file, const std::string& key, const Trut
 
 }  // namespace
 
-Source make_source(Picture picture, RowRule rows) {
+Source make_source(Picture picture) {
   const std::uint64_t print = fingerprint(picture);
-  return {std::move(picture), print, rows};
+  return {std::move(picture), print};
 }
 
-std::string truth_key(const Source& source, const Spheroid& body, const TruthCamera& camera,
+std::string truth_key(const Source& source, const RowRule& rows, const Spheroid& body, const TruthCamera& camera,
                       const TruthOptions& options) {
   return fmt::format("v{} {:016x} {}x{} area {} centric {} body {},{} camera {},{},{},{},{},{} size {}x{} rays {}",
                      kRayCasterVersion, source.fingerprint, source.picture.width, source.picture.height,
-                     source.rows.equal_area, source.rows.centric, body.a_m, body.f, camera.eye.lat_deg,
-                     camera.eye.lon_deg, camera.eye.height_m, camera.heading_deg, camera.pitch_deg, camera.fov_deg,
-                     options.width, options.height, options.rays_per_side);
+                     rows.equal_area, rows.centric, body.a_m, body.f, camera.eye.lat_deg, camera.eye.lon_deg,
+                     camera.eye.height_m, camera.heading_deg, camera.pitch_deg, camera.fov_deg, options.width,
+                     options.height, options.rays_per_side);
 }
 
-TruthImage cast_cached(const Source& source, const Spheroid& body, const TruthCamera& camera,
+TruthImage cast_cached(const Source& source, const RowRule& rows, const Spheroid& body, const TruthCamera& camera,
                        const TruthOptions& options, const std::filesystem::path& folder) {
-  if (folder.empty()) return cast(source.picture, source.rows, body, camera, options);
-  const std::string key = truth_key(source, body, camera, options);
+  if (folder.empty()) return cast(source.picture, rows, body, camera, options);
+  const std::string key = truth_key(source, rows, body, camera, options);
   const std::filesystem::path file = folder / fmt::format("truth_{:016x}.bin", std::hash<std::string>{}(key));
   if (std::optional<TruthImage> image = load(file, key, options)) return std::move(*image);
   std::filesystem::create_directories(folder);
-  TruthImage image = cast(source.picture, source.rows, body, camera, options);
+  TruthImage image = cast(source.picture, rows, body, camera, options);
   store(file, key, image);
   return image;
 }
