@@ -16,7 +16,9 @@ Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& p
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
   if (is_sqlite_file(path)) return open_geopackage(path);
-  if (const auto head = read_head(path, 1); !head) return Error{head.error().message};
+  const auto head = read_head(path, 1);
+  if (!head) return Error{head.error().message};
+  if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
   return Error{
       fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
                   "and a GeoPackage in EPSG:4326",

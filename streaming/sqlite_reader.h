@@ -16,8 +16,8 @@ struct sqlite3_stmt;
 namespace terrella {
 
 /// How long one row may take, in steps of SQLite's virtual machine; the file's schema decides what a query does, and a
-/// hostile view never ends. Several seconds.
-inline constexpr std::int64_t kMaxRowSteps = 300'000'000;
+/// hostile view never ends. A second or two.
+inline constexpr std::int64_t kMaxRowSteps = 20'000'000;
 
 enum class SqlProblem {
   busy,    ///< another process holds the file; may be asked again

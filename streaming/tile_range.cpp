@@ -1,6 +1,7 @@
 #include "streaming/tile_range.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,71 +13,71 @@ struct Span {
   std::int64_t first, last;
 };
 
-/// The tiles that reach over [low, high], counted in tiles, with one more on each side: exists() has the last word.
-Span candidates(double low, double high, std::int64_t count) {
-  return {std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(low)) - 1),
-          std::min(count - 1, static_cast<std::int64_t>(std::ceil(high)) + 1)};
-}
-
-std::vector<Span> column_spans(const TileGrid& grid, int level) {
-  const std::int64_t count = columns(grid, level);
-  const double west = tile_xy(grid, level, 0.0, grid.bounds.west.deg()).x;
-  const double east = tile_xy(grid, level, 0.0, grid.bounds.east.deg()).x;
-  if (grid.bounds.west < grid.bounds.east) return {candidates(west, east, count)};
-  const Span before = candidates(0.0, east, count);
-  const Span after = candidates(west, static_cast<double>(count), count);
-  if (after.first <= before.last) return {{before.first, after.last}};
-  return {before, after};
-}
-
-Span row_span(const TileGrid& grid, int level) {
-  return candidates(tile_xy(grid, level, grid.bounds.north.deg(), 0.0).y,
-                    tile_xy(grid, level, grid.bounds.south.deg(), 0.0).y, rows(grid, level));
-}
-
-/// Narrows a span to the tiles for which `is_there` holds; they are neighbours of one another, and its ends are near
-/// theirs.
+/// The numbers for which `is_there` holds among those that reach over [low, high]; it knows about slivers and has the
+/// last word on the first and the last. Both are looked for from one number outside at most, so that what exists for
+/// another reason (the same bounds a turn away) cannot be taken for this span's end with a gap between.
 template <class IsThere>
-Span narrowed(Span span, const IsThere& is_there) {
+Span span_over(double low, double high, std::int64_t count, const IsThere& is_there) {
+  const auto most = static_cast<double>(count);
+  Span span{static_cast<std::int64_t>(std::clamp(std::ceil(low) - 1.0, 0.0, most)),
+            static_cast<std::int64_t>(std::clamp(std::floor(high), -1.0, most - 1.0))};
   while (span.first <= span.last && !is_there(span.first)) ++span.first;
   while (span.last >= span.first && !is_there(span.last)) --span.last;
   return span;
 }
 
-/// True if the row exists; the first column that does is among the first few candidates.
-bool touches_row(const TileGrid& grid, int level, const Span& columns, std::int64_t y) {
-  for (std::int64_t x = columns.first; x <= std::min(columns.first + 3, columns.last); ++x) {
-    if (exists(grid, {level, x, y})) return true;
+// A tile exists if its column touches the bounds' longitudes and its row their latitudes, so each can be found with the
+// other bounds open.
+Span rows_in_bounds(const TileGrid& grid, int level) {
+  TileGrid band = grid;
+  band.bounds.west = GeoRect{}.west;
+  band.bounds.east = GeoRect{}.east;
+  const double north = tile_xy(grid, level, grid.bounds.north.deg(), 0.0).y;
+  const double south = tile_xy(grid, level, grid.bounds.south.deg(), 0.0).y;
+  return span_over(north, south, rows(grid, level), [&](std::int64_t y) { return exists(band, {level, 0, y}); });
+}
+
+/// Ascending, each column once. Bounds over ±180° give two spans; a last column that reaches over 180° may belong to
+/// the bounds that begin at -180°.
+std::vector<Span> columns_in_bounds(const TileGrid& grid, int level) {
+  TileGrid wedge = grid;
+  wedge.bounds.south = GeoRect{}.south;
+  wedge.bounds.north = GeoRect{}.north;
+  const double west_deg = grid.bounds.west.deg();
+  const double east_deg = grid.bounds.east.deg() + (grid.bounds.east < grid.bounds.west ? 360.0 : 0.0);
+  std::vector<Span> spans;
+  constexpr std::array kTurnsDeg{-360.0, 0.0, 360.0};
+  for (const double turn_deg : kTurnsDeg) {
+    const double west = tile_xy(grid, level, 0.0, west_deg + turn_deg).x;
+    const double east = tile_xy(grid, level, 0.0, east_deg + turn_deg).x;
+    Span span = span_over(west, east, columns(grid, level), [&](std::int64_t x) {
+      return exists(wedge, {level, x, 0});
+    });
+    if (!spans.empty()) span.first = std::max(span.first, spans.back().last + 1);
+    if (span.first <= span.last) spans.push_back(span);
   }
-  return false;
+  return spans;
 }
 
 }  // namespace
 
 void for_each_place(const TileGrid& grid, int level, const std::function<bool(const TileId&)>& call) {
-  const Span rows = row_span(grid, level);
-  const std::vector<Span> spans = column_spans(grid, level);
+  const Span rows = rows_in_bounds(grid, level);
+  const std::vector<Span> columns = columns_in_bounds(grid, level);
   for (std::int64_t y = rows.first; y <= rows.last; ++y) {
-    for (const Span& span : spans) {
+    for (const Span& span : columns) {
       for (std::int64_t x = span.first; x <= span.last; ++x) {
-        const TileId id{level, x, y};
-        if (exists(grid, id) && !call(id)) return;
+        if (!call({level, x, y})) return;
       }
     }
   }
 }
 
 std::int64_t count_places(const TileGrid& grid, int level) {
-  const Span all_rows = row_span(grid, level);
-  std::int64_t count = 0;
-  for (const Span& all_columns : column_spans(grid, level)) {
-    // Rows and columns are independent of one another: a tile exists if its row and its column touch the bounds.
-    const Span rows = narrowed(all_rows, [&](std::int64_t y) { return touches_row(grid, level, all_columns, y); });
-    if (rows.first > rows.last) continue;
-    const Span columns = narrowed(all_columns, [&](std::int64_t x) { return exists(grid, {level, x, rows.first}); });
-    count += (rows.last - rows.first + 1) * std::max<std::int64_t>(0, columns.last - columns.first + 1);
-  }
-  return count;
+  const Span rows = rows_in_bounds(grid, level);
+  std::int64_t columns = 0;
+  for (const Span& span : columns_in_bounds(grid, level)) columns += span.last - span.first + 1;
+  return columns * std::max<std::int64_t>(0, rows.last - rows.first + 1);
 }
 
 }  // namespace terrella
