@@ -58,7 +58,8 @@ bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
   return second;
 }
 
-Input::Input(Window& window, Navigator& navigator) : window_(window), navigator_(navigator) {
+Input::Input(Window& window, Navigator& navigator)
+    : window_(window), navigator_(navigator), pointer_px_(window.cursor_px()) {
   glfwSetWindowUserPointer(window_.handle(), this);
   listen_to_pointer();
   listen_to_keys();
@@ -73,22 +74,23 @@ bool Input::take_dirty() { return std::exchange(dirty_, false); }
 
 std::optional<glm::dvec2> Input::cursor_px() const {
   if (glfwGetWindowAttrib(window_.handle(), GLFW_HOVERED) != GLFW_TRUE) return {};
-  return window_.cursor_px();
+  return pointer_px_;
 }
 
 void Input::listen_to_pointer() {
   glfwSetMouseButtonCallback(window_.handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
     input_of(w).on_button(button, action, modifiers);
   });
-  glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double, double) {
+  glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double x, double y) {
     Input& self = input_of(w);
-    self.navigator_.pointer_move(self.window_.cursor_px(), now());
+    self.pointer_px_ = self.window_.to_px({x, y});
+    self.navigator_.pointer_move(self.pointer_px_, now());
     self.dirty_ = true;
   });
   glfwSetCursorEnterCallback(window_.handle(), [](GLFWwindow* w, int) { input_of(w).dirty_ = true; });
   glfwSetScrollCallback(window_.handle(), [](GLFWwindow* w, double, double steps) {
     Input& self = input_of(w);
-    self.navigator_.wheel(self.window_.cursor_px(), steps, now());
+    self.navigator_.wheel(self.pointer_px_, steps, now());
     self.dirty_ = true;
   });
 }
@@ -113,7 +115,7 @@ void Input::on_button(int button, int action, int modifiers) {
     navigator_.pointer_up(which, now());
     return;
   }
-  const glm::dvec2 at = window_.cursor_px();
+  const glm::dvec2 at = pointer_px_;
   const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
   if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), kClickSlack_px * window_.text_scale())) {
     navigator_.double_click(at, now());

@@ -52,6 +52,9 @@ class Input {
 
   Window& window_;
   Navigator& navigator_;
+  /// Of the last event. The window would say where the cursor is now, and after a slow frame that is not where a button
+  /// went down.
+  glm::dvec2 pointer_px_;
   ClickPair clicks_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;

@@ -3,15 +3,18 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
 
 namespace terrella {
 namespace {
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
-constexpr float kMargin = 0.8F;  // of the text's height, between panels and the window's edge
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr float kMargin = 0.8F;         // of the text's height, between panels and the window's edge
+constexpr float kFootOfMessage = 3.6F;  // of the text's height: over the status line
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kShade = IM_COL32(0, 0, 0, 150);
 
@@ -35,54 +38,58 @@ ImVec2 to_ui(glm::dvec2 px, double unit_px) {
   return {static_cast<float>(px.x / unit_px), static_cast<float>(px.y / unit_px)};
 }
 
-/// Starts a panel held by a corner: pivot (0, 1) is its lower left one.
-void begin_panel(const char* name, ImVec2 at, ImVec2 pivot) {
+/// Starts a panel of a given inner size, held by a corner: pivot (0, 1) is its lower left one. ImGui's own fitting
+/// takes a frame to follow the text, and the viewer may draw only one.
+void begin_panel(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowSize({std::ceil(inner.x + 2.0F * padding.x), std::ceil(inner.y + 2.0F * padding.y)});
   ImGui::Begin(name, nullptr, kFixed);
 }
 
 float margin() { return kMargin * ImGui::GetFontSize(); }
 
-void draw_fields(const PanelStatus& status, ImVec2 lower_left) {
-  begin_panel("##status", lower_left, {0.0F, 1.0F});
-  bool first = true;
-  const auto put = [&](const std::string& text, bool quiet) {
-    if (text.empty()) return;
-    if (!first) ImGui::SameLine(0.0F, 1.3F * ImGui::GetFontSize());
-    first = false;
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(quiet ? ImGuiCol_TextDisabled : ImGuiCol_Text));
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-  };
-  put(status.cursor, false);
-  put(status.eye, false);
-  put(status.tiles, true);
-  put(status.frame, true);
+struct Field {
+  std::string text;
+  bool quiet = false;
+};
+
+void draw_text(const Field& field) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(field.quiet ? ImGuiCol_TextDisabled : ImGuiCol_Text));
+  ImGui::TextUnformatted(field.text.c_str());
+  ImGui::PopStyleColor();
+}
+
+/// A panel with one line of text; none if there is no text.
+void draw_row(const char* name, std::vector<Field> fields, ImVec2 at, ImVec2 pivot) {
+  std::erase_if(fields, [](const Field& field) { return field.text.empty(); });
+  if (fields.empty()) return;
+  const float gap = 1.3F * ImGui::GetFontSize();
+  float width = -gap;
+  for (const Field& field : fields) width += gap + ImGui::CalcTextSize(field.text.c_str()).x;
+  begin_panel(name, at, pivot, {width, ImGui::GetFontSize()});
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0.0F, gap);
+    draw_text(fields[i]);
+  }
   ImGui::End();
 }
 
 void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
-  begin_panel("##scale", lower_right, {1.0F, 1.0F});
   const std::string text = length_text(bar.length_m);
   const float width = static_cast<float>(bar.width_px / unit_px);
-  const float tick = 0.35F * ImGui::GetFontSize();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   const float row = std::max(width, text_width);
+  const float tick = 0.35F * ImGui::GetFontSize();
+  const float height = ImGui::GetFontSize() + tick + 2.0F;
+  begin_panel("##scale", lower_right, {1.0F, 1.0F}, {row, height});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddText({at.x + 0.5F * (row - text_width), at.y}, kInk, text.c_str());
   const float left = at.x + 0.5F * (row - width);
-  const float base = at.y + ImGui::GetFontSize() + tick + 2.0F;
+  const float base = at.y + height;
   const ImVec2 points[] = {{left, base - tick}, {left, base}, {left + width, base}, {left + width, base - tick}};
   list->AddPolyline(points, 4, kInk, 0, 1.5F);
-  ImGui::Dummy({row, base - at.y + 2.0F});
-  ImGui::End();
-}
-
-void draw_note(const char* name, const std::string& text, ImVec2 at, ImVec2 pivot) {
-  if (text.empty()) return;
-  begin_panel(name, at, pivot);
-  ImGui::TextUnformatted(text.c_str());
   ImGui::End();
 }
 
@@ -98,28 +105,34 @@ void shaded_text(ImDrawList* list, ImVec2 at, const char* text) {
 void draw_status(const PanelStatus& status, double unit_px) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float gap = margin();
-  draw_fields(status, {gap, size.y - gap});
+  draw_row("##status", {{status.cursor}, {status.eye}, {status.tiles, true}, {status.frame, true}}, {gap, size.y - gap},
+           {0.0F, 1.0F});
   if (status.scale) draw_scale(*status.scale, {size.x - gap, size.y - gap}, unit_px);
-  draw_note("##attribution", status.attribution, {size.x - gap, gap}, {1.0F, 0.0F});
-  draw_note("##message", status.message, {0.5F * size.x, gap}, {0.5F, 0.0F});
+  draw_row("##attribution", {{status.attribution, true}}, {size.x - gap, gap}, {1.0F, 0.0F});
+  draw_row("##message", {{status.message}}, {0.5F * size.x, size.y - kFootOfMessage * ImGui::GetFontSize()},
+           {0.5F, 1.0F});
 }
 
 void draw_help() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowBgAlpha(0.9F);
-  begin_panel("##help", {0.5F * size.x, 0.5F * size.y}, {0.5F, 0.5F});
-  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.8F * ImGui::GetFontSize(), 0.22F * ImGui::GetFontSize()});
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const auto& [keys, what] : kHelp) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(keys);
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", what);
-    }
-    ImGui::EndTable();
+  const float line = 1.45F * ImGui::GetFontSize();
+  float keys = 0.0F, whats = 0.0F;
+  for (const auto& [key, what] : kHelp) {
+    keys = std::max(keys, ImGui::CalcTextSize(key).x);
+    whats = std::max(whats, ImGui::CalcTextSize(what).x);
   }
-  ImGui::PopStyleVar();
+  const float second = keys + 1.8F * ImGui::GetFontSize();
+  ImGui::SetNextWindowBgAlpha(0.9F);
+  begin_panel("##help", {0.5F * size.x, 0.5F * size.y}, {0.5F, 0.5F}, {second + whats, line * float(std::size(kHelp))});
+  ImVec2 at = ImGui::GetCursorPos();
+  at.y += 0.5F * (line - ImGui::GetFontSize());
+  for (const auto& [key, what] : kHelp) {
+    ImGui::SetCursorPos(at);
+    draw_text({key});
+    ImGui::SetCursorPos({at.x + second, at.y});
+    draw_text({what, true});
+    at.y += line;
+  }
   ImGui::End();
 }
 

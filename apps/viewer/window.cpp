@@ -100,6 +100,10 @@ glm::dvec2 Window::pixels_per_unit() const {
 glm::dvec2 Window::cursor_px() const {
   glm::dvec2 at(0.0);
   glfwGetCursorPos(window_, &at.x, &at.y);
+  return to_px(at);
+}
+
+glm::dvec2 Window::to_px(glm::dvec2 at) const {
   // Window systems name a pixel by its corner; the middle of it is half a unit on.
   return (at + 0.5) * pixels_per_unit();
 }

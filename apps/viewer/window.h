@@ -27,7 +27,9 @@ class Window {
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
   /// Pixels of the framebuffer; 0 × 0 while the window is minimised.
   [[nodiscard]] Viewport framebuffer() const;
-  /// Where the cursor is in framebuffer pixels, pixel centres at halves.
+  /// A cursor's place in the window's own coordinates as framebuffer pixels, pixel centres at halves.
+  [[nodiscard]] glm::dvec2 to_px(glm::dvec2 at) const;
+  /// Where the cursor is now, framebuffer pixels.
   [[nodiscard]] glm::dvec2 cursor_px() const;
   /// How much larger than at 96 dots per inch text must be, in framebuffer pixels.
   [[nodiscard]] float text_scale() const;

@@ -11,8 +11,10 @@ namespace {
 
 constexpr Seconds kLongestStep(0.25);  // a slower frame, or a clock that jumps, counts as this
 constexpr Seconds kFlickMemory(0.1);   // a pointer that rested as long before its release does not flick
+constexpr Seconds kFlickBase(0.15);    // what its speed is taken over
+constexpr Seconds kShortestFlick(0.03);
 constexpr double kSlowestFlick_px_s = 60.0;
-constexpr double kClickSlack_px = 6.0;    // a hand that clicks slips as far
+constexpr double kClickSlack_px = 6.0;  // a hand that clicks slips as far
 constexpr double kFastestFlick_px_s = 6000.0;
 constexpr double kGlideStops_px_s = 4.0;
 constexpr Seconds kGlideDecay(0.3);
@@ -65,7 +67,7 @@ void Navigator::pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, 
   advance(now);
   if (button == PointerButton::left && !ctrl) {
     const Grab held = grab_at(at_px);
-    motion_ = Drag{camera_, held.point, heading_rule(camera_, ellipsoid_, held.point), at_px, at_px, {}, now};
+    motion_ = Drag{camera_, held.point, heading_rule(camera_, ellipsoid_, held.point), at_px, {{at_px, now}}};
     return;
   }
   const Grab centre = grab_at(centre_px());
@@ -76,16 +78,12 @@ void Navigator::pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, 
 
 void Navigator::pointer_move(glm::dvec2 at_px, Seconds now) {
   if (!finite(at_px) || !finite(now)) return;
-  const Seconds passed = pass(now);
+  (void)pass(now);
   if (const Turn* turn = std::get_if<Turn>(&motion_)) turn_to(*turn, at_px);
   Drag* drag = std::get_if<Drag>(&motion_);
-  if (drag == nullptr || drag->at_px == at_px) return;
-  // Several moves can share one time; a floor on the interval keeps their speed finite.
-  const Seconds since = std::clamp(Seconds(now - drag->moved_at), Seconds(0.001), kLongestStep);
-  const double old = decay(std::max(passed, since), 0.5 * kFlickMemory);
-  drag->speed_px_s = old * drag->speed_px_s + (1.0 - old) * ((at_px - drag->at_px) / since.count());
-  drag->at_px = at_px;
-  drag->moved_at = now;
+  if (drag == nullptr || drag->trail.back().at_px == at_px) return;
+  std::erase_if(drag->trail, [&](const Sample& s) { return s.when > now || now - s.when > kFlickBase; });
+  drag->trail.push_back({at_px, now});
   pin_drag(*drag);
 }
 
@@ -93,16 +91,10 @@ void Navigator::pointer_up(PointerButton, Seconds now) {
   if (!finite(now)) return;
   (void)pass(now);
   const Drag* drag = std::get_if<Drag>(&motion_);
-  if (drag == nullptr) {
-    if (std::holds_alternative<Turn>(motion_)) motion_ = Rest{};
-    return;
-  }
-  const bool flick = now >= drag->moved_at && now - drag->moved_at < kFlickMemory &&
-                     glm::distance(drag->at_px, drag->from_px) > kClickSlack_px &&
-                     glm::length(drag->speed_px_s) > kSlowestFlick_px_s;
-  if (flick) {
-    motion_ = Glide{drag->at_px, limited(drag->speed_px_s, kFastestFlick_px_s)};
-  } else {
+  const glm::dvec2 speed_px_s = drag != nullptr ? flick_px_s(*drag, now) : glm::dvec2(0.0);
+  if (glm::length(speed_px_s) > kSlowestFlick_px_s) {
+    motion_ = Glide{drag->trail.back().at_px, speed_px_s};
+  } else if (!animating()) {
     motion_ = Rest{};
   }
 }
@@ -185,7 +177,17 @@ void Navigator::pin_drag(const Drag& drag) {
   // A carried heading depends on the way; taken from the start each time, a drag out and back ends where it began. A
   // kept heading has two solutions near a pole, and going on from the last one stays on its branch.
   const Camera& from = drag.rule == HeadingRule::carry ? drag.start : camera_;
-  camera_ = pin(from, ellipsoid_, viewport_, drag.held, drag.at_px, drag.rule);
+  camera_ = pin(from, ellipsoid_, viewport_, drag.held, drag.trail.back().at_px, drag.rule);
+}
+
+glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now) {
+  const Sample& last = drag.trail.back();
+  const bool rested = last.when > now || now - last.when > kFlickMemory;
+  if (rested || glm::distance(last.at_px, drag.from_px) <= kClickSlack_px) return glm::dvec2(0.0);
+  // Over the whole trail, not between its samples: a slow frame delivers many moves at one time.
+  const Sample& first = drag.trail.front();
+  const Seconds took = std::max(Seconds(now - first.when), kShortestFlick);
+  return limited((last.at_px - first.at_px) / took.count(), kFastestFlick_px_s);
 }
 
 void Navigator::shift(glm::dvec2 from_px, glm::dvec2 by_px) {

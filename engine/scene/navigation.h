@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "geo/camera.h"
 #include "scene/flight.h"
@@ -48,14 +49,16 @@ class Navigator {
 
  private:
   struct Rest {};
+  struct Sample {
+    glm::dvec2 at_px;
+    Seconds when;
+  };
   struct Drag {
     Camera start;
     Ecef held;
     HeadingRule rule;
     glm::dvec2 from_px;
-    glm::dvec2 at_px;
-    glm::dvec2 speed_px_s{0.0};  ///< smoothed over the last tenth of a second
-    Seconds moved_at;
+    std::vector<Sample> trail;  ///< where the pointer was in the last moments; never empty
   };
   struct Turn {
     std::optional<Orbit> orbit;  ///< none where the picture's centre shows the sky: the eye turns in its place
@@ -92,6 +95,7 @@ class Navigator {
   [[nodiscard]] Grab grab_at(glm::dvec2 at_px) const;
   void pin_to(const Ecef& point, glm::dvec2 at_px, HeadingRule rule);
   void pin_drag(const Drag& drag);
+  [[nodiscard]] static glm::dvec2 flick_px_s(const Drag& drag, Seconds now);
   void shift(glm::dvec2 from_px, glm::dvec2 by_px);
   void set_height(double height_m);
   void zoom_by(double factor, std::optional<glm::dvec2> at_px);

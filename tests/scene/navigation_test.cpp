@@ -152,6 +152,24 @@ TEST(Glide, GoesOnInTheSameDirectionAndStops) {
   EXPECT_LT(took, Seconds(4.0));
 }
 
+TEST(Glide, IsAsFastWhenMovesComeInBundles) {
+  // 600 px/s, once as 10 moves of 1/60 s and once as 3 frames of a slow program that gets several moves at one time.
+  const auto glided_deg = [](int per_frame) {
+    Hand hand(camera(0.0, 0.0, 3.0e6));
+    hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
+    for (int i = 1; i <= 12; ++i) {
+      if (i % per_frame == 0) hand.now += Seconds(per_frame * kFrame_s);
+      hand.navigator.pointer_move(kCentre + glm::dvec2(10.0 * i, 0.0), hand.now + Seconds(1e-6 * i));
+    }
+    hand.navigator.pointer_up(PointerButton::left, hand.now + Seconds(1e-4));
+    const double released_deg = hand.navigator.camera().eye.lon.deg();
+    hand.settle();
+    return released_deg - hand.navigator.camera().eye.lon.deg();
+  };
+  EXPECT_GT(glided_deg(1), 1.0);
+  EXPECT_NEAR(glided_deg(4) / glided_deg(1), 1.0, 0.35);
+}
+
 TEST(Glide, DoesNotFollowFromAClickThatSlipped) {
   Hand hand(camera(20.0, 50.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);

@@ -1,0 +1,166 @@
+"""A display of our own, the viewer in it, and a hand that sends real key and pointer events to it."""
+
+import os
+import queue
+import re
+import shutil
+import subprocess
+import threading
+import time
+import unittest
+from pathlib import Path
+
+from ellipsoid_camera import Camera
+
+PROGRAM = os.environ.get("TERRELLA", "terrella")
+ARTEFACTS = Path(os.environ.get("WINDOW_ARTEFACTS", "window-artefacts"))
+SIZE = (640, 480)
+PATIENCE_S = 60.0  # software GL on a loaded machine
+
+
+def wait_until(what, condition, seconds=PATIENCE_S):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.05)
+    raise AssertionError(f"waited {seconds} s in vain for {what}")
+
+
+class Display:
+    """An X server on the first free display, without a window manager."""
+
+    def __init__(self):
+        read_end, write_end = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "800x600x24", "-nolisten", "tcp"],
+            pass_fds=[write_end],
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            number = pipe.readline().strip()
+        if not number:
+            raise RuntimeError("Xvfb does not start")
+        self.environment = {**os.environ, "DISPLAY": f":{number}", "LIBGL_ALWAYS_SOFTWARE": "1"}
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class Viewer:
+    """The program in a window; what it prints of its camera."""
+
+    def __init__(self, display, folder, *options):
+        self.environment = display.environment
+        command = [PROGRAM, "view", "--size", f"{SIZE[0]}x{SIZE[1]}", "--print-camera", *options]
+        self.program = subprocess.Popen(
+            command, cwd=folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        self.lines = queue.Queue()
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+        self.camera = None
+        self.next_camera()
+        self.window = wait_until("the window", self._find_window)
+
+    def _read(self):
+        for line in self.program.stdout:
+            self.lines.put(line.strip())
+
+    def _find_window(self):
+        found = self.xdotool("search", "--onlyvisible", "--name", "^Terrella", check=False).split()
+        return found[0] if found else None
+
+    def xdotool(self, *arguments, check=True):
+        done = subprocess.run(["xdotool", *arguments], env=self.environment, capture_output=True, text=True, timeout=60)
+        if check and done.returncode != 0:
+            raise RuntimeError(f"xdotool {arguments}: {done.stderr}")
+        return done.stdout
+
+    def next_camera(self):
+        """Waits for the camera to come to rest somewhere else, and for good."""
+        self.camera = Camera(self.lines.get(timeout=PATIENCE_S), SIZE)
+        while True:
+            try:
+                self.camera = Camera(self.lines.get(timeout=0.8), SIZE)
+            except queue.Empty:
+                return self.camera
+
+    def camera_stays(self, seconds=1.0):
+        try:
+            return self.lines.get(timeout=seconds) is None
+        except queue.Empty:
+            return True
+
+    # The cursor is put on pixel (x, y); what it points at is that pixel's middle.
+
+    def move(self, x, y):
+        self.xdotool("mousemove", "--window", self.window, str(x), str(y))
+
+    def drag(self, start, end, button=1, steps=6):
+        self.move(*start)
+        self.xdotool("mousedown", str(button))
+        for i in range(1, steps + 1):
+            self.move(*(round(a + (b - a) * i / steps) for a, b in zip(start, end)))
+            time.sleep(0.05)
+        time.sleep(1.0)  # a hand that rests before it lets go does not flick
+        self.xdotool("mouseup", str(button))
+
+    def wheel(self, x, y, clicks):
+        self.move(x, y)
+        self.xdotool("click", "--repeat", str(abs(clicks)), "--delay", "60", "4" if clicks > 0 else "5")
+
+    def double_click(self, x, y):
+        self.move(x, y)
+        self.xdotool("click", "--repeat", "2", "--delay", "80", "1")
+
+    def key(self, name):
+        self.xdotool("key", name)
+
+    def geometry(self):
+        text = self.xdotool("getwindowgeometry", "--shell", self.window)
+        values = dict(re.findall(r"(\w+)=(-?\d+)", text))
+        return tuple(int(values[name]) for name in ("X", "Y", "WIDTH", "HEIGHT"))
+
+    def close(self):
+        if self.program.poll() is None:
+            self.program.terminate()
+        self.program.wait()
+        self.reader.join()
+        self.program.stdout.close()
+        self.program.stderr.close()
+
+
+class WindowTest(unittest.TestCase):
+    """Each test has a viewer of its own, on a display that they share."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display()
+        cls.addClassCleanup(cls.display.close)
+
+    def start(self, *options):
+        self.folder = ARTEFACTS / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+        viewer = Viewer(self.display, self.folder, *options)
+        self.addCleanup(viewer.close)
+        return viewer
+
+    def screenshot(self, viewer, name):
+        """Presses F12, waits for the file to be whole and keeps it under a name."""
+        viewer.key("F12")
+
+        def whole():
+            files = list(self.folder.glob("terrella-*.png"))
+            return files if files and files[0].read_bytes().endswith(b"IEND\xaeB`\x82") else None
+
+        files = wait_until("the screenshot", whole)
+        self.assertEqual(len(files), 1)
+        self.assertRegex(files[0].name, r"^terrella-\d{8}-\d{6}\.png$")
+        kept = self.folder / f"{name}.png"
+        files[0].rename(kept)
+        return kept

@@ -1,0 +1,118 @@
+"""Every key, and what one sees of it."""
+
+import os
+import subprocess
+import time
+import unittest
+
+import png
+from real_window import PROGRAM, SIZE, WindowTest, wait_until
+
+
+class Keys(WindowTest):
+    def test_arrows_move(self):
+        viewer = self.start("--camera", "10,20,3000000")
+        for key, lat_sign, lon_sign in (("Up", 1, 0), ("Down", -1, 0), ("Left", 0, -1), ("Right", 0, 1)):
+            with self.subTest(key):
+                before = viewer.camera
+                viewer.key(key)
+                after = viewer.next_camera()
+                for moved, sign in ((after.lat - before.lat, lat_sign), (after.lon - before.lon, lon_sign)):
+                    self.assertTrue(moved * sign > 0.5 if sign else abs(moved) < 0.3, (key, moved))
+
+    def test_plus_and_minus_zoom(self):
+        viewer = self.start("--camera", "10,20,3000000")
+        viewer.key("plus")
+        self.assertLess(viewer.next_camera().height_m, 2.5e6)
+        viewer.key("minus")
+        self.assertAlmostEqual(viewer.next_camera().height_m, 3.0e6, delta=1.0)
+        viewer.key("KP_Add")
+        self.assertLess(viewer.next_camera().height_m, 2.5e6)
+
+    def test_n_puts_north_up(self):
+        viewer = self.start("--camera", "46,7,300000,130,-50")
+        centre = viewer.camera.ground(SIZE[0] / 2, SIZE[1] / 2)
+        viewer.key("n")
+        after = viewer.next_camera()
+        self.assertAlmostEqual(after.heading, 0.0, delta=0.01)
+        self.assertLess(after.miss_px(centre, SIZE[0] / 2, SIZE[1] / 2), 1.0)
+
+    def test_home_shows_the_whole_globe(self):
+        viewer = self.start("--camera", "46,7,300000,130,-50")
+        viewer.key("Home")
+        after = viewer.next_camera()
+        self.assertEqual((after.heading, after.pitch), (0.0, -90.0))
+        self.assertIsNotNone(after.ground(SIZE[0] / 2, 50))
+        self.assertIsNone(after.ground(SIZE[0] / 2, 10))
+        self.screenshot(viewer, "home")
+
+    def test_g_draws_the_graticule(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        plain = png.read(self.screenshot(viewer, "without"))
+        viewer.key("g")
+        lined = png.read(self.screenshot(viewer, "graticule"))
+        self.assertEqual(plain[:2], SIZE)
+        self.assertGreater(png.changed(plain, lined), 2000)  # 20 lines of some 300 px, where the ground is not bright
+        viewer.key("g")
+        again = png.read(self.screenshot(viewer, "without_again"))
+        self.assertLess(png.changed(plain, again), 6000)  # the panels' words
+
+    def test_help_comes_and_goes(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        plain = png.read(self.screenshot(viewer, "without"))
+        viewer.key("F1")
+        helped = png.read(self.screenshot(viewer, "help"))
+        self.assertGreater(png.changed(plain, helped), 20000)
+        viewer.key("question")
+        again = png.read(self.screenshot(viewer, "closed"))
+        self.assertLess(png.changed(plain, again), 6000)
+
+    def test_f_fills_the_screen_and_goes_back(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        before = viewer.geometry()
+        viewer.key("f")
+        wait_until("the full screen", lambda: viewer.geometry() == (0, 0, 800, 600))
+        self.assertEqual(png.read(self.screenshot(viewer, "full_screen"))[:2], (800, 600))
+        viewer.key("f")
+        wait_until("the window", lambda: viewer.geometry()[2:] == before[2:])
+
+    def test_escape_leaves(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        viewer.key("Escape")
+        self.assertEqual(viewer.program.wait(timeout=30), 0)
+
+    def test_rests_when_nothing_happens(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        time.sleep(2.0)  # tiles come
+        before = cpu_s(viewer.program.pid)
+        time.sleep(2.0)
+        self.assertLess(cpu_s(viewer.program.pid) - before, 0.1)
+
+    def test_printed_camera_starts_the_same_view(self):
+        line = "46.5,7.25,300000,30,-35,45"
+        viewer = self.start("--camera", line)
+        self.assertEqual(
+            [round(x, 9) for x in (viewer.camera.lat, viewer.camera.lon, viewer.camera.height_m, viewer.camera.heading)],
+            [46.5, 7.25, 300000.0, 30.0],
+        )
+
+
+class NoDisplay(unittest.TestCase):
+    def test_without_a_display_it_says_what_to_do(self):
+        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        done = subprocess.run([PROGRAM, "view"], env=environment, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("display", done.stderr)
+        self.assertIn("terrella render", done.stderr)
+        self.assertEqual(done.stdout, "")
+
+
+def cpu_s(pid):
+    """Processor seconds that a process has used."""
+    with open(f"/proc/{pid}/stat", encoding="ascii") as stat:
+        fields = stat.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+if __name__ == "__main__":
+    unittest.main()
