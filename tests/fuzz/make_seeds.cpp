@@ -1,0 +1,97 @@
+#include <sqlite3.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "streaming/image.h"
+#include "streaming/tileset_json.h"
+
+namespace {
+
+using namespace terrella;
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, std::string_view text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+void write(const fs::path& path, const std::vector<std::byte>& bytes) {
+  write(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Image picture(std::uint8_t alpha) {
+  Image image{16, 16, {}};
+  for (int i = 0; i < 256; ++i) {
+    for (const int channel : {i, 255 - i, i / 2}) image.rgba.push_back(static_cast<std::uint8_t>(channel));
+    image.rgba.push_back(alpha);
+  }
+  return image;
+}
+
+TileSetInfo info() {
+  TileSetInfo info;
+  info.name = "seed";
+  info.body = "mars";
+  info.grid.tile_px = 16;
+  info.grid.projection = Projection::equal_area;
+  info.format = ImageFormat::png;
+  return info;
+}
+
+constexpr const char* kTms =
+    "<TileMap><Title>t</Title><SRS>EPSG:4326</SRS><BoundingBox minx=\"-180\" miny=\"-90\" maxx=\"180\" maxy=\"90\"/>"
+    "<TileFormat width=\"256\" height=\"256\" extension=\"jpg\"/><TileSets profile=\"geodetic\">"
+    "<TileSet href=\"0\" units-per-pixel=\"1.40625\"/><TileSet href=\"1\" "
+    "units-per-pixel=\"0.703125\"/></TileSets></TileMap>";
+
+constexpr const char* kTables =
+    "PRAGMA page_size = 512;"
+    "CREATE TABLE gpkg_spatial_ref_sys (srs_id, organization, organization_coordsys_id);"
+    "INSERT INTO gpkg_spatial_ref_sys VALUES (7, 'EPSG', 4326);"
+    "CREATE TABLE gpkg_contents (table_name, data_type, identifier, description, min_x, min_y, max_x, max_y, srs_id);"
+    "INSERT INTO gpkg_contents VALUES ('t', 'tiles', 'n', 'd', -180, -90, 180, 90, 7);"
+    "CREATE TABLE gpkg_tile_matrix_set (table_name, srs_id, min_x, min_y, max_x, max_y);"
+    "INSERT INTO gpkg_tile_matrix_set VALUES ('t', 7, -180, -90, 180, 90);"
+    "CREATE TABLE gpkg_tile_matrix (table_name, zoom_level, matrix_width, matrix_height, tile_width, tile_height, "
+    "pixel_x_size,"
+    " pixel_y_size);"
+    "INSERT INTO gpkg_tile_matrix VALUES ('t', 0, 2, 1, 16, 16, 11.25, 11.25), ('t', 1, 4, 2, 16, 16, 5.625, 5.625);"
+    "CREATE TABLE t (zoom_level, tile_column, tile_row, tile_data);"
+    "INSERT INTO t VALUES (0, 0, 0, x'FFD8FF'), (1, 3, 1, x'89'), (1, 0, 0, NULL);";
+
+bool write_database(const fs::path& path, const std::string& sql) {
+  fs::create_directories(path.parent_path());
+  fs::remove(path);
+  sqlite3* database = nullptr;
+  const bool written = sqlite3_open(path.c_str(), &database) == SQLITE_OK &&
+                       sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK;
+  sqlite3_close(database);
+  return written;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: make_fuzz_seeds FOLDER\n", stderr);
+    return 2;
+  }
+  const fs::path folder = argv[1];
+  write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
+  write(folder / "image/a.png", *encode_png(picture(255)));
+  write(folder / "image/b.png", *encode_png(picture(100)));
+  write(folder / "tileset_json/a.json", to_tileset_json(info()));
+  write(folder / "tms_xml/a.xml", kTms);
+  const std::string ours =
+      std::string(kTables) +
+      "CREATE TABLE terrella_tileset (key, value); INSERT INTO terrella_tileset VALUES "
+      "('tileset', '{\"root_span_deg\": 180, \"tile_px\": 16, \"max_level\": 1, \"format\": \"png\"}');";
+  const bool written = write_database(folder / "geopackage/foreign.gpkg", kTables) &&
+                       write_database(folder / "geopackage/ours.gpkg", ours);
+  return written ? 0 : 1;
+}
