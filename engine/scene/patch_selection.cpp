@@ -67,26 +67,42 @@ class Selector {
     return std::max({center - node.sphere.radius_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
   }
 
+  // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and north.
+  struct PixelOnGround {
+    double short_m, east_m, north_m;
+  };
+  [[nodiscard]] PixelOnGround pixel_on_ground(const PatchNode& node, double nearest_m) const {
+    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
+    const double distance = std::max(glm::length(to_eye), 1e-9);
+    const double up = glm::dot(to_eye, node.normal) / distance;
+    const double east = (node.frame.x * to_eye.y - node.frame.y * to_eye.x) / distance;
+    const double flat = std::max(1e-9, std::sqrt(std::max(0.0, 1.0 - up * up)));
+    const double sine = std::min(1.0, std::abs(east) / flat), cosine = std::sqrt(1.0 - sine * sine);
+    const double across = distance * radians_per_pixel_, along = across / std::clamp(std::abs(up), 0.05, 1.0);
+    return {nearest_m * radians_per_pixel_ / std::sqrt(std::clamp(std::abs(up), 0.05, 1.0)), std::hypot(along * sine, across * cosine),
+            std::hypot(along * cosine, across * sine)};
+  }
+
   [[nodiscard]] SelectedPatch assess(PatchNode& node) const {
     SelectedPatch patch;
     patch.node = &node;
-    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
-    const double center_m = glm::length(to_eye);
-    const double d = std::max(center_m - 0.7 * node.sphere.radius_m, nearest_m(node));
-    const double cos_incidence = std::clamp(std::abs(glm::dot(to_eye, node.normal)) / std::max(center_m, 1e-9), 0.05, 1.0);
-    const double pixel_m = d * radians_per_pixel_;
+    const double center_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
+    const PixelOnGround pixel = pixel_on_ground(node, std::max(center_m - 0.7 * node.sphere.radius_m, nearest_m(node)));
     const double texel0_m = texel_root_m_ * node.row_stretch;
-    const double level = std::log2(texel0_m * options_.texels_per_pixel / (pixel_m / std::sqrt(cos_incidence)));
+    const double squeeze = std::sin(std::max(node.min_colatitude_rad, 1e-3));
+    const double longest_m = std::max(pixel.east_m / squeeze, pixel.north_m);
+    const bool near_pole = node.min_colatitude_rad < band_rad_;
+    double level = std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m);
+    // Finer than this, a pixel would be longer than the taps and the gutter reach.
+    if (!near_pole) level = std::min(level, std::log2(options_.max_footprint_texels * texel0_m / longest_m));
     const TileGrid& grid = tree_.grid();
     patch.tile_level = std::clamp(static_cast<int>(std::ceil(std::clamp(level, -64.0, 64.0) - 0.02)), grid.min_level, grid.max_level);
     const double span = std::max(node.east_deg - node.west_deg, 0.0);
-    if (node.min_colatitude_rad < band_rad_) {
-      while (patch.tile_level > grid.min_level && span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
-        --patch.tile_level;
-      }
+    while (near_pole && patch.tile_level > grid.min_level &&
+           span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
+      --patch.tile_level;
     }
-    const double texel_m = std::ldexp(texel0_m, -patch.tile_level) * std::sin(std::max(node.min_colatitude_rad, 1e-3));
-    patch.footprint_texels = center_m * radians_per_pixel_ / cos_incidence / texel_m;
+    patch.footprint_texels = longest_m / std::ldexp(texel0_m, -patch.tile_level);
     return patch;
   }
 
