@@ -2,12 +2,13 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
+#include "apps/option_checks.h"
 #include "apps/scene_options.h"
+#include "apps/write_file.h"
 #include "engine/globe.h"
 #include "render/offscreen.h"
 #include "streaming/image.h"
@@ -25,20 +26,20 @@ struct RenderCommand {
 Status write_png(const std::filesystem::path& path, Viewport size, std::vector<std::uint8_t> rgba) {
   const Result<std::vector<std::byte>> png = encode_png({size.width_px, size.height_px, std::move(rgba)});
   if (!png) return Error{path.string() + ": " + png.error().message};
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
-  file.close();
-  if (!file) return Error{path.string() + ": cannot be written; check the folder, its rights and the free space"};
-  return Done{};
+  return write_file(path, *png);
 }
 
 void report(const RenderCommand& command, const FrameStats& stats) {
   const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
   if (command.json) {
-    const nlohmann::json result = {{"output", command.output},          {"tiles_asked", stats.tiles_wanted},
-                                   {"tiles_got", got},                  {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
-                                   {"patches", stats.patches},          {"band_patches", stats.band_patches},
-                                   {"draw_calls", stats.draw_calls},    {"triangles", stats.triangles}};
+    const nlohmann::json result = {{"output", command.output},
+                                   {"tiles_asked", stats.tiles_wanted},
+                                   {"tiles_got", got},
+                                   {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
+                                   {"patches", stats.patches},
+                                   {"band_patches", stats.band_patches},
+                                   {"draw_calls", stats.draw_calls},
+                                   {"triangles", stats.triangles}};
     fmt::print("{}\n", result.dump());
     return;
   }
@@ -61,7 +62,8 @@ Result<FrameStats> render_picture(const RenderCommand& command) {
   if (!globe) return globe.error();
   (*globe)->set_camera(command.scene.camera);
   const OffscreenTarget target(command.scene.size);
-  const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  const auto limit =
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
   (*globe)->render_until_settled(target.framebuffer(), command.scene.size, std::chrono::steady_clock::now() + limit);
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   const Status written = write_png(command.output, command.scene.size, target.read());
@@ -82,11 +84,14 @@ int run(const RenderCommand& command) {
 }  // namespace
 
 void add_render_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
+  CLI::App& sub =
+      *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
   auto command = std::make_shared<RenderCommand>();
   add_scene_options(sub, command->scene);
   sub.add_option("-o,--output", command->output, "PNG file to write")->required();
-  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")
+      ->check(number_in(0.0, 1e6))
+      ->capture_default_str();
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
   sub.callback([command, &exit_code] { exit_code = run(*command); });

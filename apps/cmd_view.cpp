@@ -47,7 +47,8 @@ int fail(const Error& error) {
 }
 
 int view(const ViewOptions& options) {
-  // The window comes first: without a display nobody should wait for a picture to be cut.
+  if (const Status found = find_imagery(options.scene); !found) return fail(found.error());
+  // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail(window.error());
   auto imagery = open_imagery(options.scene);

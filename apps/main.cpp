@@ -30,10 +30,10 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const CLI::App& where = innermost(app);
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
-  // Without this, a mistyped subcommand would be told as a missing one.
-  const auto unknown = app.remaining();
-  const bool mistyped = &where == &app && !unknown.empty();
-  const std::string message = mistyped ? "there is no subcommand or option " + unknown.front() : error.what();
+  // CLI11 looks for what is missing first: without this, a mistyped name would be told as a missing one.
+  const auto unknown = where.remaining();
+  const bool mistyped = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !unknown.empty();
+  const std::string message = mistyped ? "there is no option or subcommand " + unknown.front() : error.what();
   fmt::print(stderr, "{}: {}\nSee {} --help.\n", command, message, command);
   return kWrongUsage;
 }

@@ -99,9 +99,8 @@ Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const 
 
 Result<std::unique_ptr<TileSource>> open_named(const SceneOptions& options) {
   if (options.tile_set.empty()) return open_tile_set(data_file("earth.gpkg"));
+  if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set;
-  std::error_code failed;
-  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
   return is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path);
 }
 
@@ -140,6 +139,13 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
   const char* home = std::getenv("HOME");
   if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "terrella";
   return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
+}
+
+Status find_imagery(const SceneOptions& options) {
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
+  return Done{};
 }
 
 Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {

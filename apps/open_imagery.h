@@ -14,6 +14,10 @@ namespace terrella {
 /// BrokenInstallation. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
 
+/// Fails if what TILESET names is not there at all: a quick look before anything slow. Throws BrokenInstallation.
+/// thread: any
+[[nodiscard]] Status find_imagery(const SceneOptions& options);
+
 /// True for a file that begins as a JPEG, PNG or TIFF does, or whose name ends as theirs do. thread: any
 [[nodiscard]] bool is_picture(const std::filesystem::path& path);
 

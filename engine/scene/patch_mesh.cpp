@@ -73,7 +73,7 @@ std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& 
   const glm::dvec3 direction0 = row_direction(tree.grid(), tree.ellipsoid(), node.normal);
   const double length0 = glm::length(direction0);
   std::vector<PatchVertex> vertices;
-  vertices.reserve(static_cast<std::size_t>((n + 1) * (n + 1)));
+  vertices.reserve(static_cast<std::size_t>(n + 1) * static_cast<std::size_t>(n + 1));
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       const EcefDir normal = patch_point(node.id, i, j, n, tree.mapping());

@@ -42,7 +42,7 @@ SPOILT = {
     "text for numbers": "UPDATE gpkg_tile_matrix SET matrix_width = 'many', pixel_x_size = 'small'",
     "matrix set inside out": "UPDATE gpkg_tile_matrix_set SET min_x = 180, max_x = -180",
     "table name is SQL": "UPDATE gpkg_contents SET table_name = 'x\"; DROP TABLE tiles; --'",
-    "tiles without columns": "DROP TABLE tiles; CREATE TABLE tiles (nothing)",
+    "tiles without columns": "DROP TABLE tiles; CREATE TABLE tiles (content)",
 }
 
 

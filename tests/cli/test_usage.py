@@ -2,7 +2,7 @@
 
 import unittest
 
-from program import DONE, FAILED, WRONG_USAGE, ProgramTest, subcommands
+from program import FAILED, WRONG_USAGE, ProgramTest, subcommands
 
 
 class Program(ProgramTest):
@@ -55,7 +55,7 @@ OUT_OF_RANGE = [
     ("--size", "100", "WIDTHxHEIGHT"),
     ("--size", "100x", "WIDTHxHEIGHT"),
     ("--size", "99999999999x1", ""),
-    ("--body", "pluto", ""),
+    ("--body", "vulcan", "earth"),
     ("--body", "0,0", ""),
     ("--body", "nan,0", ""),
     ("--body", "6378137,0.5", ""),
