@@ -77,7 +77,9 @@ BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const T
   const double n = std::min(cell.north_deg, node.north_row_deg);
   BoundingSphere sphere{extent_point(tree, node, 0.5 * (w + e), 0.5 * (s + n)), 0.0};
   for (int k = 0; k < 9; ++k) {
-    const glm::dvec3 p = extent_point(tree, node, w + 0.5 * (k % 3) * (e - w), s + 0.5 * (k / 3) * (n - s));
+    const int column = k % 3;
+    const int row = k / 3;
+    const glm::dvec3 p = extent_point(tree, node, w + 0.5 * column * (e - w), s + 0.5 * row * (n - s));
     sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
   }
   return sphere;

@@ -62,17 +62,6 @@ def write_spoilt(path, name):
     base.close()
 
 
-def write_endless(path):
-    """The tiles are a view that never ends: a reader that asks for all of them hangs."""
-    write_good(path)
-    with sqlite3.connect(path) as base:
-        base.executescript("""
-            DROP TABLE tiles;
-            CREATE VIEW tiles AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM n)
-              SELECT i AS id, 0 AS zoom_level, i + 2 AS tile_column, 0 AS tile_row, zeroblob(10) AS tile_data FROM n;""")
-    base.close()
-
-
 def nan_box(path):
     """Bounds that are not numbers; SQLite keeps NaN as NULL, which the table's own rule forbids: so drop the rule."""
     write_good(path)
