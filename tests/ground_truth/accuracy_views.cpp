@@ -14,6 +14,11 @@ constexpr double kFourRadii = 3.0;
 // The heights of the table below, in radii, for bodies of another size.
 constexpr double kHigh = 6.0e6 / 6378137.0;
 
+// Limits that no table sets hold what is reached, with a fifth to spare for other drivers. Rounding leaves 0.29.
+constexpr double kHeld6000 = 0.48;
+constexpr double kHeld1500 = 0.43;
+constexpr double kHeldBodies = 0.46;
+
 Bound at_most(Zone zone, double rms) { return {.zone = zone, .value = rms}; }
 
 TruthCamera over(double lat_deg, double lon_deg, double height_m) { return {.eye = {lat_deg, lon_deg, height_m}}; }
@@ -35,8 +40,8 @@ void add_table(std::vector<AccuracyView>& views) {
 void add_poles(std::vector<AccuracyView>& views) {
   for (const double lat : {90.0, -90.0}) {
     const std::string name = lat > 0 ? "north pole" : "south pole";
-    views.push_back(noise(name + ", 6000 km", over(lat, 0, 6e6), kSmall_px, {at_most(Zone::pole, 1.13)}));
-    views.push_back(noise(name + ", 1500 km", over(lat, 0, 1.5e6), kSmall_px, {at_most(Zone::pole, 0.80)}));
+    views.push_back(noise(name + ", 6000 km", over(lat, 0, 6e6), kSmall_px, {at_most(Zone::pole, kHeld6000)}));
+    views.push_back(noise(name + ", 1500 km", over(lat, 0, 1.5e6), kSmall_px, {at_most(Zone::pole, kHeld1500)}));
   }
 }
 
@@ -44,6 +49,7 @@ void add_four_radii(std::vector<AccuracyView>& views) {
   const double height_m = kFourRadii * kEarth.a_m;
   const std::string reference = "four radii, 45°";
   views.push_back(noise(reference, over(45, 20, height_m), 1024, {}));
+  views.push_back(noise("four radii, antimeridian", over(0, 180, height_m), 1024, {}));
   for (const double lat : {90.0, -90.0}) {
     const Bound bound{Zone::pole, Bound::Kind::other_view, 1.0, Zone::mid_latitudes, reference};
     views.push_back(
@@ -57,11 +63,11 @@ void add_bodies(std::vector<AccuracyView>& views) {
       views.push_back({std::string(name) + ", " + what, "noise", body, rows, camera, kSmall_px, {at_most(zone, rms)}});
     };
     const double high_m = kHigh * body.a_m;
-    add("mid latitude", over(40, -70, 0.5 * high_m), {}, Zone::all, 1.13);
-    add("pole", over(89.9, 0, 0.5 * high_m), {}, Zone::pole, 1.13);
+    add("mid latitude", over(40, -70, 0.5 * high_m), {}, Zone::all, kHeldBodies);
+    add("pole", over(89.9, 0, 0.5 * high_m), {}, Zone::pole, kHeldBodies);
     if (body.f == 0.0) continue;
-    add("centric rows", over(40, -70, 0.5 * high_m), {.centric = true}, Zone::all, 1.13);
-    add("equal-area rows", over(20, -70, 0.5 * high_m), {.equal_area = true}, Zone::all, 1.13);
+    add("centric rows", over(40, -70, 0.5 * high_m), {.centric = true}, Zone::all, kHeldBodies);
+    add("equal-area rows", over(20, -70, 0.5 * high_m), {.equal_area = true}, Zone::all, kHeldBodies);
   }
 }
 
@@ -69,9 +75,10 @@ void add_blue_marble(std::vector<AccuracyView>& views) {
   const auto add = [&](const std::string& name, TruthCamera camera, Zone zone, double rms) {
     views.push_back({"Blue Marble, " + name, "blue_marble", kEarth, {}, camera, kSmall_px, {at_most(zone, rms)}});
   };
-  add("mid latitude", over(30, 20, 6e6), Zone::all, 1.13);
-  add("antimeridian", over(0, 180, 6e6), Zone::antimeridian, 0.61);
-  add("pole", over(-89.9, 0, 6e6), Zone::pole, 0.80);
+  add("mid latitude", over(30, 20, 6e6), Zone::all, 0.55);
+  add("antimeridian", over(0, 180, 6e6), Zone::antimeridian, 0.35);
+  // The picture's rows round the South Pole are not smooth: two by two exact look-ups a pixel leave 1.07.
+  add("pole", over(-89.9, 0, 6e6), Zone::pole, 0.95);
 }
 
 }  // namespace

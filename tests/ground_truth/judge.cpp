@@ -63,14 +63,16 @@ bool contains(Zone zone, const Spot& s) {
 struct PixelError {
   double squares = 0.0;
   double max = 0.0;
+  double sum = 0.0;  // signed
 };
 
 PixelError pixel_error(const Picture& shot, const TruthImage& truth, std::size_t at) {
   PixelError error;
   for (std::size_t c = 3 * at; c < 3 * at + 3; ++c) {
-    const double off = std::abs(static_cast<double>(shot.rgb[c]) - static_cast<double>(truth.rgb[c]));
+    const double off = static_cast<double>(shot.rgb[c]) - static_cast<double>(truth.rgb[c]);
     error.squares += off * off;
-    error.max = std::max(error.max, off);
+    error.max = std::max(error.max, std::abs(off));
+    error.sum += off;
   }
   return error;
 }
@@ -87,16 +89,20 @@ struct ZoneSums {
   std::array<double, kCells> squares{};
   std::array<std::size_t, kCells> pixels{};
   double max = 0.0;
+  double signed_sum = 0.0;
 
   void add(const PixelError& error, std::size_t cell) {
     squares[cell] += error.squares;
     ++pixels[cell];
     max = std::max(max, error.max);
+    signed_sum += error.sum;
   }
   [[nodiscard]] ZoneError error() const {
     const std::size_t count = std::accumulate(pixels.begin(), pixels.end(), std::size_t{0});
+    if (count == 0) return {};
     const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-    return {count == 0 ? 0.0 : std::sqrt(sum / (3.0 * static_cast<double>(count))), max, count};
+    const double levels = 3.0 * static_cast<double>(count);
+    return {std::sqrt(sum / levels), max, count, signed_sum / levels};
   }
   // The RMS that these errors would have if they were spread over the cells as the other zone's pixels are.
   [[nodiscard]] double rms_weighted_like(const ZoneSums& other) const {

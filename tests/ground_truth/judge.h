@@ -40,6 +40,7 @@ struct ZoneError {
   double rms = 0.0;        ///< over the three channels, 8-bit levels
   double max = 0.0;        ///< of one channel of one pixel
   std::size_t pixels = 0;  ///< 0: the zone is not in the picture, and the errors are 0
+  double bias = 0.0;       ///< mean of shot minus truth: what rounding down instead of to nearest would show, for one
 };
 
 /// Pixels off by over 40 levels in a channel.

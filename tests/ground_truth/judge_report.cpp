@@ -15,12 +15,12 @@ std::string limb_line(std::string_view name, const LimbError& limb) {
 }  // namespace
 
 std::string as_table(const Judgement& judgement) {
-  std::string text = fmt::format("{:<26} {:>7} {:>7} {:>9}\n", "zone", "RMS", "max", "pixels");
+  std::string text = fmt::format("{:<26} {:>7} {:>7} {:>7} {:>9}\n", "zone", "RMS", "max", "bias", "pixels");
   for (std::size_t z = 0; z < kZones; ++z) {
     const ZoneError& zone = judgement.zones[z];
     if (zone.pixels == 0) continue;
-    text += fmt::format("{:<26} {:>7.3f} {:>7.1f} {:>9}\n", zone_name(static_cast<Zone>(z)), zone.rms, zone.max,
-                        zone.pixels);
+    text += fmt::format("{:<26} {:>7.3f} {:>7.1f} {:>+7.3f} {:>9}\n", zone_name(static_cast<Zone>(z)), zone.rms,
+                        zone.max, zone.bias, zone.pixels);
   }
   return text + limb_line("limb", judgement.limb) + limb_line("outside", judgement.outside);
 }
@@ -30,7 +30,7 @@ nlohmann::json as_json(const Judgement& judgement) {
   for (std::size_t z = 0; z < kZones; ++z) {
     const ZoneError& zone = judgement.zones[z];
     zones[std::string(zone_name(static_cast<Zone>(z)))] = {
-        {"rms", zone.rms}, {"max", zone.max}, {"pixels", zone.pixels}};
+        {"rms", zone.rms}, {"max", zone.max}, {"bias", zone.bias}, {"pixels", zone.pixels}};
   }
   const auto limb = [](const LimbError& l) { return nlohmann::json{{"pixels", l.pixels}, {"off", l.off}}; };
   return {{"zones", zones}, {"limb", limb(judgement.limb)}, {"outside", limb(judgement.outside)}};
