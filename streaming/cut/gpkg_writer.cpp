@@ -66,8 +66,7 @@ class GpkgWriter : public TileWriter {
     sqlite3_bind_int64(insert, 2, id.x);
     sqlite3_bind_int64(insert, 3, id.y);
     sqlite3_bind_blob64(insert, 4, bytes.data(), bytes.size(), SQLITE_STATIC);
-    const int stepped = sqlite3_step(insert);
-    if (stepped != SQLITE_DONE) return failure();
+    if (step(insert) != SQLITE_DONE) return failure();
     sqlite3_reset(insert);
     return Done{};
   }
@@ -87,6 +86,14 @@ class GpkgWriter : public TileWriter {
     return Statement(statement);
   }
 
+  /// sqlite3_step(), and why the system refused: sqlite3_system_errno() does not know of what happens in COMMIT.
+  int step(sqlite3_stmt* statement) {
+    errno = 0;
+    const int stepped = sqlite3_step(statement);
+    if (stepped != SQLITE_DONE && stepped != SQLITE_ROW) system_error_ = errno;
+    return stepped;
+  }
+
   bool run(const SqlStatement& said) {
     const Statement statement = prepare(said.sql);
     if (!statement) return false;
@@ -95,7 +102,7 @@ class GpkgWriter : public TileWriter {
       sqlite3_bind_text(statement.get(), ++parameter, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
     }
     for (const double number : said.numbers) sqlite3_bind_double(statement.get(), ++parameter, number);
-    const int stepped = sqlite3_step(statement.get());
+    const int stepped = step(statement.get());
     return stepped == SQLITE_DONE || stepped == SQLITE_ROW;
   }
 
@@ -103,7 +110,7 @@ class GpkgWriter : public TileWriter {
   [[nodiscard]] Error failure() const {
     if (!database_) return Error{fmt::format("{}: cannot be written: out of memory", output_.string())};
     if (sqlite3_errcode(database_.get()) == SQLITE_FULL) return cannot_write(output_, ENOSPC);
-    if (const int number = sqlite3_system_errno(database_.get()); number != 0) return cannot_write(output_, number);
+    if (system_error_ != 0) return cannot_write(output_, system_error_);
     return Error{fmt::format("{}: cannot be written: {}", output_.string(), sqlite3_errmsg(database_.get()))};
   }
 
@@ -111,6 +118,7 @@ class GpkgWriter : public TileWriter {
   fs::path part_;
   Database database_;
   Statement insert_;
+  int system_error_ = 0;  ///< errno of the last call that failed
 };
 
 }  // namespace
