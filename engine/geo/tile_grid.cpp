@@ -80,8 +80,10 @@ bool exists(const TileGrid& grid, const TileId& id) {
   const TileBounds tile = tile_bounds(grid, id);
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
   const Interval data_rows{grid.bounds.south.deg(), grid.bounds.north.deg()};
+  // What reaches over 180° is padding, not the planet's west once more.
+  const Interval on_planet{tile.west_deg, std::min(tile.east_deg, 180.0)};
   return touches({tile.south_deg, tile.north_deg}, data_rows, sliver_deg) &&
-         touches_longitudes({tile.west_deg, tile.east_deg}, grid.bounds, sliver_deg);
+         touches_longitudes(on_planet, grid.bounds, sliver_deg);
 }
 
 TileId parent(const TileId& id) { return ancestor(id, 1); }
