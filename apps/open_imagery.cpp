@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "apps/data_dir.h"
@@ -25,6 +26,7 @@ class DescribedSource : public TileSource {
       : tiles_(std::move(tiles)), info_(std::move(info)) {}
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
 
  private:
   std::unique_ptr<TileSource> tiles_;
@@ -64,6 +66,7 @@ class ScratchSource : public TileSource {
       : folder_(std::move(folder)), tiles_(std::move(tiles)) {}
   [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
 
  private:
   std::unique_ptr<ScratchFolder> folder_;
