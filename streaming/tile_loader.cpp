@@ -143,7 +143,8 @@ Result<TileTexels, TileFailure> TileLoader::Impl::load(const TileId& id) {
   const Result<EncodedTile, TileFailure> encoded = source->read(id);
   if (!encoded) return encoded.error();
   const int tile_px = source->info().grid.tile_px;
-  // A tile of another size will be refused: it need not be decoded to see that.
+  // A tile of another size is refused in any case: a small one after decoding, by name of both sizes, a vast one
+  // before.
   DecodeLimits limits;
   limits.max_side_px = std::max(tile_px, 1024);
   const Result<Image> image = decode_image(encoded->bytes, limits);

@@ -63,11 +63,10 @@ TEST(TileTexels, AreTheTileWithABorderAndItsMeans) {
 }
 
 TEST(TileTexels, RoundingDoesNotBuildUp) {
-  // 2×2 boxes of 0, 0, 1, 1 have the mean 0.5, which rounds to 1; the mean of the whole is still 0.5, but one made of
-  // means rounded again and again would be 1 in a picture of 0, 0, 0, 1 too.
+  // Three eighths of the texels are 1: their mean rounds to 0. Boxes of 2×2 have the means 0.5 and 0.25, and halves
+  // that were rounded up at every level would grow to 1.
   Image tile{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 0)};
-  for (std::size_t i = 0; i < tile.rgba.size(); ++i)
-    tile.rgba[i] = (i / 4) % 2 == 0 && (i / 64) % 4 < 3 ? 1 : 0;  // 3/8
+  for (std::size_t i = 0; i < tile.rgba.size(); ++i) tile.rgba[i] = (i / 4) % 2 == 0 && (i / 64) % 4 < 3 ? 1 : 0;
   const auto texels = make_texels(tile, 16, 0, 4);
   ASSERT_TRUE(texels);
   for (const std::uint8_t channel : texels->mips[3]) EXPECT_EQ(channel, 0);
