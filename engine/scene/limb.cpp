@@ -6,22 +6,19 @@
 #include <numbers>
 #include <optional>
 
+#include "scene/patch_selection.h"
+
 namespace terrella {
 namespace {
 
-// A limb of radius r on the screen, drawn with N segments, sags r (π/N)²/2; the horizon of an eye near the ground is a
-// hyperbola of which little is seen, and takes the most.
-constexpr double kSagitta_px = 0.02;
-constexpr int kFewestSegments = 48, kMostSegments = 4096;
-
-int segments_for(const View& view, double eye_scaled_length) {
-  const double sine = 1.0 / eye_scaled_length;
-  // The disc's radius on the screen, larger by the stretch of a perspective picture's corner.
-  const double corner = 1.0 + view.tan_half_fov_y * view.tan_half_fov_y * (1.0 + view.aspect() * view.aspect());
-  const double radius_px = corner * view.pixels_per_radian() * sine / std::sqrt(std::max(1e-12, 1.0 - sine * sine));
-  const double n = std::numbers::pi * std::sqrt(radius_px / (2.0 * kSagitta_px));
-  return static_cast<int>(std::clamp(n, double(kFewestSegments), double(kMostSegments)));
-}
+// Pieces of the curve that are looked at first; each is halved until it is straight or out of view.
+constexpr int kPieces = 48;
+// Less than the error that is promised: the rest is for what lies between the points that were looked at.
+constexpr double kStraight_px = 0.015;
+// A piece 2^-30 of the limb is below a pixel of the longest lens.
+constexpr int kMostHalvings = 24;
+// Around the picture: as much of the ribbon as may reach in.
+constexpr int kMargin_px = 8;
 
 class LimbCurve {
  public:
@@ -30,8 +27,6 @@ class LimbCurve {
     const glm::dvec3 eye = view.eye.xyz_m / axes_m_;
     const double length = glm::length(eye);
     seen_from_outside_ = length > 1.0 && std::isfinite(length);
-    if (!seen_from_outside_) return;
-    segments_ = segments_for(view, length);
     const glm::dvec3 axis = eye / length;
     center_ = axis / length;
     const double radius = std::sqrt(std::max(0.0, (length - 1.0) * (length + 1.0))) / length;
@@ -40,13 +35,16 @@ class LimbCurve {
     v_ = radius * glm::normalize(glm::cross(axis, u_));
   }
 
-  [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] bool seen_from_outside() const { return seen_from_outside_; }
 
+  // A point of the limb relative to the eye; t counts once round.
+  [[nodiscard]] glm::dvec3 from_eye_m(double t) const {
+    const double angle = 2.0 * std::numbers::pi * t;
+    return (center_ + std::cos(angle) * u_ + std::sin(angle) * v_) * axes_m_ - view_.eye.xyz_m;
+  }
+
   // Pixels from the picture's centre, +y up; nothing behind the eye.
-  [[nodiscard]] std::optional<glm::dvec2> pixel(int k) const {
-    const double t = 2.0 * std::numbers::pi * k / segments_;
-    const glm::dvec3 p = (center_ + std::cos(t) * u_ + std::sin(t) * v_) * axes_m_ - view_.eye.xyz_m;
+  [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p) const {
     const double depth = glm::dot(p, view_.forward);
     if (depth <= 1e-9 * glm::length(p)) return std::nullopt;
     return glm::dvec2(glm::dot(p, view_.right), glm::dot(p, view_.up)) * (view_.pixels_per_radian() / depth);
@@ -57,13 +55,78 @@ class LimbCurve {
   glm::dvec3 axes_m_;
   glm::dvec3 center_{0.0}, u_{0.0}, v_{0.0};
   bool seen_from_outside_ = false;
-  int segments_ = 0;
 };
 
-bool far_outside(glm::dvec2 p, const View& view) {
-  // Generous: a segment whose two ends are further out than this may be left out.
-  return std::abs(p.x) > 2.0 * view.viewport.width_px + 64.0 || std::abs(p.y) > 2.0 * view.viewport.height_px + 64.0;
+View with_margin(View view) {
+  view.tan_half_fov_y *= 1.0 + 2.0 * kMargin_px / view.viewport.height_px;
+  view.viewport.width_px += 2 * kMargin_px;
+  view.viewport.height_px += 2 * kMargin_px;
+  return view;
 }
+
+bool straight(glm::dvec2 a, glm::dvec2 mid, glm::dvec2 b) {
+  const double length = glm::distance(a, b);
+  if (length < kStraight_px) return glm::distance(a, mid) < kStraight_px;
+  const glm::dvec2 along = (b - a) / length, d = mid - a;
+  return std::abs(along.x * d.y - along.y * d.x) < kStraight_px;
+}
+
+class RibbonWriter {
+ public:
+  RibbonWriter(const View& view, const LimbCurve& curve, double half_width_px, std::vector<LimbVertex>& strip)
+      : view_(view),
+        curve_(curve),
+        wide_(with_margin(view)),
+        planes_(view_planes(wide_)),
+        // The planet's centre tells which side of the curve is inside, also where the limb is cut by the picture's edge.
+        down_(-glm::normalize(view.eye.xyz_m)),
+        half_width_px_(half_width_px),
+        strip_(strip) {}
+
+  void piece(double from, double to, int halvings) {
+    const double middle = 0.5 * (from + to);
+    const glm::dvec3 p = curve_.from_eye_m(from), mid = curve_.from_eye_m(middle), q = curve_.from_eye_m(to);
+    // The arc bulges from its chord, never further from its middle than 1.1 times its ends are.
+    const double radius_m = 1.1 * std::max(glm::distance(p, mid), glm::distance(q, mid));
+    if (classify(planes_, wide_, {view_.eye.xyz_m + mid, radius_m}) < 0) return;
+    const auto a = curve_.pixel(p), m = curve_.pixel(mid), b = curve_.pixel(q);
+    if (halvings == 0 || (a && m && b && straight(*a, *m, *b))) {
+      if (a && b && glm::distance(*a, *b) > 1e-9) segment(*a, *b);
+      return;
+    }
+    piece(from, middle, halvings - 1);
+    piece(middle, to, halvings - 1);
+  }
+
+ private:
+  void segment(glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec2 half(0.5 * view_.viewport.width_px, 0.5 * view_.viewport.height_px);
+    const glm::dvec2 along = glm::normalize(b - a);
+    // Seen from outside the curve runs one way round the disc; which, shows the side of the nadir's direction.
+    glm::dvec2 out(along.y, -along.x);
+    const glm::dvec3 ray = view_.forward * view_.pixels_per_radian() + view_.right * a.x + view_.up * a.y;
+    const glm::dvec3 tilt = view_.right * out.x + view_.up * out.y;
+    if (glm::dot(tilt - ray * (glm::dot(tilt, ray) / glm::dot(ray, ray)), down_) > 0.0) out = -out;
+    const auto half_width = static_cast<float>(half_width_px_);
+    const LimbVertex corner[4] = {{glm::vec2((a - out * half_width_px_) / half), glm::vec2(out), -half_width},
+                                  {glm::vec2((a + out * half_width_px_) / half), glm::vec2(out), half_width},
+                                  {glm::vec2((b - out * half_width_px_) / half), glm::vec2(out), -half_width},
+                                  {glm::vec2((b + out * half_width_px_) / half), glm::vec2(out), half_width}};
+    if (!strip_.empty()) {
+      strip_.push_back(strip_.back());
+      strip_.push_back(corner[0]);
+    }
+    strip_.insert(strip_.end(), std::begin(corner), std::end(corner));
+  }
+
+  const View& view_;
+  const LimbCurve& curve_;
+  View wide_;
+  ViewPlanes planes_;
+  glm::dvec3 down_;
+  double half_width_px_;
+  std::vector<LimbVertex>& strip_;
+};
 
 }  // namespace
 
@@ -71,31 +134,8 @@ std::vector<LimbVertex> limb_ribbon(const View& view, const Ellipsoid& ellipsoid
   std::vector<LimbVertex> strip;
   const LimbCurve curve(view, ellipsoid);
   if (!curve.seen_from_outside()) return strip;
-  // The planet's centre tells which side of the curve is inside, also where the limb is cut by the picture's edge.
-  const glm::dvec3 down = -glm::normalize(view.eye.xyz_m);
-  const glm::dvec2 half(0.5 * view.viewport.width_px, 0.5 * view.viewport.height_px);
-  std::optional<glm::dvec2> a = curve.pixel(0);
-  for (int k = 1; k <= curve.segments(); ++k) {
-    const std::optional<glm::dvec2> b = curve.pixel(k);
-    const bool draw = a && b && !(far_outside(*a, view) && far_outside(*b, view)) && glm::distance(*a, *b) > 1e-9;
-    if (draw) {
-      const glm::dvec2 along = glm::normalize(*b - *a);
-      // Seen from outside the curve runs one way round the disc; which, shows the side of the nadir's direction.
-      glm::dvec2 out(along.y, -along.x);
-      const glm::dvec3 ray = view.forward * view.pixels_per_radian() + view.right * a->x + view.up * a->y;
-      const glm::dvec3 tilt = view.right * out.x + view.up * out.y;
-      if (glm::dot(tilt - ray * (glm::dot(tilt, ray) / glm::dot(ray, ray)), down) > 0.0) out = -out;
-      const LimbVertex corner[4] = {
-          {glm::vec2((*a - out * half_width_px) / half), glm::vec2(out), static_cast<float>(-half_width_px)},
-          {glm::vec2((*a + out * half_width_px) / half), glm::vec2(out), static_cast<float>(half_width_px)},
-          {glm::vec2((*b - out * half_width_px) / half), glm::vec2(out), static_cast<float>(-half_width_px)},
-          {glm::vec2((*b + out * half_width_px) / half), glm::vec2(out), static_cast<float>(half_width_px)}};
-      if (!strip.empty()) strip.push_back(strip.back());
-      if (!strip.empty()) strip.push_back(corner[0]);
-      strip.insert(strip.end(), std::begin(corner), std::end(corner));
-    }
-    a = b;
-  }
+  RibbonWriter writer(view, curve, half_width_px, strip);
+  for (int k = 0; k < kPieces; ++k) writer.piece(double(k) / kPieces, double(k + 1) / kPieces, kMostHalvings);
   return strip;
 }
 

@@ -111,14 +111,17 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
   node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z) : glm::dvec4(1.0, 0.0, 0.0, m.z);
   measure_extent(node, ellipsoid_, grid_, segments_, mapping_);
 
-  // A segment spans at most π/2 / (2^level n); over the diagonal of a quad the chord sags (√2 Δ)²/8 of the radius of
+  // A segment spans at most π/2 / (2^level n), under the plain mapping 4/π as much; over the diagonal of a quad the chord sags (√2 Δ)²/8 of the radius of
   // curvature, which is at most a²/b.
-  const double segment = 0.5 * std::numbers::pi / (std::ldexp(1.0, id.level) * segments_);
+  const double face_rad = mapping_ == CubeMapping::plain ? 2.0 : 0.5 * std::numbers::pi;
+  const double segment = face_rad / (std::ldexp(1.0, id.level) * segments_);
   node.geometric_error_m = ellipsoid_.a_m() * (ellipsoid_.a_m() / ellipsoid_.b_m()) * segment * segment * 0.25;
-  // d²(longitude)/ds² · cos(latitude) and d²(latitude)/ds² are at most tan(latitude): the coordinate, interpolated along
-  // the chord, lags by that times the same Δ²/4.
+  // Along a course ds = (a east, b north), d²(longitude)/ds² · cos(latitude) = 2 a b tan(latitude) and d²(latitude)/ds² =
+  // -a² tan(latitude), for equal-area rows -tan(latitude): together at most 2/√3, or √2, times the tangent. The coordinate,
+  // interpolated along the chord, lags by that times the same Δ²/4.
   const double colat = std::max(node.min_colatitude_rad, segment);
-  node.texture_error_factor = std::max(1.0, 1.0 / std::tan(std::min(colat, 1.5)));
+  const double worst_course = grid_.projection == Projection::equal_area ? std::numbers::sqrt2 : 2.0 * std::numbers::inv_sqrt3;
+  node.texture_error_factor = std::max(1.0, worst_course / std::tan(std::min(colat, 1.5)));
   node.row_stretch = least_row_stretch(grid_, 0.5 * std::numbers::pi - node.max_colatitude_rad);
   return node;
 }
