@@ -1,0 +1,288 @@
+#include "scene/tile_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_set>
+
+#include "patch_test_support.h"
+#include "scene/patch_mesh.h"
+
+namespace terrella::test {
+namespace {
+
+constexpr int kSegments = 16;
+constexpr SlotLayout kLayout{.tile_px = 256, .gutter_px = 8};
+using TileSet = std::unordered_set<TileId, TileIdHash>;
+
+/// Root spans of WorldCRS84Quad, GIBS, a picture of 21600 px and a single root tile; both projections and latitudes.
+std::vector<TileGrid> grids() {
+  std::vector<TileGrid> all;
+  for (const double span : {180.0, 288.0, 256.0 * 64.0 / 60.0, 360.0}) {
+    all.push_back({.root_span_deg = span, .max_level = kMaxTileLevel});
+  }
+  all.push_back({.max_level = kMaxTileLevel, .projection = Projection::equal_area});
+  all.push_back({.max_level = kMaxTileLevel, .latitude = LatitudeKind::centric});
+  all.push_back({.root_span_deg = 288.0,
+                 .max_level = kMaxTileLevel,
+                 .projection = Projection::equal_area,
+                 .latitude = LatitudeKind::centric});
+  return all;
+}
+
+/// A selected patch by hand: whole, in view, with a window at a level where it has not too many cells.
+SelectedPatch selected(PatchTree& tree, const PatchId& id, int tile_level) {
+  return {.node = &node_of(tree, id), .tile_level = tile_level};
+}
+
+/// The finest level at which a patch's window has no more than `cells` a side.
+int level_for(const TileGrid& grid, const PatchNode& node, int cells) {
+  const double span = std::max(node.east_deg - node.west_deg, node.north_row_deg - node.south_row_deg);
+  int level = grid.max_level;
+  while (level > 0 && span > cells * tile_span_deg(grid, level)) --level;
+  return level;
+}
+
+TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
+  Draw draw(41);
+  // A border on a tile's border may lie a millionth of a tile beyond the window.
+  constexpr double kSliver_tiles = 1.1e-6;
+  for (const TileGrid& grid : grids()) {
+    PatchTree tree(Ellipsoid(6378137.0, 0.05), grid, kSegments);
+    for (int k = 0; k < 200; ++k) {
+      const PatchId id =
+          k % 5 == 0 ? patch_beside(90, draw.between(-180, 180), 1 + k % 20) : random_patch(draw, 1 + k % 22);
+      PatchNode& node = node_of(tree, id);
+      const TileWindow& win = tree.window(node, level_for(grid, node, 1 + k % 20));
+      ASSERT_GE(win.x0, 0);
+      ASSERT_GE(win.y0, 0);
+      ASSERT_LE(win.x0 + win.w, columns(grid, win.level));
+      ASSERT_LE(win.y0 + win.h, rows(grid, win.level));
+      for (int v = 0; v < 60; ++v) {
+        const EcefDir n =
+            patch_point(id, draw.whole(0, kSegments), draw.whole(0, kSegments), kSegments, tree.mapping());
+        if (n.xyz.x == 0.0 && n.xyz.y == 0.0) continue;
+        const double turn = Ellipsoid::lat_lon(n).lon.deg() - node.lon_center_deg;
+        const double lon = node.lon_center_deg + turn - 360.0 * std::round(turn / 360.0);
+        const TileXY at = tile_xy(grid, win.level, row_latitude_deg(grid, tree.ellipsoid(), n), lon);
+        EXPECT_GE(at.x, double(win.x0) - kSliver_tiles);
+        EXPECT_LE(at.x, double(win.x0 + win.w) + kSliver_tiles);
+        EXPECT_GE(at.y, double(win.y0) - kSliver_tiles);
+        EXPECT_LE(at.y, double(win.y0 + win.h) + kSliver_tiles);
+      }
+    }
+  }
+}
+
+/// Makes a random part of the ancestors of a window's tiles resident, the coarsest always; a slot for each.
+std::map<int, TileId> fill(Draw& draw, const TileGrid& grid, const TileWindow& win, TileResidency& residency) {
+  std::map<int, TileId> tiles;
+  const auto put = [&](const TileId& id) {
+    TileResidency::Entry& entry = residency.entry(id);
+    if (entry.state == TileState::resident || !exists(grid, id)) return;
+    entry.state = TileState::resident;
+    entry.slot = 1 + static_cast<int>(tiles.size());
+    tiles[entry.slot] = id;
+  };
+  for (const TileId& id : root_tiles(grid)) put(id);
+  for (int y = 0; y < win.h; ++y) {
+    for (int x = 0; x < win.w; ++x) {
+      TileId id{win.level, win.x0 + x, win.y0 + y};
+      for (; id.level > 0; id = parent(id)) {
+        if (draw.whole(0, 2) == 0) put(id);
+      }
+    }
+  }
+  return tiles;
+}
+
+/// Where the window's cells say that the point `offset_deg` from the patch's centre lies, in the floats of a GPU.
+struct Lookup {
+  int slot;
+  glm::vec2 texel;  // of that slot's tile
+};
+Lookup look_up(const TileCoverage& coverage, const PatchDraw& draw, glm::vec2 offset_deg) {
+  const glm::vec4 c = draw.center_and_scale;
+  const glm::vec2 p = glm::vec2(c) + offset_deg * glm::vec2(c.z, -c.w);
+  const auto x = static_cast<unsigned>(p.x), y = static_cast<unsigned>(p.y);
+  EXPECT_LT(x, draw.window.z);
+  EXPECT_LT(y, draw.window.w);
+  const WindowCell cell = coverage.cells[draw.window.x + y * draw.window.y + x];
+  const glm::vec2 in_slot = p * cell.scale + glm::vec2(cell.offset_x, cell.offset_y);
+  return {static_cast<int>(cell.layer),
+          in_slot * static_cast<float>(kLayout.slot_px()) - static_cast<float>(kLayout.gutter_px)};
+}
+
+void expect_right_tile(const PatchTree& tree, const PatchNode& node, const TileCoverage& coverage,
+                       const std::map<int, TileId>& tiles, glm::vec2 offset_deg) {
+  const TileGrid& grid = tree.grid();
+  const Lookup found = look_up(coverage, coverage.draws[0], offset_deg);
+  ASSERT_TRUE(tiles.contains(found.slot));
+  const TileId tile = tiles.at(found.slot);
+  const TileXY truth = tile_xy(grid, tile.level, center_row_deg(tree, node) + double(offset_deg.y),
+                               node.lon_center_deg + double(offset_deg.x));
+  // A thousandth of a texel is far below what a bilinear filter of 8 bits of fraction shows.
+  constexpr double kTexel = 1e-3;
+  EXPECT_NEAR(double(found.texel.x), (truth.x - double(tile.x)) * kLayout.tile_px, kTexel) << "level " << tile.level;
+  EXPECT_NEAR(double(found.texel.y), (truth.y - double(tile.y)) * kLayout.tile_px, kTexel) << "level " << tile.level;
+}
+
+TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
+  Draw draw(42);
+  for (const TileGrid& grid : grids()) {
+    PatchTree tree(Ellipsoid(6378137.0, 0.05), grid, kSegments);
+    const View view = make_view(camera_at(0, 0, 1e7), tree.ellipsoid(), {512, 512});
+    for (int k = 0; k < 250; ++k) {
+      const PatchId id = k % 5 == 0 ? patch_beside(k % 2 == 0 ? 90 : -90, draw.between(-180, 180), 1 + k % 20)
+                                    : random_patch(draw, 1 + k % 24);
+      PatchNode& node = node_of(tree, id);
+      const int level = level_for(grid, node, 1 + k % 8);
+      TileResidency residency;
+      const auto tiles = fill(draw, grid, tree.window(node, level), residency);
+      TileCoverage coverage;
+      cover_with_tiles(tree, view, {selected(tree, id, level)}, residency, kLayout, 1, coverage);
+      EXPECT_EQ(coverage.uncovered, 0);
+      const auto vertices = patch_vertices(tree, node);
+      for (int v = 0; v < 40; ++v) {
+        const auto& a = vertices[draw.whole<std::size_t>(0, vertices.size() - 1)];
+        const auto& b = vertices[draw.whole<std::size_t>(0, vertices.size() - 1)];
+        expect_right_tile(tree, node, coverage, tiles, glm::mix(a.offset_deg, b.offset_deg, float(draw.between(0, 1))));
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
+  const TileGrid grid{.max_level = 10};
+  PatchTree tree(earth().ellipsoid, grid, kSegments);
+  const View view = make_view(camera_at(0, 0, 1e7), tree.ellipsoid(), {512, 512});
+  const PatchId id = patch_beside(20, 30, 6);
+  TileResidency residency;
+  std::map<int, int> level_of_slot = {{0, -1}};
+  const TileWindow win = tree.window(node_of(tree, id), 8);
+  TileCoverage coverage;
+  cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, kLayout, 1, coverage);
+  EXPECT_EQ(coverage.uncovered, 1) << "nothing is resident";
+  // Levels become resident one by one; each time all cells move on to the new one.
+  for (int level = 0, slot = 1; level <= 8; ++level) {
+    for (int y = 0; y < win.h; ++y) {
+      for (int x = 0; x < win.w; ++x) {
+        TileResidency::Entry& entry = residency.entry(ancestor({8, win.x0 + x, win.y0 + y}, 8 - level));
+        if (entry.state == TileState::resident) continue;
+        entry.state = TileState::resident;
+        entry.slot = slot;
+        level_of_slot[slot++] = level;
+      }
+    }
+    cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, kLayout, 2U + static_cast<unsigned>(level),
+                     coverage);
+    EXPECT_EQ(coverage.uncovered, 0);
+    for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell.layer)), level);
+    EXPECT_EQ(coverage.wanted.empty(), level == 8);
+    EXPECT_EQ(coverage.missing == 0, level == 8);
+  }
+}
+
+TileGrid europe(int min_level) {
+  TileGrid grid{.min_level = min_level, .max_level = 12};
+  grid.bounds = {Angle::degrees(-10), Angle::degrees(35), Angle::degrees(40), Angle::degrees(70)};
+  return grid;
+}
+
+void expect_each_once_and_in_the_grid(const TileGrid& grid, const TileCoverage& coverage) {
+  TileSet seen;
+  for (const WantedTile& wanted : coverage.wanted) {
+    EXPECT_TRUE(seen.insert(wanted.id).second) << "wanted twice";
+    EXPECT_TRUE(exists(grid, wanted.id)) << "level " << wanted.id.level << ' ' << wanted.id.x << ' ' << wanted.id.y;
+    EXPECT_TRUE(std::isfinite(wanted.priority));
+  }
+}
+
+/// Serves what is wanted, each tile as resident or as lacking, until nothing is wanted.
+void serve(const TileCoverage& coverage, TileResidency& residency, int one_in_lacking, Draw& draw, int& slot) {
+  for (const WantedTile& wanted : coverage.wanted) {
+    TileResidency::Entry& entry = residency.entry(wanted.id);
+    const bool lacking = one_in_lacking > 0 && draw.whole(1, one_in_lacking) == 1;
+    entry.state = lacking ? TileState::lacking : TileState::resident;
+    if (!lacking) entry.slot = slot++;
+  }
+}
+
+TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
+  Draw draw(43);
+  std::vector<TileGrid> all = grids();
+  all.push_back(europe(0));
+  all.push_back(europe(3));
+  for (TileGrid grid : all) {
+    grid.max_level = std::min(grid.max_level, 14);
+    PatchTree tree(earth().ellipsoid, grid, kSegments);
+    for (int k = 0; k < 12; ++k) {
+      const View view = make_view(random_camera(draw, 100.0, 1.0e8), earth().ellipsoid, {400, 300});
+      std::vector<SelectedPatch> patches;
+      select_patches(tree, view, {}, patches);
+      TileResidency residency;
+      int slot = 1;
+      for (const TileId& id : root_tiles(grid)) {
+        residency.entry(id).state = TileState::resident;
+        residency.entry(id).slot = slot++;
+      }
+      TileCoverage coverage;
+      std::uint64_t frame = 0;
+      do {
+        cover_with_tiles(tree, view, patches, residency, kLayout, ++frame, coverage);
+        expect_each_once_and_in_the_grid(grid, coverage);
+        const bool whole_planet = grid.bounds.north > Angle::degrees(80);
+        EXPECT_TRUE(!whole_planet || coverage.uncovered == 0);
+        EXPECT_GE(coverage.tiles, coverage.missing + coverage.lacking);
+        serve(coverage, residency, k % 3 == 0 ? 3 : 0, draw, slot);
+        ASSERT_LT(frame, 40U) << "something is wanted for ever";
+      } while (!coverage.wanted.empty());
+      EXPECT_EQ(coverage.missing, 0);
+      EXPECT_EQ(coverage.draws.size(), patches.size());
+    }
+  }
+}
+
+TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
+  Draw draw(44);
+  const TileGrid grid{.max_level = 14};
+  PatchTree tree(earth().ellipsoid, grid, kSegments);
+  for (int k = 0; k < 60; ++k) {
+    const View view = make_view(random_camera(draw, 100.0, 1.0e8), earth().ellipsoid, {400, 300});
+    std::vector<SelectedPatch> patches;
+    select_patches(tree, view, {}, patches);
+    TileResidency residency;
+    TileCoverage coverage;
+    cover_with_tiles(tree, view, patches, residency, kLayout, 1, coverage);
+    TileSet wanted;
+    for (const WantedTile& w : coverage.wanted) wanted.insert(w.id);
+    std::map<PatchId, int> levels;
+    for (const SelectedPatch& p : patches) levels[p.node->id] = p.tile_level;
+    const PatchSet leaves = ids_of(patches);
+    for (int n = 0; n < 50; ++n) {
+      const auto hit = pick(view, earth().ellipsoid, {draw.between(0, 400), draw.between(0, 300)});
+      if (!hit) continue;
+      const EcefDir normal = Ellipsoid::normal(hit->lat, hit->lon);
+      const auto leaf = leaf_over(leaves, patch_at(normal, kMaxPatchLevel));
+      ASSERT_TRUE(leaf);
+      const int level = levels.at(*leaf);
+      const TileXY at = tile_xy(grid, level, hit->lat.deg(), hit->lon.deg());
+      const TileId id{level, static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y)};
+      EXPECT_TRUE(wanted.contains(id)) << hit->lat.deg() << ", " << hit->lon.deg() << " level " << level;
+    }
+  }
+}
+
+TEST(RootTiles, AreTheWholeCoarsestLevelWithinTheBounds) {
+  EXPECT_EQ(root_tiles({.max_level = 5}).size(), 2U);
+  EXPECT_EQ(root_tiles({.root_span_deg = 288.0, .max_level = 5}).size(), 2U);
+  EXPECT_EQ(root_tiles({.root_span_deg = 360.0, .max_level = 5}).size(), 1U);
+  EXPECT_EQ(root_tiles({.min_level = 2, .max_level = 5}).size(), 32U);
+  for (const TileId& id : root_tiles(europe(3))) EXPECT_TRUE(exists(europe(3), id));
+  EXPECT_EQ(root_tiles(europe(0)).size(), 2U);
+}
+
+}  // namespace
+}  // namespace terrella::test
