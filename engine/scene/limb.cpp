@@ -15,8 +15,8 @@ namespace {
 constexpr int kPieces = 48;
 // Less than the error that is promised: the rest is for what lies between the points that were looked at.
 constexpr double kStraight_px = 0.015;
-// A piece 2^-30 of the limb is below a pixel of the longest lens.
-constexpr int kMostHalvings = 24;
+// A piece 2^-23 of the limb is a few pixels of the longest lens.
+constexpr int kMostHalvings = 18;
 // Around the picture: as much of the ribbon as may reach in.
 constexpr int kMargin_px = 8;
 
@@ -26,7 +26,8 @@ class LimbCurve {
       : view_(view), axes_m_(ellipsoid.a_m(), ellipsoid.a_m(), ellipsoid.b_m()) {
     const glm::dvec3 eye = view.eye.xyz_m / axes_m_;
     const double length = glm::length(eye);
-    seen_from_outside_ = length > 1.0 && std::isfinite(length);
+    const glm::dvec3 all = view.eye.xyz_m + view.right + view.up + view.forward;
+    seen_from_outside_ = length > 1.0 && std::isfinite(all.x + all.y + all.z + view.tan_half_fov_y);
     const glm::dvec3 axis = eye / length;
     center_ = axis / length;
     const double radius = std::sqrt(std::max(0.0, (length - 1.0) * (length + 1.0))) / length;

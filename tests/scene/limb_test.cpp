@@ -192,5 +192,16 @@ TEST(Limb, IsEmptyForAnEyeOnOrUnderTheGroundAndWhereItIsOutOfView) {
   EXPECT_TRUE(limb_ribbon(make_view(camera_at(0, 0, -6371000.0), sphere, {640, 480}), sphere, 1.0).empty());
 }
 
+TEST(Limb, IsEmptyForAViewThatIsNotFinite) {
+  for (const double bad : {kNaN, kInfinity}) {
+    for (int field = 0; field < 5; ++field) {
+      View view = make_view(camera_at(10, 20, 1.0e7), earth().ellipsoid, {640, 480});
+      double* const fields[] = {&view.eye.xyz_m.y, &view.right.x, &view.up.z, &view.forward.y, &view.tan_half_fov_y};
+      *fields[field] = bad;
+      EXPECT_TRUE(limb_ribbon(view, earth().ellipsoid, 1.0).empty());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace terrella::test
