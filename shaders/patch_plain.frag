@@ -1,4 +1,5 @@
-// Plain patches: interpolated coordinates, four taps on a rotated grid over the pixel. Good to footprints of 4 texels.
+// Plain patches: interpolated coordinates, four taps on a rotated grid over the pixel. Exact
+// to footprints of 4 texels, good to 8.
 void main() {
   vec2 p = window_point;
   vec4 cell = cell_at(p);

@@ -1,5 +1,7 @@
 // Pole bands: exact coordinates for each fragment, and its footprint, long in longitude, integrated by up to 16 taps
 // that each find their own cell.
+layout(binding = 4) uniform sampler2DArray tiles_precise;
+
 void main() {
   WindowPoint w = exact_window_point();
   vec2 low = vec2(0.01), high = vec2(window.zw) - 0.01;
@@ -11,7 +13,8 @@ void main() {
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
     vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (fract(s * 0.6180339887) - 0.5) * w.dy, low, high);
-    sum += tap(cell_at(p), p);
+    vec4 cell = cell_at(p);
+    sum += textureLod(tiles_precise, vec3(p * cell.x + cell.yz, cell.w), 0.0).rgb;
   }
   finish(sum * step);
 }

@@ -19,8 +19,8 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Four taps over the pixel serve footprints of up to this many texels (shaders/patch_plain.frag).
-constexpr double kPlainFootprint_texels = 4.5;
+// Four taps over the pixel serve footprints of up to this many texels well enough (shaders/patch_plain.frag).
+constexpr double kPlainFootprint_texels = 8.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.5;
 constexpr float kAnisotropy = 16.0F;
