@@ -41,6 +41,7 @@ struct Globe::Impl {
   void ask();
   std::size_t take_finished();
   FrameStats draw(unsigned framebuffer, Viewport viewport);
+  bool roots_decided();
 
   GlobeOptions options;
   TileGrid grid;
@@ -126,6 +127,14 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   return stats;
 }
 
+// Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
+bool Globe::Impl::roots_decided() {
+  for (const TileId& id : root_tiles(grid)) {
+    if (tiles.residency().entry(id).state == TileState::unknown) return false;
+  }
+  return true;
+}
+
 Globe::Globe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Globe::~Globe() = default;
 
@@ -149,7 +158,10 @@ void Globe::set_unlit(bool unlit) { impl_->options.unlit = unlit; }
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
 
-bool Globe::settled() const { return impl_->frame > 0 && impl_->coverage.wanted.empty() && impl_->stats.patches_uncovered == 0; }
+bool Globe::settled() const {
+  if (impl_->frame == 0 || !impl_->coverage.wanted.empty()) return false;
+  return impl_->stats.patches_uncovered == 0 || impl_->roots_decided();
+}
 
 bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
   for (;;) {
