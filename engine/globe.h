@@ -16,26 +16,26 @@ namespace terrella {
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
-  double paper_a = 4.0;        ///< formula (6)'s a, [2, 8]
-  double paper_band = 0.05;    ///< formula (5)'s b, (0, 0.5]
+  double paper_a = 4.0;      ///< formula (6)'s a, [2, 8]
+  double paper_band = 0.05;  ///< formula (5)'s b, (0, 0.5]
   DepthMode depth = DepthMode::reversed;
-  bool unlit = false;          ///< imagery alone: no light, no sky, black background
-  std::size_t gpu_bytes = 512UL << 20;         ///< tile texture slots
+  bool unlit = false;                   ///< imagery alone: no light, no sky, black background
+  std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
-  int workers = 2;             ///< decoder threads
+  int workers = 2;  ///< decoder threads
 };
 
 /// What one frame did.
 struct FrameStats {
   int patches = 0;
-  int band_patches = 0;        ///< of those, drawn by a per-fragment program
+  int band_patches = 0;  ///< of those, drawn by a per-fragment program
   int draw_calls = 0;
   long triangles = 0;
-  int tiles_wanted = 0;        ///< tiles the view asks for at full quality
-  int tiles_missing = 0;       ///< of those, neither on the GPU nor finally failed
-  int tiles_lacked = 0;        ///< of those, finally failed
-  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are there
+  int tiles_wanted = 0;       ///< tiles the view asks for at full quality
+  int tiles_missing = 0;      ///< of those, neither on the GPU nor finally failed
+  int tiles_lacked = 0;       ///< of those, finally failed
+  int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
   double selection_ms = 0.0;
 };
@@ -45,7 +45,8 @@ struct FrameStats {
 class Globe {
  public:
   /// Fails if no context is current, it is older than 4.5, or a shader does not compile.
-  [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery);
+  [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
+                                                             std::shared_ptr<TileSource> imagery);
   ~Globe();
   Globe(const Globe&) = delete;
   Globe& operator=(const Globe&) = delete;

@@ -27,15 +27,19 @@ constexpr float kAnisotropy = 16.0F;
 
 std::string_view depth_define(DepthMode mode) {
   switch (mode) {
-    case DepthMode::logarithmic: return "DEPTH_LOGARITHMIC";
-    case DepthMode::standard: return "DEPTH_STANDARD";
-    case DepthMode::reversed: break;
+    case DepthMode::logarithmic:
+      return "DEPTH_LOGARITHMIC";
+    case DepthMode::standard:
+      return "DEPTH_STANDARD";
+    case DepthMode::reversed:
+      break;
   }
   return "DEPTH_REVERSED";
 }
 
 Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment, DepthMode depth) {
-  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}}, {depth_define(depth)});
+  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                       {depth_define(depth)});
 }
 
 gl::Sampler sampler(GLenum minify, GLenum wrap, float anisotropy) {
@@ -123,8 +127,8 @@ void GlobeRenderer::set_up_vertex_array() {
 
 void GlobeRenderer::set_up_samplers() {
   bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE, 1.0F);
-  // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with eight
-  // bits for the common modes and in float for this one.
+  // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with
+  // eight bits for the common modes and in float for this one.
   precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT, 1.0F);
   anisotropic_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE, kAnisotropy);
   mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE, 1.0F);
@@ -159,20 +163,23 @@ void GlobeRenderer::upload_frame(const FrameInput& input, const SlotLayout& layo
   block.sun_ecef = glm::vec4(glm::vec3(input.sun), input.lit ? 1.0F : 0.0F);
   const double polar_scale = tree_.grid().latitude == LatitudeKind::centric ? e.one_minus_e2() : 1.0;
   block.texels = glm::vec4(layout.tile_px, layout.slot_px(), mips, polar_scale);
-  block.paper = glm::vec4(options_.paper_a, options_.paper_band, tree_.grid().projection == Projection::equal_area ? 1.0 : 0.0, 0.0);
+  block.paper = glm::vec4(options_.paper_a, options_.paper_band,
+                          tree_.grid().projection == Projection::equal_area ? 1.0 : 0.0, 0.0);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }
 
 GlobeRenderer::PatchProgram GlobeRenderer::program_for(const SelectedPatch& patch) const {
   switch (options_.texturing) {
-    case Texturing::exact: return exact;
+    case Texturing::exact:
+      return exact;
     case Texturing::automatic:
       if (patch.in_band) return polar;
       break;
     case Texturing::paper:
       if (patch.node->min_colatitude_rad < options_.paper_band * 3.14159265358979) return paper;
       break;
-    case Texturing::vertex: break;
+    case Texturing::vertex:
+      break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
   return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
@@ -183,7 +190,8 @@ void GlobeRenderer::upload_draws(const FrameInput& input, FrameCounts& counts) {
   const auto& patches = *input.patches;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
-    const PatchIndices::Range range = patches_.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+    const PatchIndices::Range range =
+        patches_.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
     const int place = patches_.place_of(*patch.node, input.frame);
     by_program[program_for(patch)].push_back(
         {range.count, 1, range.first, place * patches_.vertices_per_patch(), static_cast<GLuint>(k)});
@@ -244,7 +252,8 @@ void GlobeRenderer::draw_patches(FrameCounts& counts) const {
   }
 }
 
-FrameCounts GlobeRenderer::draw(const FrameInput& input, TileTextures& tiles, const SlotLayout& layout, GLuint framebuffer) {
+FrameCounts GlobeRenderer::draw(const FrameInput& input, TileTextures& tiles, const SlotLayout& layout,
+                                GLuint framebuffer) {
   FrameCounts counts;
   resize(input.view.viewport);
   upload_frame(input, layout, tiles.mips());

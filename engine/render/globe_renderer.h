@@ -31,7 +31,7 @@ struct FrameInput {
   const std::vector<SelectedPatch>* patches = nullptr;
   const TileCoverage* coverage = nullptr;  ///< draws belong to patches, one to one
   bool lit = true;
-  glm::dvec3 sun{1.0, 0.0, 0.0};           ///< unit, ECEF axes
+  glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
   std::uint64_t frame = 0;
 };
 

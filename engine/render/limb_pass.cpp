@@ -12,7 +12,8 @@ constexpr double kHalfWidth_px = 1.0;
 }  // namespace
 
 Result<std::unique_ptr<LimbPass>> LimbPass::create() {
-  Result<gl::Program> program = build_program({{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {"limb.frag"}}}, {});
+  Result<gl::Program> program =
+      build_program({{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {"limb.frag"}}}, {});
   if (!program) return program.error();
   std::unique_ptr<LimbPass> pass(new LimbPass);
   pass->program_ = std::move(*program);
@@ -34,7 +35,8 @@ Result<std::unique_ptr<LimbPass>> LimbPass::create() {
 int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, GLuint picture) {
   const std::vector<LimbVertex> strip = limb_ribbon(view, ellipsoid, kHalfWidth_px);
   if (strip.empty()) return 0;
-  glNamedBufferData(vertices_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(LimbVertex)), strip.data(), GL_STREAM_DRAW);
+  glNamedBufferData(vertices_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(LimbVertex)), strip.data(),
+                    GL_STREAM_DRAW);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glUseProgram(program_.name());

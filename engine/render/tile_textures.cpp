@@ -36,13 +36,15 @@ TileTextures::TileTextures(const TileGrid& grid, const SlotLayout& layout, int m
     : grid_(grid), layout_(layout), mips_(mips) {
   GLint most_layers = 256;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-  most_slots_ = static_cast<int>(std::clamp<std::size_t>(budget_bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
+  most_slots_ =
+      static_cast<int>(std::clamp<std::size_t>(budget_bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
   grow();
 }
 
 std::size_t TileTextures::slot_bytes() const {
   std::size_t bytes = 0;
-  for (int k = 0; k < mips_; ++k) bytes += 4UL * static_cast<std::size_t>((layout_.slot_px() >> k) * (layout_.slot_px() >> k));
+  for (int k = 0; k < mips_; ++k)
+    bytes += 4UL * static_cast<std::size_t>((layout_.slot_px() >> k) * (layout_.slot_px() >> k));
   return bytes;
 }
 
@@ -54,8 +56,8 @@ bool TileTextures::grow() {
   for (int k = 0; k < mips_; ++k) {
     const int side = layout_.slot_px() >> k;
     if (texture_) {
-      glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, side,
-                         side, slots_);
+      glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0,
+                         0, side, side, slots_);
     } else {
       glClearTexSubImage(larger.name(), k, 0, 0, 0, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, kPlainColour);
     }
@@ -74,7 +76,9 @@ int TileTextures::take_slot(std::uint64_t frame) {
   if (used_ < slots_ || grow()) return used_++;
   const std::pair<const TileId, TileResidency::Entry>* oldest = nullptr;
   for (const auto& item : residency_.entries()) {
-    if (item.second.state != TileState::resident || item.first.level == grid_.min_level || item.second.last_drawn >= frame) continue;
+    if (item.second.state != TileState::resident || item.first.level == grid_.min_level ||
+        item.second.last_drawn >= frame)
+      continue;
     if (oldest == nullptr || item.second.last_drawn < oldest->second.last_drawn) oldest = &item;
   }
   if (oldest == nullptr) return -1;
@@ -120,7 +124,8 @@ void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, i
   // Where the last column reaches over +180° its own texels end before its edge.
   int end_px = grid_.tile_px;
   const std::int64_t across = columns(grid_, into.level);
-  if (dx < 0 && into.x == 0) end_px = static_cast<int>(*pixels_around(grid_, into.level) - (across - 1) * grid_.tile_px);
+  if (dx < 0 && into.x == 0)
+    end_px = static_cast<int>(*pixels_around(grid_, into.level) - (across - 1) * grid_.tile_px);
   if (dx > 0 && into.x == across - 1 && *pixels_around(grid_, into.level) != across * grid_.tile_px) return;
   for (int k = 0; k < mips_; ++k) {
     const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k, end = end_px >> k;
@@ -128,8 +133,9 @@ void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, i
     const auto strip = [g, t](int d) { return d == 0 ? t : g; };
     const auto from_edge = [g](int d, int last) { return d < 0 ? last : g; };
     const auto to_edge = [g, t](int d) { return d < 0 ? 0 : d > 0 ? g + t : g; };
-    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, from_edge(dx, end), from_edge(dy, t), from_layer, texture_.name(),
-                       GL_TEXTURE_2D_ARRAY, k, to_edge(dx), to_edge(dy), to_layer, strip(dx), strip(dy), 1);
+    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, from_edge(dx, end), from_edge(dy, t), from_layer,
+                       texture_.name(), GL_TEXTURE_2D_ARRAY, k, to_edge(dx), to_edge(dy), to_layer, strip(dx),
+                       strip(dy), 1);
   }
 }
 

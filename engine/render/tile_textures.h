@@ -11,23 +11,24 @@
 
 namespace terrella {
 
-/// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a plain
-/// colour, for where there is no imagery. A slot's gutter holds the neighbours' texels as they come, so that
+/// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
+/// plain colour, for where there is no imagery. A slot's gutter holds the neighbours' texels as they come, so that
 /// filtering at a tile's border sees what lies beyond it.
 /// thread: main
 class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
 
-  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels a side, RGBA8 (streaming/tile_texels.h). The tile drawn
-  /// longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do. False: no room.
+  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels a side, RGBA8 (streaming/tile_texels.h). The
+  /// tile drawn longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do.
+  /// False: no room.
   bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
   void set_state(const TileId& id, TileState state) { residency_.entry(id).state = state; }
 
   [[nodiscard]] TileResidency& residency() { return residency_; }
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   [[nodiscard]] int mips() const { return mips_; }
-  [[nodiscard]] int capacity() const { return most_slots_; }   ///< tiles that the budget has room for
+  [[nodiscard]] int capacity() const { return most_slots_; }  ///< tiles that the budget has room for
   [[nodiscard]] std::size_t slot_bytes() const;
 
  private:

@@ -79,7 +79,8 @@ class RibbonWriter {
         curve_(curve),
         wide_(with_margin(view)),
         planes_(view_planes(wide_)),
-        // The planet's centre tells which side of the curve is inside, also where the limb is cut by the picture's edge.
+        // The planet's centre tells which side of the curve is inside, also where the limb is cut by the picture's
+        // edge.
         down_(-glm::normalize(view.eye.xyz_m)),
         half_width_px_(half_width_px),
         strip_(strip) {}

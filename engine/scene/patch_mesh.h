@@ -15,8 +15,8 @@ namespace terrella {
 struct PatchVertex {
   glm::vec3 position_high_m;
   glm::vec3 position_low_m;
-  glm::vec3 direction;    ///< row_direction() minus the centre's, over the centre's length: exact to the patch's size
-  glm::vec2 offset_deg;   ///< longitude and row latitude (TileGrid) relative to the patch's centre
+  glm::vec3 direction;   ///< row_direction() minus the centre's, over the centre's length: exact to the patch's size
+  glm::vec2 offset_deg;  ///< longitude and row latitude (TileGrid) relative to the patch's centre
 };
 static_assert(sizeof(PatchVertex) == 44);
 
@@ -27,8 +27,8 @@ struct SplitPosition {
 };
 [[nodiscard]] SplitPosition split_position(const glm::dvec3& p_m);
 
-/// The (segments + 1)² vertices of a patch, row-major in (i, j). Longitude unwraps around the patch's centre; a vertex on the
-/// antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. thread: any
+/// The (segments + 1)² vertices of a patch, row-major in (i, j). Longitude unwraps around the patch's centre; a vertex
+/// on the antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. thread: any
 [[nodiscard]] std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& node);
 /// Row latitude of the patch's centre: what offset_deg.y counts from.
 [[nodiscard]] double center_row_deg(const PatchTree& tree, const PatchNode& node);

@@ -67,7 +67,8 @@ class Selector {
     return std::max({center - node.sphere.radius_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
   }
 
-  // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and north.
+  // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and
+  // north.
   struct PixelOnGround {
     double short_m, east_m, north_m;
   };
@@ -79,8 +80,8 @@ class Selector {
     const double flat = std::max(1e-9, std::sqrt(std::max(0.0, 1.0 - up * up)));
     const double sine = std::min(1.0, std::abs(east) / flat), cosine = std::sqrt(1.0 - sine * sine);
     const double across = distance * radians_per_pixel_, along = across / std::clamp(std::abs(up), 0.05, 1.0);
-    return {nearest_m * radians_per_pixel_ / std::sqrt(std::clamp(std::abs(up), 0.05, 1.0)), std::hypot(along * sine, across * cosine),
-            std::hypot(along * cosine, across * sine)};
+    return {nearest_m * radians_per_pixel_ / std::sqrt(std::clamp(std::abs(up), 0.05, 1.0)),
+            std::hypot(along * sine, across * cosine), std::hypot(along * cosine, across * sine)};
   }
 
   [[nodiscard]] SelectedPatch assess(PatchNode& node) const {
@@ -96,7 +97,8 @@ class Selector {
     // Finer than this, a pixel would be longer than the taps and the gutter reach.
     if (!near_pole) level = std::min(level, std::log2(options_.max_footprint_texels * texel0_m / longest_m));
     const TileGrid& grid = tree_.grid();
-    patch.tile_level = std::clamp(static_cast<int>(std::ceil(std::clamp(level, -64.0, 64.0) - 0.02)), grid.min_level, grid.max_level);
+    patch.tile_level =
+        std::clamp(static_cast<int>(std::ceil(std::clamp(level, -64.0, 64.0) - 0.02)), grid.min_level, grid.max_level);
     const double span = std::max(node.east_deg - node.west_deg, 0.0);
     while (near_pole && patch.tile_level > grid.min_level &&
            span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {

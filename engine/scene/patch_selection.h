@@ -9,13 +9,13 @@
 namespace terrella {
 
 struct PatchSelectionOptions {
-  double max_error_px = 0.2;      ///< of the surface, and of interpolated texture coordinates
-  double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
-  bool per_fragment_bands = true; ///< band patches take exact coordinates: they need not be split for theirs
-  double texels_per_pixel = 1.0;  ///< detail asked of the imagery: 1, a texel a pixel along the meridian
-  double max_footprint_texels = 8.0;   ///< the longest extent of a pixel, in texels, that filtering reaches over
-  int max_window = 8;             ///< a patch whose window has more cells a side is split
-  int max_polar_columns = 32;     ///< a patch that touches a pole takes a coarser level over this many columns
+  double max_error_px = 0.2;          ///< of the surface, and of interpolated texture coordinates
+  double band = 0.05;                 ///< a pole band is this part of the picture's height (paper 1, 1.5)
+  bool per_fragment_bands = true;     ///< band patches take exact coordinates: they need not be split for theirs
+  double texels_per_pixel = 1.0;      ///< detail asked of the imagery: 1, a texel a pixel along the meridian
+  double max_footprint_texels = 8.0;  ///< the longest extent of a pixel, in texels, that filtering reaches over
+  int max_window = 8;                 ///< a patch whose window has more cells a side is split
+  int max_polar_columns = 32;         ///< a patch that touches a pole takes a coarser level over this many columns
 };
 
 /// One patch to draw.
@@ -36,10 +36,9 @@ struct ViewPlanes {
 /// -1 outside, 0 cut, 1 inside.
 [[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
 
-/// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the view,
-/// the tree (whose nodes it makes and stamps) and the options.
-/// An eye on or under the surface sees every patch in front of it: no horizon culling then. A view with NaN selects nothing.
-/// thread: main
+/// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
+/// view, the tree (whose nodes it makes and stamps) and the options. An eye on or under the surface sees every patch in
+/// front of it: no horizon culling then. A view with NaN selects nothing. thread: main
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
                     std::vector<SelectedPatch>& out);
 

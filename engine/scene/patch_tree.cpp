@@ -59,7 +59,8 @@ void measure_extent(PatchNode& node, const Ellipsoid& ellipsoid, const TileGrid&
     node.east_deg = std::max(node.east_deg, lon);
   });
   // A hair wider than the vertices, for rounding: the spheres only ever cull.
-  node.sphere.radius_m = std::sqrt(radius2) * (1.0 + 1e-9) + 1e-9 * ellipsoid.a_m() * std::numeric_limits<float>::epsilon();
+  node.sphere.radius_m =
+      std::sqrt(radius2) * (1.0 + 1e-9) + 1e-9 * ellipsoid.a_m() * std::numeric_limits<float>::epsilon();
   node.cos_cone = std::clamp(cos_cone, -1.0, 1.0) - 1e-15;
   node.sin_cone = std::sqrt(std::max(0.0, 1.0 - node.cos_cone * node.cos_cone));
 }
@@ -108,19 +109,21 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
   node.lon_center_deg = Ellipsoid::lat_lon(center).lon.deg();
   const glm::dvec3 m = glm::normalize(row_direction(grid_, ellipsoid_, center.xyz));
   const double equatorial = std::hypot(m.x, m.y);
-  node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z) : glm::dvec4(1.0, 0.0, 0.0, m.z);
+  node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z)
+                                : glm::dvec4(1.0, 0.0, 0.0, m.z);
   measure_extent(node, ellipsoid_, grid_, segments_, mapping_);
 
-  // A segment spans at most π/2 / (2^level n), under the plain mapping 4/π as much; over the diagonal of a quad the chord sags (√2 Δ)²/8 of the radius of
-  // curvature, which is at most a²/b.
+  // A segment spans at most π/2 / (2^level n), under the plain mapping 4/π as much; over the diagonal of a quad the
+  // chord sags (√2 Δ)²/8 of the radius of curvature, which is at most a²/b.
   const double face_rad = mapping_ == CubeMapping::plain ? 2.0 : 0.5 * std::numbers::pi;
   const double segment = face_rad / (std::ldexp(1.0, id.level) * segments_);
   node.geometric_error_m = ellipsoid_.a_m() * (ellipsoid_.a_m() / ellipsoid_.b_m()) * segment * segment * 0.25;
-  // Along a course ds = (a east, b north), d²(longitude)/ds² · cos(latitude) = 2 a b tan(latitude) and d²(latitude)/ds² =
-  // -a² tan(latitude), for equal-area rows -tan(latitude): together at most 2/√3, or √2, times the tangent. The coordinate,
-  // interpolated along the chord, lags by that times the same Δ²/4.
+  // Along a course ds = (a east, b north), d²(longitude)/ds² · cos(latitude) = 2 a b tan(latitude) and d²(latitude)/ds²
+  // = -a² tan(latitude), for equal-area rows -tan(latitude): together at most 2/√3, or √2, times the tangent. The
+  // coordinate, interpolated along the chord, lags by that times the same Δ²/4.
   const double colat = std::max(node.min_colatitude_rad, segment);
-  const double worst_course = grid_.projection == Projection::equal_area ? std::numbers::sqrt2 : 2.0 * std::numbers::inv_sqrt3;
+  const double worst_course =
+      grid_.projection == Projection::equal_area ? std::numbers::sqrt2 : 2.0 * std::numbers::inv_sqrt3;
   node.texture_error_factor = std::max(1.0, worst_course / std::tan(std::min(colat, 1.5)));
   node.row_stretch = least_row_stretch(grid_, 0.5 * std::numbers::pi - node.max_colatitude_rad);
   return node;
@@ -142,8 +145,10 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
   win.level = tile_level;
   win.x0 = static_cast<std::int64_t>(std::floor(nw.x + kSliver));
   win.y0 = static_cast<std::int64_t>(std::floor(nw.y + kSliver));
-  win.w = static_cast<int>(std::max<std::int64_t>(win.x0 + 1, static_cast<std::int64_t>(std::ceil(se.x - kSliver))) - win.x0);
-  win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) - win.y0);
+  win.w = static_cast<int>(std::max<std::int64_t>(win.x0 + 1, static_cast<std::int64_t>(std::ceil(se.x - kSliver))) -
+                           win.x0);
+  win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) -
+                           win.y0);
   win.cells.clear();
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {

@@ -32,20 +32,22 @@ struct TileWindow {
 struct PatchNode {
   PatchId id;
   BoundingSphere sphere;
-  /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its half angle.
+  /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
+  /// half angle.
   glm::dvec3 cone_axis{0.0};
   double cos_cone = 1.0, sin_cone = 0.0;
-  glm::dvec3 normal{0.0};              ///< geodetic normal at the centre
-  double geometric_error_m = 0.0;      ///< largest distance between the mesh and the ellipsoid
-  double texture_error_factor = 1.0;   ///< interpolated texture coordinates are off by at most this times geometric_error_m
+  glm::dvec3 normal{0.0};          ///< geodetic normal at the centre
+  double geometric_error_m = 0.0;  ///< largest distance between the mesh and the ellipsoid
+  double texture_error_factor =
+      1.0;  ///< interpolated texture coordinates are off by at most this times geometric_error_m
   /// Cosine and sine of the centre's longitude and of its counted latitude (graphic or centric, see row_direction()).
   glm::dvec4 frame{1.0, 0.0, 1.0, 0.0};
-  double lon_center_deg = 0.0;         ///< longitude unwraps around this
-  double west_deg = 0.0, east_deg = 0.0;    ///< relative to lon_center_deg
+  double lon_center_deg = 0.0;                      ///< longitude unwraps around this
+  double west_deg = 0.0, east_deg = 0.0;            ///< relative to lon_center_deg
   double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
-  double min_colatitude_rad = 0.0;     ///< of the patch's point nearest to a pole
-  double max_colatitude_rad = 0.0;     ///< of the point farthest from that pole
-  double row_stretch = 1.0;            ///< ground metres per row degree over those of an equirectangular row, least in the patch
+  double min_colatitude_rad = 0.0;                  ///< of the patch's point nearest to a pole
+  double max_colatitude_rad = 0.0;                  ///< of the point farthest from that pole
+  double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
   PatchNode* parent = nullptr;
   std::array<PatchNode*, 4> children{};  ///< all or none

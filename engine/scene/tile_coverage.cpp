@@ -11,7 +11,13 @@ class Coverer {
  public:
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, const SlotLayout& layout, std::uint64_t frame,
           TileCoverage& out)
-      : tree_(tree), view_(view), residency_(residency), layout_(layout), frame_(frame), out_(out), planes_(view_planes(view)) {
+      : tree_(tree),
+        view_(view),
+        residency_(residency),
+        layout_(layout),
+        frame_(frame),
+        out_(out),
+        planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     axes_m_ = glm::dvec3(e.a_m(), e.a_m(), e.b_m());
     eye_scaled_ = view.eye.xyz_m / axes_m_;
@@ -67,7 +73,8 @@ class Coverer {
     if (classify(planes_, view_, sphere) < 0) return false;
     if (!seen_from_outside_) return true;
     // Scaled by the shortest axis the sphere still holds what it held.
-    return glm::dot(sphere.center_m / axes_m_, eye_scaled_) + glm::length(eye_scaled_) * sphere.radius_m / axes_m_.z >= 1.0;
+    return glm::dot(sphere.center_m / axes_m_, eye_scaled_) + glm::length(eye_scaled_) * sphere.radius_m / axes_m_.z >=
+           1.0;
   }
 
   Found find(const SelectedPatch& patch, const TileWindow& win, int x, int y) {
@@ -121,7 +128,8 @@ class Coverer {
     };
     const double ox = (layout_.gutter_px + texels * within(col, found.tile.x, x)) / slot;
     const double oy = (layout_.gutter_px + texels * within(row, found.tile.y, y)) / slot;
-    return {static_cast<float>(texels * up / slot), static_cast<float>(ox), static_cast<float>(oy), static_cast<float>(found.slot)};
+    return {static_cast<float>(texels * up / slot), static_cast<float>(ox), static_cast<float>(oy),
+            static_cast<float>(found.slot)};
   }
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
@@ -130,7 +138,8 @@ class Coverer {
     const TileXY center = tile_xy(grid, win.level, row, node.lon_center_deg);
     const double per_deg = 1.0 / tile_span_deg(grid, win.level);
     PatchDraw draw;
-    draw.center_and_scale = glm::vec4(center.x - static_cast<double>(win.x0 - 1), center.y - static_cast<double>(win.y0 - 1), per_deg, per_deg);
+    draw.center_and_scale = glm::vec4(center.x - static_cast<double>(win.x0 - 1),
+                                      center.y - static_cast<double>(win.y0 - 1), per_deg, per_deg);
     draw.frame = glm::vec4(node.frame);
     draw.row = glm::vec4(row, static_cast<double>(grid.max_level - win.level), 0.0, 0.0);
     draw.window = glm::uvec4(first, win.w + 2, win.w + 2, win.h + 2);

@@ -17,18 +17,19 @@ struct SlotLayout {
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
 };
 
-/// One cell of a window on the GPU: a point p of the window (in cells) lies at slot coordinates p · scale + (offset_x, offset_y)
-/// of array layer `layer`.
+/// One cell of a window on the GPU: a point p of the window (in cells) lies at slot coordinates p · scale + (offset_x,
+/// offset_y) of array layer `layer`.
 struct WindowCell {
   float scale, offset_x, offset_y, layer;
 };
 
 /// What the programs must know of a patch besides its vertices.
 struct PatchDraw {
-  glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row latitude
+  glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row
+                               ///< latitude
   glm::vec4 frame;             ///< PatchNode::frame
-  glm::vec4 row;               ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
-  glm::uvec4 window;           ///< first cell, cells a row, width, height, of the window with its border
+  glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
+  glm::uvec4 window;  ///< first cell, cells a row, width, height, of the window with its border
 };
 
 /// A tile that the view wants, with how much.
@@ -38,18 +39,18 @@ struct WantedTile {
 };
 
 struct TileCoverage {
-  std::vector<PatchDraw> draws;      ///< one for each selected patch
+  std::vector<PatchDraw> draws;  ///< one for each selected patch
   std::vector<WindowCell> cells;
-  std::vector<WantedTile> wanted;    ///< not there and not lacking; root tiles first
-  int tiles = 0;                     ///< tiles of the view at full quality
-  int missing = 0;                   ///< of those, not there yet
-  int lacking = 0;                   ///< of those, replaced by an ancestor for good
-  int uncovered = 0;                 ///< patches with a cell in view for which not even an ancestor is there
+  std::vector<WantedTile> wanted;  ///< not there and not lacking; root tiles first
+  int tiles = 0;                   ///< tiles of the view at full quality
+  int missing = 0;                 ///< of those, not there yet
+  int lacking = 0;                 ///< of those, replaced by an ancestor for good
+  int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
-/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Stamps what is drawn with `frame`.
-/// Longitude wraps; cells beyond the planet repeat its edge. thread: main
+/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Stamps what is drawn with
+/// `frame`. Longitude wraps; cells beyond the planet repeat its edge. thread: main
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
                       TileResidency& residency, const SlotLayout& layout, std::uint64_t frame, TileCoverage& out);
 

@@ -22,10 +22,10 @@ class TileResidency {
  public:
   struct Entry {
     TileState state = TileState::unknown;
-    int slot = -1;                  ///< if resident
-    std::uint64_t last_drawn = 0;   ///< frame number, for eviction
-    std::uint64_t last_wanted = 0;  ///< frame number, so that a frame lists a tile once
-    std::uint64_t last_counted = 0; ///< frame number, so that a frame counts a tile once
+    int slot = -1;                   ///< if resident
+    std::uint64_t last_drawn = 0;    ///< frame number, for eviction
+    std::uint64_t last_wanted = 0;   ///< frame number, so that a frame lists a tile once
+    std::uint64_t last_counted = 0;  ///< frame number, so that a frame counts a tile once
   };
 
   [[nodiscard]] Entry& entry(const TileId& id) { return entries_[id]; }

@@ -78,8 +78,9 @@ void measure(const std::string& view, std::vector<Subject> subjects, int rounds)
   }
   const double base = median(subjects.front().ms), cpu_base = median(subjects.front().cpu_ms);
   for (const Subject& subject : subjects) {
-    fmt::print("{:<6} {:<22} wall {:7.2f} ms  ratio {:5.2f}   processor {:7.2f} ms  ratio {:5.2f}\n", view, subject.name,
-               median(subject.ms), median(subject.ms) / base, median(subject.cpu_ms), median(subject.cpu_ms) / cpu_base);
+    fmt::print("{:<6} {:<22} wall {:7.2f} ms  ratio {:5.2f}   processor {:7.2f} ms  ratio {:5.2f}\n", view,
+               subject.name, median(subject.ms), median(subject.ms) / base, median(subject.cpu_ms),
+               median(subject.cpu_ms) / cpu_base);
   }
 }
 
@@ -110,8 +111,9 @@ int main(int argc, char** argv) {
     };
     const truth::TruthCamera same{.eye = {.lat_deg = lat, .lon_deg = lon, .height_m = camera.eye.height_m}};
     measure(name,
-            {Subject{"plain sphere (paper)", [&] { sphere.draw(same, 6378137.0); }, {}, {}}, subject("vertex, unlit", *vertex),
-             subject("auto, unlit", *automatic), subject("auto, lit", *lit), subject("paper, unlit", *paper), subject("exact, unlit", *exact)},
+            {Subject{"plain sphere (paper)", [&] { sphere.draw(same, 6378137.0); }, {}, {}},
+             subject("vertex, unlit", *vertex), subject("auto, unlit", *automatic), subject("auto, lit", *lit),
+             subject("paper, unlit", *paper), subject("exact, unlit", *exact)},
             rounds);
   }
   return 0;
