@@ -85,7 +85,7 @@ class Viewer:
         self.camera = Camera(self.lines.get(timeout=PATIENCE_S), SIZE)
         while True:
             try:
-                self.camera = Camera(self.lines.get(timeout=0.8), SIZE)
+                self.camera = Camera(self.lines.get(timeout=0.5), SIZE)
             except queue.Empty:
                 return self.camera
 
@@ -106,7 +106,7 @@ class Viewer:
         for i in range(1, steps + 1):
             self.move(*(round(a + (b - a) * i / steps) for a, b in zip(start, end)))
             time.sleep(0.05)
-        time.sleep(1.0)  # a hand that rests before it lets go does not flick
+        time.sleep(0.6)  # a hand that rests before it lets go does not flick
         self.xdotool("mouseup", str(button))
 
     def wheel(self, x, y, clicks):
