@@ -116,7 +116,15 @@ class Selector {
     const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
     patch.in_band = bent && node.min_colatitude_rad < band_rad_;
     if (bent && !patch.in_band) return true;
-    return window_too_wide(node, patch);
+    return window_too_wide(node, patch) || reaches_to_the_eye(node, patch);
+  }
+
+  // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
+  // by its middle, and what lies under the eye would be a blur.
+  [[nodiscard]] bool reaches_to_the_eye(const PatchNode& node, const SelectedPatch& patch) const {
+    constexpr double kMostOverNearest = 4.0;
+    const double middle_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
+    return patch.tile_level < tree_.grid().max_level && middle_m > kMostOverNearest * nearest_m(node);
   }
 
   [[nodiscard]] bool window_too_wide(const PatchNode& node, const SelectedPatch& patch) const {
