@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
+
+/// A tile is found through an index in dozens of steps; without one, these are enough to scan a few hundred thousand.
+constexpr std::int64_t kMaxTileSteps = 2'000'000;
 
 /// A connection and its two queries; used by one thread at a time.
 struct Connection {
@@ -37,14 +41,9 @@ Result<Connection, SqlError> connect(SqliteReader reader, const std::string& tab
   return Connection{std::move(reader), *std::move(tile), *std::move(count)};
 }
 
-/// Runs the tile query; the row's blob must be copied before the query is reset.
-Result<EncodedTile, TileFailure> read_row(SqliteQuery& query) {
-  const Result<bool, SqlError> row = query.step();
-  if (!row) {
-    const bool again = row.error().problem == SqlProblem::busy;
-    return TileFailure{again ? Absence::failed : Absence::broken, row.error().message};
-  }
-  if (!*row) return TileFailure{Absence::absent, "the GeoPackage has no such tile"};
+/// The tile in the query's row. Copied, since it is gone once the query is reset.
+Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
+  if (!row) return TileFailure{Absence::absent, "the GeoPackage has no such tile"};
   const auto blob = query.blob(0);
   if (!blob) return TileFailure{Absence::broken, "tile_data is not a blob"};
   if (blob->empty()) return TileFailure{Absence::blank, "tile_data is empty"};
@@ -67,12 +66,14 @@ class GeoPackageSource : public TileSource {
     }
     const auto place = place_of(level->second, id);
     if (!place) return TileFailure{Absence::absent, "outside the tile matrix"};
+    if (given_up_) return TileFailure{Absence::broken, "given up: reading another tile took too long"};
     Result<Connection, SqlError> connection = take();
     if (!connection) return TileFailure{Absence::failed, connection.error().message};
     connection->tile.bind(1, level->second.zoom);
     connection->tile.bind(2, place->first);
     connection->tile.bind(3, place->second);
-    Result<EncodedTile, TileFailure> tile = read_row(connection->tile);
+    const Result<bool, SqlError> row = connection->tile.step(kMaxTileSteps);
+    Result<EncodedTile, TileFailure> tile = row ? tile_of(connection->tile, *row) : failure_of(row.error());
     connection->tile.reset();
     give_back(*std::move(connection));
     return tile;
@@ -92,6 +93,12 @@ class GeoPackageSource : public TileSource {
   }
 
  private:
+  /// What never ends for one tile does not end for the next: a file is given one such chance.
+  TileFailure failure_of(const SqlError& error) {
+    if (error.problem == SqlProblem::too_long) given_up_ = true;
+    return TileFailure{error.problem == SqlProblem::busy ? Absence::failed : Absence::broken, error.message};
+  }
+
   static std::optional<std::pair<std::int64_t, std::int64_t>> place_of(const GeoPackageLevel& level, const TileId& id) {
     std::int64_t column = id.x - level.first_column;
     if (column < 0) column += level.turn_columns;
@@ -121,12 +128,13 @@ class GeoPackageSource : public TileSource {
 
   const fs::path path_;
   const GeoPackageTiles tiles_;
+  std::atomic<bool> given_up_ = false;
   std::mutex mutex_;
   std::vector<Connection> idle_;  ///< as many as there were readers at once; guarded by mutex_
 };
 
 Result<bool, SqlError> is_mbtiles(SqliteReader& reader) {
-  const Result<bool, SqlError> tiles = reader.has_table("tiles");
+  Result<bool, SqlError> tiles = reader.has_table("tiles");
   if (!tiles || !*tiles) return tiles;
   return reader.has_table("metadata");
 }

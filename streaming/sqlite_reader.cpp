@@ -1,6 +1,7 @@
 #include "streaming/sqlite_reader.h"
 
 #include <sqlite3.h>
+#include <time.h>
 
 #include <cmath>
 #include <utility>
@@ -8,18 +9,29 @@
 namespace terrella {
 namespace {
 
-constexpr int kStepsPerCheck = 10'000;
+constexpr int kStepsPerCheck = 1'000;
 constexpr int kBusyTimeoutMs = 5'000;
 
-int on_progress(void* steps_left) {
-  auto* left = static_cast<std::int64_t*>(steps_left);
-  *left -= kStepsPerCheck;
-  return *left < 0 ? 1 : 0;
+/// Processor time: a busy machine must not make an honest file slow.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void allow(RowAllowance& allowance, std::int64_t max_steps) {
+  allowance = {.steps = max_steps, .until_s = thread_seconds() + kMaxRowSeconds};
+}
+
+int on_progress(void* context) {
+  auto& allowance = *static_cast<RowAllowance*>(context);
+  allowance.steps -= kStepsPerCheck;
+  return allowance.steps < 0 || thread_seconds() > allowance.until_s ? 1 : 0;
 }
 
 SqlError sql_error(sqlite3* database, int code) {
   if (code == SQLITE_INTERRUPT)
-    return {SqlProblem::broken, "reading a row takes too long (no index, or a hostile view)"};
+    return {SqlProblem::too_long, "reading a row takes too long (no index, or a hostile view)"};
   const bool busy = code == SQLITE_BUSY || code == SQLITE_LOCKED;
   return {busy ? SqlProblem::busy : SqlProblem::broken,
           database != nullptr ? sqlite3_errmsg(database) : "out of memory"};
@@ -50,18 +62,19 @@ Result<SqliteReader, SqlError> SqliteReader::open(const std::filesystem::path& p
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE, nullptr);
   reader.database_.reset(database);
   if (opened != SQLITE_OK) return sql_error(database, opened);
-  reader.steps_left_ = std::make_unique<std::int64_t>(kMaxRowSteps);
-  sqlite3_progress_handler(database, kStepsPerCheck, on_progress, reader.steps_left_.get());
+  reader.allowance_ = std::make_unique<RowAllowance>();
+  allow(*reader.allowance_, kMaxRowSteps);
+  sqlite3_progress_handler(database, kStepsPerCheck, on_progress, reader.allowance_.get());
   if (const int code = distrust(database, max_value_bytes); code != SQLITE_OK) return sql_error(database, code);
   return reader;
 }
 
 Result<SqliteQuery, SqlError> SqliteReader::prepare(const std::string& sql) {
-  *steps_left_ = kMaxRowSteps;
+  allow(*allowance_, kMaxRowSteps);
   sqlite3_stmt* statement = nullptr;
   const int code = sqlite3_prepare_v2(database_.get(), sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr);
   if (code != SQLITE_OK) return sql_error(database_.get(), code);
-  return SqliteQuery(statement, steps_left_.get());
+  return SqliteQuery(statement, allowance_.get());
 }
 
 Result<bool, SqlError> SqliteReader::has_table(const std::string& name) {
@@ -72,8 +85,8 @@ Result<bool, SqlError> SqliteReader::has_table(const std::string& name) {
   return query->step();
 }
 
-Result<bool, SqlError> SqliteQuery::step() {
-  *steps_left_ = kMaxRowSteps;
+Result<bool, SqlError> SqliteQuery::step(std::int64_t max_steps) {
+  allow(*allowance_, max_steps);
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;

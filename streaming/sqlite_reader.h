@@ -15,17 +15,25 @@ struct sqlite3_stmt;
 
 namespace terrella {
 
-/// How long one row may take, in steps of SQLite's virtual machine; the file's schema decides what a query does, and a
-/// hostile view never ends. A second or two.
+/// How long one row may take: the file's schema decides what a query does, and a hostile view never ends. In steps of
+/// SQLite's virtual machine, a second or two of them, and in processor time, since a step may be a slow one.
 inline constexpr std::int64_t kMaxRowSteps = 20'000'000;
+inline constexpr double kMaxRowSeconds = 2.0;
 
 enum class SqlProblem {
-  busy,    ///< another process holds the file; may be asked again
-  broken,  ///< anything else
+  busy,      ///< another process holds the file; may be asked again
+  too_long,  ///< one row took more than it may
+  broken,    ///< anything else
 };
 struct SqlError {
   SqlProblem problem = SqlProblem::broken;
   std::string message;  ///< SQLite's words, without the path
+};
+
+/// What is left of a row's allowance.
+struct RowAllowance {
+  std::int64_t steps = 0;
+  double until_s = 0.0;  ///< by the thread's own processor time
 };
 
 /// One prepared query. Columns are read strictly: a value of another type than asked for is nullopt. What text() and
@@ -33,7 +41,7 @@ struct SqlError {
 class SqliteQuery {
  public:
   /// True: there is a row. False: there are no more.
-  [[nodiscard]] Result<bool, SqlError> step();
+  [[nodiscard]] Result<bool, SqlError> step(std::int64_t max_steps = kMaxRowSteps);
   void reset();
   /// `index` counts from 1.
   void bind(int index, std::int64_t value);
@@ -49,9 +57,9 @@ class SqliteQuery {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
-  SqliteQuery(sqlite3_stmt* statement, std::int64_t* steps_left) : statement_(statement), steps_left_(steps_left) {}
+  SqliteQuery(sqlite3_stmt* statement, RowAllowance* allowance) : statement_(statement), allowance_(allowance) {}
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-  std::int64_t* steps_left_;
+  RowAllowance* allowance_;
 };
 
 /// A read-only connection to a database that nobody vouches for. Queries must not outlive it. thread: one at a time
@@ -69,7 +77,7 @@ class SqliteReader {
   struct Close {
     void operator()(sqlite3* database) const;
   };
-  std::unique_ptr<std::int64_t> steps_left_;  ///< on the heap: SQLite keeps its address
+  std::unique_ptr<RowAllowance> allowance_;  ///< on the heap: SQLite keeps its address
   std::unique_ptr<sqlite3, Close> database_;
 };
 

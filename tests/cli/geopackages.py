@@ -45,6 +45,13 @@ SPOILT = {
     "tiles without columns": "DROP TABLE tiles; CREATE TABLE tiles (content)",
 }
 
+# Tile tables that are views, and a row of them never comes: none matches, or each costs what it may.
+ENDLESS = {
+    "counting": "SELECT i AS id, 0 AS zoom_level, -1 - i AS tile_column, 0 AS tile_row, x'01' AS tile_data FROM n",
+    "slow": "SELECT i AS id, 0 AS zoom_level, -length(hex(zeroblob(10000000 + i % 9))) AS tile_column, 0 AS tile_row,"
+            " x'01' AS tile_data FROM n",
+}
+
 
 def write_good(path, blob=None):
     """Two tiles of level 0, a PNG each unless other bytes are given."""
@@ -59,6 +66,14 @@ def write_spoilt(path, name):
     write_good(path)
     with sqlite3.connect(path) as base:
         base.executescript(SPOILT[name])
+    base.close()
+
+
+def write_endless(path, name):
+    write_good(path)
+    with sqlite3.connect(path) as base:
+        base.executescript("DROP TABLE tiles; CREATE VIEW tiles AS WITH RECURSIVE n(i) AS "
+                           "(SELECT 0 UNION ALL SELECT i + 1 FROM n) " + ENDLESS[name])
     base.close()
 
 

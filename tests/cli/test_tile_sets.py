@@ -51,6 +51,15 @@ class GeoPackages(ProgramTest):
         geopackages.nan_box(self.folder / "nan.gpkg")
         self.assert_refused(self.folder / "nan.gpkg")
 
+    def test_tables_without_end_are_given_up(self):
+        for name in geopackages.ENDLESS:
+            with self.subTest(name):
+                path = self.folder / f"{name}.gpkg"
+                geopackages.write_endless(path, name)
+                done = self.run_program("render", path, *RENDER)
+                self.assertIn(done.returncode, (FAILED, DONE_IN_PART), done.stdout + done.stderr)
+                self.run_program("info", path)
+
     def test_tiles_that_are_no_pictures_are_lacked(self):
         bombs = {"junk": b"not a picture", "empty": b"", "bomb": png_of(60000, 60000, zlib.compress(bytes(10**6)))}
         for name, blob in bombs.items():

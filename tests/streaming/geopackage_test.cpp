@@ -344,6 +344,19 @@ TEST(GeoPackage, AViewWithoutEndIsGivenUp) {
   expect_refused(path, "takes too long");
 }
 
+TEST(GeoPackage, ATileTableWithoutEndIsGivenUpOnce) {
+  const ScratchFolder folder;
+  const fs::path path = folder / "endless.gpkg";
+  write_geopackage(path, {});
+  run_sql(path,
+          "DROP TABLE tiles; CREATE VIEW tiles AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM n) "
+          "SELECT i AS id, min(i, 1) AS zoom_level, -1 - i AS tile_column, 0 AS tile_row, x'01' AS tile_data FROM n");
+  const auto source = open(path);
+  ASSERT_TRUE(source);
+  EXPECT_NE(source->read({1, 0, 0}).error().why.find("takes too long"), std::string::npos);
+  EXPECT_NE(source->read({1, 1, 0}).error().why.find("given up"), std::string::npos);
+}
+
 TEST(GeoPackage, SeveralThreadsRead) {
   const ScratchFolder folder;
   write_geopackage(folder / "a.gpkg", {});
