@@ -8,8 +8,6 @@
 namespace terrella {
 namespace {
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
-
 double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
 
 // Longitude has no value at a pole: such a vertex takes no part in a patch's extent.

@@ -68,7 +68,7 @@ Result<CutSummary> cut_rows(RowReader& reader, const CutPlan& plan, const CutOpt
   {
     EncodePool pool(encoder_count(options.jobs), info.format, options.quality, **writer);
     Pyramid pyramid(plan, reader.info().has_alpha, strips,
-                    [&](std::shared_ptr<const Strip> strip) { pool.submit(std::move(strip)); });
+                    [&](const std::shared_ptr<const Strip>& strip) { pool.submit(strip); });
     if (Status streamed = stream_rows(reader, plan, pyramid, pool, options); !streamed) return streamed.error();
     const auto finished = pool.finish();
     if (!finished) return finished.error();

@@ -17,7 +17,7 @@ EncodePool::~EncodePool() {
   join();
 }
 
-void EncodePool::submit(std::shared_ptr<const Strip> strip) {
+void EncodePool::submit(const std::shared_ptr<const Strip>& strip) {
   {
     const std::scoped_lock lock(mutex_);
     if (error_) return;

@@ -32,7 +32,7 @@ class EncodePool {
   EncodePool(const EncodePool&) = delete;
   EncodePool& operator=(const EncodePool&) = delete;
 
-  void submit(std::shared_ptr<const Strip> strip);
+  void submit(const std::shared_ptr<const Strip>& strip);
   [[nodiscard]] bool failed() const;
   /// Waits until everything is written, or tells the first failure. Nothing can be submitted after it.
   [[nodiscard]] Result<TileCounts> finish();
