@@ -64,7 +64,7 @@ void Globe::Impl::select(Viewport viewport) {
   PatchSelectionOptions selection;
   selection.texels_per_pixel = detail;
   select_patches(tree, view, selection, patches);
-  cover_with_tiles(tree, view, patches, tiles.residency(), layout, frame, coverage);
+  cover_with_tiles(tree, view, patches, tiles.residency(), frame, coverage);
 }
 
 // Root tiles come first: an ancestor for everything.

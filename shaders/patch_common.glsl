@@ -1,19 +1,28 @@
 // Look-ups shared by all ways of texturing a patch.
 layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, finest texels only
-layout(binding = 1) uniform samplerBuffer window_cells;     // scale, offset x, offset y, layer
+layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | levels up << 16
 
 in vec2 window_point;
 in vec3 row_direction;
 in float light;
-flat in uvec4 window;            // first cell, cells a row, width, height
+flat in uvec4 window;            // first cell; width | height << 16; column and row of that cell, low bits
 flat in vec4 center_and_scale;
 flat in vec4 frame;
 flat in vec4 row;
 layout(location = 0) out vec4 color_srgb;
 
+ivec2 window_size() { return ivec2(window.y & 0xFFFFu, window.y >> 16); }
+
+// The cell under a window point: slot coordinates are p * cell.x + cell.yz, on array layer cell.w. Computed from one
+// word: a fetch of four floats costs a software rasteriser as much as two bilinear taps.
 vec4 cell_at(vec2 p) {
-  ivec2 c = ivec2(p);
-  return texelFetch(window_cells, int(window.x) + c.y * int(window.y) + c.x);
+  ivec2 size = window_size();
+  ivec2 c = clamp(ivec2(p), ivec2(0), size - 1);
+  uint bits = texelFetch(window_cells, int(window.x) + c.y * size.x + c.x).x;
+  uint up = bits >> 16;
+  uvec2 part = (window.zw + uvec2(c)) & ((1u << up) - 1u);      // which of the tile's 2^up by 2^up parts
+  float scale = texels.x * uintBitsToFloat((127u - up) << 23);  // 2^-up
+  return vec4(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
 }
 
 vec3 tap(vec4 cell, vec2 p) {

@@ -3,6 +3,6 @@ layout(binding = 2) uniform sampler2DArray tiles_anisotropic;
 
 void main() {
   WindowPoint w = exact_window_point();
-  vec4 cell = cell_at(clamp(w.p, vec2(0.01), vec2(window.zw) - 0.01));
+  vec4 cell = cell_at(w.p);
   finish(textureGrad(tiles_anisotropic, vec3(w.p * cell.x + cell.yz, cell.w), w.dx * cell.x, w.dy * cell.x).rgb);
 }

@@ -5,7 +5,7 @@ void main() {
   vec4 cell = cell_at(p);
   vec2 a = dFdx(p), b = dFdy(p);
   float reach = sqrt(max(dot(a, a), dot(b, b))) * cell.x * texels.y;
-  int n = int(clamp(ceil(reach), 4.0, 16.0));
+  int n = int(clamp(ceil(0.8 * reach), 3.0, 16.0));
   float step = 1.0 / float(n);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < n; ++i) {

@@ -14,7 +14,7 @@ void main() {
   float b = paper.y;
   bool north = v < b, south = v > 1.0 - b;
   if (!north && !south) w = WindowPoint(window_point, dFdx(window_point), dFdy(window_point));
-  vec4 cell = cell_at(clamp(w.p, vec2(0.01), vec2(window.zw) - 0.01));
+  vec4 cell = cell_at(w.p);
   float level = query_level(w, cell);
   if (north || south) {
     float v_hat = north ? 1.0 - v / b : (v - (1.0 - b)) / b;                 // (5)

@@ -1,9 +1,8 @@
-// Plain patches: interpolated coordinates, four taps on a rotated grid over the pixel. Exact
-// to footprints of 4 texels, good to 8.
+// Plain patches: interpolated coordinates, three taps on a rank-1 lattice over the pixel. Exact to footprints of 3
+// texels, good to 8.
 void main() {
   vec2 p = window_point;
   vec4 cell = cell_at(p);
-  vec2 a = dFdx(p) * 0.125, b = dFdy(p) * 0.125;
-  vec2 d = a + 3.0 * b, e = 3.0 * a - b;
-  finish(0.25 * ((tap(cell, p + d) + tap(cell, p - d)) + (tap(cell, p + e) + tap(cell, p - e))));
+  vec2 a = dFdx(p) * (1.0 / 3.0), b = dFdy(p) * (1.0 / 3.0);
+  finish((tap(cell, p - a) + tap(cell, p + b) + tap(cell, p + a - b)) * (1.0 / 3.0));
 }

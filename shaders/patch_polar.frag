@@ -4,15 +4,15 @@ layout(binding = 4) uniform sampler2DArray tiles_precise;
 
 void main() {
   WindowPoint w = exact_window_point();
-  vec2 low = vec2(0.01), high = vec2(window.zw) - 0.01;
-  float scale = texelFetch(window_cells, int(window.x)).x * texels.y;
+  vec2 high = vec2(window_size());
+  float scale = texels.x * texels.y;
   float reach = sqrt(max(dot(w.dx, w.dx), dot(w.dy, w.dy))) * scale;
   int n = int(clamp(ceil(reach), 4.0, 16.0));
   float step = 1.0 / float(n);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
-    vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (fract(s * 0.6180339887) - 0.5) * w.dy, low, high);
+    vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (fract(s * 0.6180339887) - 0.5) * w.dy, vec2(0.0), high);
     vec4 cell = cell_at(p);
     sum += textureLod(tiles_precise, vec3(p * cell.x + cell.yz, cell.w), 0.0).rgb;
   }

@@ -19,7 +19,7 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Four taps over the pixel serve footprints of up to this many texels well enough (shaders/patch_plain.frag).
+// Three taps over the pixel serve footprints of up to this many texels well enough (shaders/patch_plain.frag).
 constexpr double kPlainFootprint_texels = 8.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.5;
@@ -162,7 +162,7 @@ void GlobeRenderer::upload_frame(const FrameInput& input, const SlotLayout& layo
   block.clip_scale = glm::vec4(1.0 / (view.tan_half_fov_y * view.aspect()), 1.0 / view.tan_half_fov_y, near_m, far_m);
   block.sun_ecef = glm::vec4(glm::vec3(input.sun), input.lit ? 1.0F : 0.0F);
   const double polar_scale = tree_.grid().latitude == LatitudeKind::centric ? e.one_minus_e2() : 1.0;
-  block.texels = glm::vec4(layout.tile_px, layout.slot_px(), mips, polar_scale);
+  block.texels = glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), mips, polar_scale);
   block.paper = glm::vec4(options_.paper_a, options_.paper_band,
                           tree_.grid().projection == Projection::equal_area ? 1.0 : 0.0, 0.0);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
@@ -206,7 +206,7 @@ void GlobeRenderer::upload_draws(const FrameInput& input, FrameCounts& counts) {
   stream(commands_, commands);
   stream(draws_, input.coverage->draws);
   stream(cells_, input.coverage->cells);
-  glTextureBuffer(cells_texture_.name(), GL_RGBA32F, cells_.name());
+  glTextureBuffer(cells_texture_.name(), GL_R32UI, cells_.name());
 }
 
 void GlobeRenderer::bind_state(const FrameInput& input, TileTextures& tiles) const {

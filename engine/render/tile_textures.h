@@ -11,6 +11,13 @@
 
 namespace terrella {
 
+/// Where texels lie in a texture slot: tile_px of them behind a gutter, slot_px a side.
+struct SlotLayout {
+  int tile_px = 256;
+  int gutter_px = 8;
+  [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
+};
+
 /// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
 /// plain colour, for where there is no imagery. A slot's gutter holds the neighbours' texels as they come, so that
 /// filtering at a tile's border sees what lies beyond it.

@@ -141,8 +141,9 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
   const TileXY nw = tile_xy(grid_, tile_level, node.north_row_deg, node.lon_center_deg + node.west_deg);
   const TileXY se = tile_xy(grid_, tile_level, node.south_row_deg, node.lon_center_deg + node.east_deg);
   win.level = tile_level;
-  win.x0 = static_cast<std::int64_t>(std::floor(nw.x + kSliver));
-  win.y0 = static_cast<std::int64_t>(std::floor(nw.y + kSliver));
+  // A patch narrower than the sliver, at the planet's edge, lies on the last tile, not on one beyond it.
+  win.x0 = std::min(static_cast<std::int64_t>(std::floor(nw.x + kSliver)), columns(grid_, tile_level) - 1);
+  win.y0 = std::min(static_cast<std::int64_t>(std::floor(nw.y + kSliver)), rows(grid_, tile_level) - 1);
   win.w = static_cast<int>(std::max<std::int64_t>(win.x0 + 1, static_cast<std::int64_t>(std::ceil(se.x - kSliver))) -
                            win.x0);
   win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) -

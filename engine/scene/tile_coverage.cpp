@@ -9,15 +9,8 @@ namespace {
 
 class Coverer {
  public:
-  Coverer(PatchTree& tree, const View& view, TileResidency& residency, const SlotLayout& layout, std::uint64_t frame,
-          TileCoverage& out)
-      : tree_(tree),
-        view_(view),
-        residency_(residency),
-        layout_(layout),
-        frame_(frame),
-        out_(out),
-        planes_(view_planes(view)) {
+  Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
+      : tree_(tree), view_(view), residency_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     axes_m_ = glm::dvec3(e.a_m(), e.a_m(), e.b_m());
     eye_scaled_ = view.eye.xyz_m / axes_m_;
@@ -26,27 +19,16 @@ class Coverer {
 
   void cover(const SelectedPatch& patch) {
     const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
-    const auto first = static_cast<std::uint32_t>(out_.cells.size());
-    out_.draws.push_back(describe(*patch.node, win, first));
+    out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
     bool uncovered = false;
-    // One more cell around: points on the window's border, a rounding beyond it, find the texels of the cell inside.
-    for (int y = -1; y <= win.h; ++y) {
-      for (int x = -1; x <= win.w; ++x) {
-        const int cx = std::clamp(x, 0, win.w - 1), cy = std::clamp(y, 0, win.h - 1);
-        const Found& found = found_[index(win, cx, cy)];
+    for (int y = 0; y < win.h; ++y) {
+      for (int x = 0; x < win.w; ++x) {
+        const Found found = find(patch, win, x, y);
         uncovered = uncovered || found.uncovered;
-        out_.cells.push_back(cell(win, cx, cy, found));
+        out_.cells.push_back(window_cell(found.slot, found.levels_up));
       }
     }
     if (uncovered) ++out_.uncovered;
-  }
-
-  void prepare(const SelectedPatch& patch) {
-    const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
-    found_.resize(static_cast<std::size_t>(win.w) * static_cast<std::size_t>(win.h));
-    for (int y = 0; y < win.h; ++y) {
-      for (int x = 0; x < win.w; ++x) found_[index(win, x, y)] = find(patch, win, x, y);
-    }
   }
 
   void want(const TileId& id, double priority) {
@@ -118,45 +100,31 @@ class Coverer {
     if (entry.state == TileState::lacking) ++out_.lacking;
   }
 
-  [[nodiscard]] WindowCell cell(const TileWindow& win, int x, int y, const Found& found) const {
-    const double up = std::ldexp(1.0, -found.levels_up);
-    const double texels = layout_.tile_px, slot = layout_.slot_px();
-    const std::int64_t col = win.x0 + x, row = win.y0 + y;
-    const auto within = [&](std::int64_t tile, std::int64_t ancestor_tile, int window_cell) {
-      // Window points count from one cell before the window (its border).
-      return (static_cast<double>(tile - (ancestor_tile << found.levels_up)) - (window_cell + 1)) * up;
-    };
-    const double ox = (layout_.gutter_px + texels * within(col, found.tile.x, x)) / slot;
-    const double oy = (layout_.gutter_px + texels * within(row, found.tile.y, y)) / slot;
-    return {static_cast<float>(texels * up / slot), static_cast<float>(ox), static_cast<float>(oy),
-            static_cast<float>(found.slot)};
-  }
-
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
     const TileGrid& grid = tree_.grid();
     const double row = row_latitude_deg(grid, tree_.ellipsoid(), EcefDir{node.normal});
     const TileXY center = tile_xy(grid, win.level, row, node.lon_center_deg);
     const double per_deg = 1.0 / tile_span_deg(grid, win.level);
     PatchDraw draw;
-    draw.center_and_scale = glm::vec4(center.x - static_cast<double>(win.x0 - 1),
-                                      center.y - static_cast<double>(win.y0 - 1), per_deg, per_deg);
+    draw.center_and_scale =
+        glm::vec4(center.x - static_cast<double>(win.x0), center.y - static_cast<double>(win.y0), per_deg, per_deg);
     draw.frame = glm::vec4(node.frame);
     draw.row = glm::vec4(row, static_cast<double>(grid.max_level - win.level), 0.0, 0.0);
-    draw.window = glm::uvec4(first, win.w + 2, win.w + 2, win.h + 2);
+    const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
+    draw.window = glm::uvec4(first, static_cast<std::uint32_t>(win.w) | static_cast<std::uint32_t>(win.h) << 16U,
+                             low(win.x0), low(win.y0));
     return draw;
   }
 
   PatchTree& tree_;
   const View& view_;
   TileResidency& residency_;
-  SlotLayout layout_;
   std::uint64_t frame_;
   TileCoverage& out_;
   ViewPlanes planes_;
   glm::dvec3 axes_m_{1.0};
   glm::dvec3 eye_scaled_{0.0};
   bool seen_from_outside_ = false;
-  std::vector<Found> found_;
 };
 
 }  // namespace
@@ -173,16 +141,13 @@ std::vector<TileId> root_tiles(const TileGrid& grid) {
 }
 
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, const SlotLayout& layout, std::uint64_t frame, TileCoverage& out) {
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out) {
   out.draws.clear();
   out.cells.clear();
   out.wanted.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
-  Coverer coverer(tree, view, residency, layout, frame, out);
-  for (const SelectedPatch& patch : patches) {
-    coverer.prepare(patch);
-    coverer.cover(patch);
-  }
+  Coverer coverer(tree, view, residency, frame, out);
+  for (const SelectedPatch& patch : patches) coverer.cover(patch);
 }
 
 }  // namespace terrella

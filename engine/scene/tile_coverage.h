@@ -10,26 +10,21 @@
 
 namespace terrella {
 
-/// Where texels lie in a texture slot: tile_px of them behind a gutter, slot_px a side.
-struct SlotLayout {
-  int tile_px = 256;
-  int gutter_px = 8;
-  [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
-};
-
-/// One cell of a window on the GPU: a point p of the window (in cells) lies at slot coordinates p · scale + (offset_x,
-/// offset_y) of array layer `layer`.
-struct WindowCell {
-  float scale, offset_x, offset_y, layer;
-};
+/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word: the array layer in bits 0 to 15, how
+/// many levels coarser than the window its tile is in bits 16 to 23. The low bits of the cell's column and row say
+/// which part of that tile it is (shaders/patch_common.glsl).
+using WindowCell = std::uint32_t;
+[[nodiscard]] constexpr WindowCell window_cell(int layer, int levels_up) {
+  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(levels_up) << 16U;
+}
 
 /// What the programs must know of a patch besides its vertices.
 struct PatchDraw {
   glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row
-                               ///< latitude
+                               ///< latitude. Window points count cells from the window's north-west corner
   glm::vec4 frame;             ///< PatchNode::frame
   glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
-  glm::uvec4 window;  ///< first cell, cells a row, width, height, of the window with its border
+  glm::uvec4 window;  ///< first cell; width | height << 16; column and row of that first cell, modulo 2^24
 };
 
 /// A tile that the view wants, with how much.
@@ -52,7 +47,7 @@ struct TileCoverage {
 /// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Stamps what is drawn with
 /// `frame`. Longitude wraps; cells beyond the planet repeat its edge. thread: main
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, const SlotLayout& layout, std::uint64_t frame, TileCoverage& out);
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out);
 
 /// The tiles of the coarsest level: always wanted, never evicted (DESIGN 10).
 [[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);

@@ -92,7 +92,9 @@ int main(int argc, char** argv) {
   int rounds = 15;
   app.add_option("--tiles", tile_set, "tile set for the globe")->required();
   app.add_option("--picture", picture, "picture for the plain sphere, 8192x4096 in the paper")->required();
+  std::string only;
   app.add_option("--rounds", rounds, "frames of each subject");
+  app.add_option("--only", only, "draw subjects whose name contains this and no others, for a profiler");
   CLI11_PARSE(app, argc, argv);
   const auto context = HeadlessContext::create();
   if (!context) return fmt::print(stderr, "{}\n", context.error().message), 1;
@@ -110,11 +112,14 @@ int main(int argc, char** argv) {
       return Subject{label, [&g, &target] { g.render(target.framebuffer(), kSize); }, {}, {}};
     };
     const truth::TruthCamera same{.eye = {.lat_deg = lat, .lon_deg = lon, .height_m = camera.eye.height_m}};
-    measure(name,
-            {Subject{"plain sphere (paper)", [&] { sphere.draw(same, 6378137.0); }, {}, {}},
-             subject("vertex, unlit", *vertex), subject("auto, unlit", *automatic), subject("auto, lit", *lit),
-             subject("paper, unlit", *paper), subject("exact, unlit", *exact)},
-            rounds);
+    std::vector<Subject> subjects = {Subject{"plain sphere (paper)", [&] { sphere.draw(same, 6378137.0); }, {}, {}},
+                                     subject("vertex, unlit", *vertex),
+                                     subject("auto, unlit", *automatic),
+                                     subject("auto, lit", *lit),
+                                     subject("paper, unlit", *paper),
+                                     subject("exact, unlit", *exact)};
+    std::erase_if(subjects, [&only](const Subject& s) { return s.name.find(only) == std::string::npos; });
+    if (!subjects.empty()) measure(name, std::move(subjects), rounds);
   }
   return 0;
 }

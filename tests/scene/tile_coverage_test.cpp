@@ -13,7 +13,7 @@ namespace terrella::test {
 namespace {
 
 constexpr int kSegments = 16;
-constexpr SlotLayout kLayout{.tile_px = 256, .gutter_px = 8};
+constexpr float kTile_px = 256.0F;
 using TileSet = std::unordered_set<TileId, TileIdHash>;
 
 /// Root spans of WorldCRS84Quad, GIBS, a picture of 21600 px and a single root tile; both projections and latitudes.
@@ -105,13 +105,14 @@ struct Lookup {
 Lookup look_up(const TileCoverage& coverage, const PatchDraw& draw, glm::vec2 offset_deg) {
   const glm::vec4 c = draw.center_and_scale;
   const glm::vec2 p = glm::vec2(c) + offset_deg * glm::vec2(c.z, -c.w);
-  const auto x = static_cast<unsigned>(p.x), y = static_cast<unsigned>(p.y);
-  EXPECT_LT(x, draw.window.z);
-  EXPECT_LT(y, draw.window.w);
-  const WindowCell cell = coverage.cells[draw.window.x + y * draw.window.y + x];
-  const glm::vec2 in_slot = p * cell.scale + glm::vec2(cell.offset_x, cell.offset_y);
-  return {static_cast<int>(cell.layer),
-          in_slot * static_cast<float>(kLayout.slot_px()) - static_cast<float>(kLayout.gutter_px)};
+  const unsigned w = draw.window.y & 0xFFFFU, h = draw.window.y >> 16U;
+  const auto x = std::min(static_cast<unsigned>(std::max(p.x, 0.0F)), w - 1);
+  const auto y = std::min(static_cast<unsigned>(std::max(p.y, 0.0F)), h - 1);
+  const WindowCell cell = coverage.cells[draw.window.x + y * w + x];
+  const unsigned up = cell >> 16U, mask = (1U << up) - 1U;
+  const glm::vec2 part((draw.window.z + x) & mask, (draw.window.w + y) & mask);
+  const glm::vec2 in_tile = (p - glm::vec2(x, y) + part) * std::ldexp(1.0F, -static_cast<int>(up));
+  return {static_cast<int>(cell & 0xFFFFU), in_tile * kTile_px};
 }
 
 void expect_right_tile(const PatchTree& tree, const PatchNode& node, const TileCoverage& coverage,
@@ -124,8 +125,8 @@ void expect_right_tile(const PatchTree& tree, const PatchNode& node, const TileC
                                node.lon_center_deg + double(offset_deg.x));
   // A thousandth of a texel is far below what a bilinear filter of 8 bits of fraction shows.
   constexpr double kTexel = 1e-3;
-  EXPECT_NEAR(double(found.texel.x), (truth.x - double(tile.x)) * kLayout.tile_px, kTexel) << "level " << tile.level;
-  EXPECT_NEAR(double(found.texel.y), (truth.y - double(tile.y)) * kLayout.tile_px, kTexel) << "level " << tile.level;
+  EXPECT_NEAR(double(found.texel.x), (truth.x - double(tile.x)) * double(kTile_px), kTexel) << "level " << tile.level;
+  EXPECT_NEAR(double(found.texel.y), (truth.y - double(tile.y)) * double(kTile_px), kTexel) << "level " << tile.level;
 }
 
 TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
@@ -141,7 +142,7 @@ TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
       TileResidency residency;
       const auto tiles = fill(draw, grid, tree.window(node, level), residency);
       TileCoverage coverage;
-      cover_with_tiles(tree, view, {selected(tree, id, level)}, residency, kLayout, 1, coverage);
+      cover_with_tiles(tree, view, {selected(tree, id, level)}, residency, 1, coverage);
       EXPECT_EQ(coverage.uncovered, 0);
       const auto vertices = patch_vertices(tree, node);
       for (int v = 0; v < 40; ++v) {
@@ -163,7 +164,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
   std::map<int, int> level_of_slot = {{0, -1}};
   const TileWindow win = tree.window(node_of(tree, id), 8);
   TileCoverage coverage;
-  cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, kLayout, 1, coverage);
+  cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, 1, coverage);
   EXPECT_EQ(coverage.uncovered, 1) << "nothing is resident";
   // Levels become resident one by one; each time all cells move on to the new one.
   for (int level = 0, slot = 1; level <= 8; ++level) {
@@ -176,10 +177,9 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
         level_of_slot[slot++] = level;
       }
     }
-    cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, kLayout, 2U + static_cast<unsigned>(level),
-                     coverage);
+    cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, 2U + static_cast<unsigned>(level), coverage);
     EXPECT_EQ(coverage.uncovered, 0);
-    for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell.layer)), level);
+    for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell & 0xFFFFU)), level);
     EXPECT_EQ(coverage.wanted.empty(), level == 8);
     EXPECT_EQ(coverage.missing == 0, level == 8);
   }
@@ -231,7 +231,7 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
       TileCoverage coverage;
       std::uint64_t frame = 0;
       do {
-        cover_with_tiles(tree, view, patches, residency, kLayout, ++frame, coverage);
+        cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
         expect_each_once_and_in_the_grid(grid, coverage);
         const bool whole_planet = grid.bounds.north > Angle::degrees(80);
         EXPECT_TRUE(!whole_planet || coverage.uncovered == 0);
@@ -255,7 +255,7 @@ TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
     select_patches(tree, view, {}, patches);
     TileResidency residency;
     TileCoverage coverage;
-    cover_with_tiles(tree, view, patches, residency, kLayout, 1, coverage);
+    cover_with_tiles(tree, view, patches, residency, 1, coverage);
     TileSet wanted;
     for (const WantedTile& w : coverage.wanted) wanted.insert(w.id);
     std::map<PatchId, int> levels;
