@@ -15,6 +15,8 @@ constexpr int kSegments = 16;
 constexpr int kMips = 4;
 constexpr int kGutter_px = 8;
 constexpr std::chrono::milliseconds kPoll{20};
+// Steps by a quarter in which detail gives way to the budget: six tile levels.
+constexpr int kMostCoarser = 16;
 
 // Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
@@ -102,8 +104,10 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats.uploaded_bytes = take_finished();
   const auto start = Clock::now();
   select(viewport);
+  // Slot 0 and those of the root tiles are never given up.
+  const int room = tiles.capacity() - 1 - static_cast<int>(root_tiles(grid).size());
   // A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
-  for (int step = 0; step < 8 && coverage.tiles > tiles.capacity() * 9 / 10; ++step) {
+  for (int step = 0; step < kMostCoarser && coverage.tiles > room * 9 / 10; ++step) {
     detail *= 0.75;
     select(viewport);
   }

@@ -113,6 +113,23 @@ TEST_F(GlobeStreaming, SettlesOnASmallBudgetWithoutHoles) {
   }
 }
 
+TEST_F(GlobeStreaming, TheRootTilesAreKeptWhateverComes) {
+  GlobeOptions options = unlit_options();
+  options.gpu_bytes = 1;
+  const auto tiles = source();
+  const auto globe = make_globe(options, tiles);
+  for (const Camera& camera : ground_cameras()) {
+    globe->set_camera(camera);
+    settle(*globe, kSmall);
+  }
+  // Nothing more comes: only what is kept can be drawn.
+  tiles->hold();
+  globe->set_camera(camera_at(-10, -100, 5.0e5));
+  EXPECT_EQ(draw(*globe, kSmall).patches_uncovered, 0);
+  EXPECT_EQ(dark_pixels(picture()), 0);
+  tiles->release(1000);
+}
+
 TEST_F(GlobeStreaming, AncestorsStandInForTilesThatTheSourceLacks) {
   const auto some = [](const TileId& id) { return id.level > 0 && TileIdHash()(id) % 3 == 0; };
   for (const Camera& camera : ground_cameras()) {
