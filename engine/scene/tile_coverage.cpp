@@ -1,19 +1,58 @@
 #include "scene/tile_coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace terrella {
 namespace {
 
+// Entries looked up in this frame. Cells side by side climb through the same ancestors, so a few remembered entries a
+// level save most walks through the hash table. Nothing is erased while a frame's cells are found.
+class EntryMemo {
+ public:
+  explicit EntryMemo(TileResidency& residency) : residency_(residency) {}
+
+  /// Nothing where no entry was ever made: then the tile is unknown.
+  [[nodiscard]] TileResidency::Entry* find(const TileId& id) {
+    Line& line = line_of(id);
+    if (line.id != id) line = {id, residency_.find(id), false};
+    return line.entry;
+  }
+  /// Made if it is not there; a tile that the grid does not have is told apart from one not asked for.
+  [[nodiscard]] TileResidency::Entry& judged(const TileGrid& grid, const TileId& id) {
+    Line& line = line_of(id);
+    if (line.id == id && line.judged) return *line.entry;
+    TileResidency::Entry& entry = residency_.entry(id);
+    if (entry.state == TileState::unknown && !exists(grid, id)) entry.state = TileState::outside;
+    line = {id, &entry, true};
+    return entry;
+  }
+
+ private:
+  struct Line {
+    TileId id{-1, 0, 0};
+    TileResidency::Entry* entry = nullptr;
+    bool judged = false;
+  };
+  [[nodiscard]] Line& line_of(const TileId& id) {
+    const std::int64_t place = (id.x & 3) | (id.y & 1) << 2;
+    return lines_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(place)];
+  }
+
+  TileResidency& residency_;
+  std::array<std::array<Line, 8>, kMaxTileLevel + 1> lines_;
+};
+
 class Coverer {
  public:
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
-      : tree_(tree), view_(view), residency_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
+      : tree_(tree), view_(view), memo_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     axes_m_ = glm::dvec3(e.a_m(), e.a_m(), e.b_m());
     eye_scaled_ = view.eye.xyz_m / axes_m_;
+    eye_scaled_length_ = glm::length(eye_scaled_);
     seen_from_outside_ = glm::dot(eye_scaled_, eye_scaled_) > 1.0;
   }
 
@@ -21,9 +60,12 @@ class Coverer {
     const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
     out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
     bool uncovered = false;
+    const std::int64_t last_x = columns(tree_.grid(), win.level) - 1, last_y = rows(tree_.grid(), win.level) - 1;
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
-        const Found found = find(patch, win, x, y);
+        const TileId id{win.level, std::clamp<std::int64_t>(win.x0 + x, 0, last_x),
+                        std::clamp<std::int64_t>(win.y0 + y, 0, last_y)};
+        const Found found = in_view(patch, win.cells[index(win, x, y)]) ? find_seen(patch, id) : find_unseen(id);
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up));
       }
@@ -31,18 +73,10 @@ class Coverer {
     if (uncovered) ++out_.uncovered;
   }
 
-  void want(const TileId& id, double priority) {
-    TileResidency::Entry& entry = residency_.entry(id);
-    if (entry.last_wanted == frame_ || entry.state != TileState::unknown) return;
-    entry.last_wanted = frame_;
-    out_.wanted.push_back({id, priority});
-  }
-
  private:
   struct Found {
     int levels_up = 0;
     int slot = 0;
-    TileId tile;
     bool uncovered = false;
   };
 
@@ -55,41 +89,48 @@ class Coverer {
     if (classify(planes_, view_, sphere) < 0) return false;
     if (!seen_from_outside_) return true;
     // Scaled by the shortest axis the sphere still holds what it held.
-    return glm::dot(sphere.center_m / axes_m_, eye_scaled_) + glm::length(eye_scaled_) * sphere.radius_m / axes_m_.z >=
-           1.0;
+    return glm::dot(sphere.center_m / axes_m_, eye_scaled_) + eye_scaled_length_ * sphere.radius_m / axes_m_.z >= 1.0;
   }
 
-  Found find(const SelectedPatch& patch, const TileWindow& win, int x, int y) {
+  // A cell out of view takes what is there; nobody asks for its tile or counts it.
+  Found find_unseen(TileId id) {
+    for (int up = 0;; ++up, id = parent(id)) {
+      TileResidency::Entry* entry = memo_.find(id);
+      if (entry != nullptr && entry->state == TileState::resident) return drawn(*entry, up);
+      if (id.level <= tree_.grid().min_level) return {up, 0, false};
+    }
+  }
+
+  Found find_seen(const SelectedPatch& patch, TileId id) {
     const TileGrid& grid = tree_.grid();
-    TileId id{win.level, win.x0 + x, win.y0 + y};
-    id.x = std::clamp<std::int64_t>(id.x, 0, columns(grid, win.level) - 1);
-    id.y = std::clamp<std::int64_t>(id.y, 0, rows(grid, win.level) - 1);
-    const bool visible = in_view(patch, win.cells[index(win, x, y)]);
-    Found found{0, 0, id, false};
     bool counted = false;
     bool asked = false;  // one tile is asked for: the finest that can still come
-    for (;; ++found.levels_up, found.tile = parent(found.tile)) {
-      TileResidency::Entry& entry = residency_.entry(found.tile);
-      if (entry.state == TileState::unknown && !exists(grid, found.tile)) entry.state = TileState::outside;
-      if (visible && !counted && entry.state != TileState::outside) {
+    for (int up = 0;; ++up, id = parent(id)) {
+      TileResidency::Entry& entry = memo_.judged(grid, id);
+      if (!counted && entry.state != TileState::outside) {
         counted = true;
         count(entry);
       }
-      if (entry.state == TileState::resident) {
-        entry.last_drawn = frame_;
-        found.slot = entry.slot;
-        return found;
-      }
-      if (visible && !asked && entry.state == TileState::unknown) {
+      if (entry.state == TileState::resident) return drawn(entry, up);
+      if (!asked && entry.state == TileState::unknown) {
         asked = true;
-        const double depth = std::max(1.0, glm::dot(patch.node->sphere.center_m - view_.eye.xyz_m, view_.forward));
-        want(found.tile, -found.tile.level + patch.node->sphere.radius_m / (depth + patch.node->sphere.radius_m));
+        want(patch, id, entry);
       }
-      if (found.tile.level <= grid.min_level) break;
+      if (id.level <= grid.min_level) return {up, 0, true};
     }
-    found.uncovered = visible;
-    found.slot = 0;
-    return found;
+  }
+
+  [[nodiscard]] Found drawn(TileResidency::Entry& entry, int levels_up) const {
+    entry.last_drawn = frame_;
+    return {levels_up, entry.slot, false};
+  }
+
+  void want(const SelectedPatch& patch, const TileId& id, TileResidency::Entry& entry) {
+    if (entry.last_wanted == frame_) return;
+    entry.last_wanted = frame_;
+    const BoundingSphere& sphere = patch.node->sphere;
+    const double depth = std::max(1.0, glm::dot(sphere.center_m - view_.eye.xyz_m, view_.forward));
+    out_.wanted.push_back({id, -id.level + sphere.radius_m / (depth + sphere.radius_m)});
   }
 
   void count(TileResidency::Entry& entry) {
@@ -118,12 +159,13 @@ class Coverer {
 
   PatchTree& tree_;
   const View& view_;
-  TileResidency& residency_;
+  EntryMemo memo_;
   std::uint64_t frame_;
   TileCoverage& out_;
   ViewPlanes planes_;
   glm::dvec3 axes_m_{1.0};
   glm::dvec3 eye_scaled_{0.0};
+  double eye_scaled_length_ = 0.0;
   bool seen_from_outside_ = false;
 };
 
