@@ -93,12 +93,12 @@ class Selector {
     const double squeeze = std::sin(std::max(node.min_colatitude_rad, 1e-3));
     const double longest_m = std::max(pixel.east_m / squeeze, pixel.north_m);
     const bool near_pole = node.min_colatitude_rad < band_rad_;
-    double level = std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m);
+    double level = std::ceil(std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m) - 0.02);
     // Finer than this, a pixel would be longer than the taps and the gutter reach.
-    if (!near_pole) level = std::min(level, std::log2(options_.max_footprint_texels * texel0_m / longest_m));
+    if (!near_pole)
+      level = std::min(level, std::floor(std::log2(options_.max_footprint_texels * texel0_m / longest_m)));
     const TileGrid& grid = tree_.grid();
-    patch.tile_level =
-        std::clamp(static_cast<int>(std::ceil(std::clamp(level, -64.0, 64.0) - 0.02)), grid.min_level, grid.max_level);
+    patch.tile_level = std::clamp(static_cast<int>(std::clamp(level, -64.0, 64.0)), grid.min_level, grid.max_level);
     const double span = std::max(node.east_deg - node.west_deg, 0.0);
     while (near_pole && patch.tile_level > grid.min_level &&
            span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
