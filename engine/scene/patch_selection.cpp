@@ -153,21 +153,33 @@ class Selector {
     return eye_scaled_length_ * (c * node.cos_cone - s * node.sin_cone) < 1.0;
   }
 
-  // The leaf that covers a patch, or nullptr where nothing is drawn (culled) or finer patches are.
-  [[nodiscard]] PatchNode* leaf_over(const PatchId& id) const {
-    PatchNode* node = &tree_.root(id.face);
-    while (node->split_stamp == stamp_ && node->id.level < id.level) {
-      const int shift = id.level - node->id.level - 1;
-      node = node->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
+  // The deepest node of the tree that holds the neighbour across a side. Nodes are never dropped, so the search goes on
+  // from where it ended last.
+  [[nodiscard]] PatchNode& node_beside(PatchNode& node, int side) const {
+    PatchNode*& found = node.beside[static_cast<std::size_t>(side)];
+    if (found != nullptr && (found->id.level == node.id.level || found->children[0] == nullptr)) return *found;
+    const PatchId id = neighbour(node.id, static_cast<PatchSide>(side));
+    if (found == nullptr) found = &tree_.root(id.face);
+    while (found->id.level < id.level && found->children[0] != nullptr) {
+      const int shift = id.level - found->id.level - 1;
+      found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
     }
-    return node->leaf_stamp == stamp_ ? node : nullptr;
+    return *found;
+  }
+
+  // The leaf that covers the neighbour across a side, or nullptr where nothing is drawn (culled) or finer patches are.
+  // This selection came to a node if it split its parent.
+  [[nodiscard]] PatchNode* leaf_beside(PatchNode& node, int side) const {
+    PatchNode* other = &node_beside(node, side);
+    while (other->parent != nullptr && other->parent->split_stamp != stamp_) other = other->parent;
+    return other->leaf_stamp == stamp_ ? other : nullptr;
   }
 
   bool split_coarse_neighbours(PatchNode& node) {
     bool changed = false;
     if (node.leaf_stamp != stamp_) return false;
     for (int side = 0; side < 4; ++side) {
-      PatchNode* other = leaf_over(neighbour(node.id, static_cast<PatchSide>(side)));
+      PatchNode* other = leaf_beside(node, side);
       if (other == nullptr || other->id.level >= node.id.level - 1) continue;
       split(*other, false);
       changed = true;
@@ -175,10 +187,10 @@ class Selector {
     return changed;
   }
 
-  [[nodiscard]] unsigned coarse_sides(const PatchNode& node) const {
+  [[nodiscard]] unsigned coarse_sides(PatchNode& node) const {
     unsigned mask = 0;
     for (int side = 0; side < 4; ++side) {
-      const PatchNode* other = leaf_over(neighbour(node.id, static_cast<PatchSide>(side)));
+      const PatchNode* other = leaf_beside(node, side);
       if (other != nullptr && other->id.level < node.id.level) mask |= 1U << side;
     }
     return mask;

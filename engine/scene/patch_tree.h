@@ -51,9 +51,10 @@ struct PatchNode {
 
   PatchNode* parent = nullptr;
   std::array<PatchNode*, 4> children{};  ///< all or none
-  TileWindow window;                     ///< of the level last asked for
+  std::array<PatchNode*, 4> beside{};    ///< by PatchSide, across it: the deepest node found to hold that neighbour
   std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
   std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
+  TileWindow window;                     ///< of the level last asked for
 };
 
 /// The direction whose latitude the grid's rows count, not normalised: the geodetic normal, or for planetocentric
