@@ -21,7 +21,7 @@ enum class Zone {
   clear,                      ///< incidence under 81°
   facing,               ///< incidence under 12°: from four radii, what the pole band is when seen from over the pole
   mid_latitudes,        ///< latitude under 60°
-  tile_borders,         ///< within a pixel of a border between tiles; incidence under 60°, outside the pole bands
+  tile_borders,         ///< within a pixel of a border between tiles; incidence under 55°, outside the pole bands
   border_surroundings,  ///< 2 to 12 pixels from a tile border, likewise
 };
 inline constexpr std::size_t kZones = 10;
