@@ -122,7 +122,9 @@ class Selector {
   // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
   // by its middle, and what lies under the eye would be a blur.
   [[nodiscard]] bool reaches_to_the_eye(const PatchNode& node, const SelectedPatch& patch) const {
-    constexpr double kMostOverNearest = 4.0;
+    // Twice as far as what is nearest, the middle asks for one level less, or the texels where two patches meet would
+    // be four pixels wide on one side.
+    constexpr double kMostOverNearest = 2.0;
     const double middle_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
     return patch.tile_level < tree_.grid().max_level && middle_m > kMostOverNearest * nearest_m(node);
   }
