@@ -88,6 +88,24 @@ TEST_F(GlobeCoverage, NotOneBackgroundPixelInsideTheDiscForAThousandRandomCamera
   for (int k = 0; k < 1000 && !HasFailure(); ++k) check(*globe, random_camera(draw, 10.0, 1.0e8), kSmall);
 }
 
+// A crack is a quarter of a pixel wide at most: it takes many pixels along the borders to find one, at heights from
+// which the mesh's own error decides where levels change.
+TEST_F(GlobeCoverage, NoCracksBetweenLevels) {
+  constexpr Viewport kLarge{768, 576};
+  Draw draw(54);
+  const auto globe = globe_of(earth());
+  int holes = 0;
+  for (int k = 0; k < 40; ++k) {
+    Camera c = random_camera(draw, 2.0e5, 5.0e6);
+    c.pitch = Angle::degrees(draw.between(-70.0, -10.0));
+    c.fov_y = Angle::degrees(draw.between(30.0, 110.0));
+    globe->set_camera(c);
+    this->draw(*globe, kLarge);
+    holes += judge(picture(), globe->view(kLarge), earth().ellipsoid).holes;
+  }
+  EXPECT_EQ(holes, 0) << "background pixels in 40 pictures";
+}
+
 TEST_F(GlobeCoverage, NoneForOtherBodiesEither) {
   Draw draw(51);
   for (const Body& body : selection_bodies()) {
