@@ -60,7 +60,7 @@ Result<FrameStats> render_picture(const RenderCommand& command) {
   options.upload_time_per_frame = std::chrono::seconds(1);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery);
   if (!globe) return globe.error();
-  (*globe)->set_camera(command.scene.camera);
+  (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
   const OffscreenTarget target(command.scene.size);
   const auto limit =
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));

@@ -8,7 +8,6 @@
 #include "apps/open_imagery.h"
 #include "apps/scene_options.h"
 #include "apps/viewer/viewer.h"
-#include "scene/view_limits.h"
 
 namespace terrella {
 namespace {
@@ -28,19 +27,10 @@ constexpr const char* kHelpFooter =
 
 struct ViewOptions {
   SceneOptions scene;
-  bool camera_given = false;
   bool print_camera = false;
 };
 
 /// Over the tropics of the Atlantic: with the whole globe in view, continents on both sides.
-Camera first_camera(const ViewOptions& options, const Body& body, Viewport framebuffer) {
-  if (options.camera_given) return options.scene.camera;
-  Camera camera;
-  camera.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
-  camera.eye.height_m = whole_globe_height_m(body.ellipsoid, camera.fov_y, framebuffer);
-  return camera;
-}
-
 int fail(const Error& error) {
   fmt::print(stderr, "terrella view: {}\n", error.message);
   return kFailed;
@@ -59,7 +49,7 @@ int view(const ViewOptions& options) {
   auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery));
   if (!globe) return fail(globe.error());
   (*window)->show();
-  const ViewerOptions viewer_options{.camera = first_camera(options, *body, (*window)->framebuffer()),
+  const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,
                                      .print_camera = options.print_camera};
   Viewer(**window, **globe, viewer_options).run();
@@ -77,10 +67,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera, as --camera takes it, on standard output each time it comes to rest");
   command->footer(kHelpFooter);
-  command->callback([command, options, &exit_code] {
-    options->camera_given = command->count("--camera") > 0;
-    exit_code = view(*options);
-  });
+  command->callback([command, options, &exit_code] { exit_code = view(*options); });
 }
 
 }  // namespace terrella

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "apps/option_checks.h"
+#include "scene/view_limits.h"
 
 namespace terrella {
 namespace {
@@ -92,6 +93,14 @@ Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
   auto said = parse_body(info.body);
   if (!said) return Error{info.name + ": its description names the body '" + info.body + "': " + said.error().message};
   return said;
+}
+
+Camera first_camera(const SceneOptions& options, const Body& body, Viewport picture) {
+  if (options.camera) return *options.camera;
+  Camera camera;
+  camera.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
+  camera.eye.height_m = whole_globe_height_m(body.ellipsoid, camera.fov_y, picture);
+  return camera;
 }
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {

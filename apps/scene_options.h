@@ -15,8 +15,8 @@ namespace terrella {
 
 /// What `view` and `render` have in common on the command line. Every value has been checked once the parse is over.
 struct SceneOptions {
-  std::string tile_set;  ///< empty: the Earth that the program carries
-  Camera camera;
+  std::string tile_set;          ///< empty: the Earth that the program carries
+  std::optional<Camera> camera;  ///< absent: the whole globe, see first_camera()
   Viewport size{.width_px = 1024, .height_px = 1024};
   std::optional<Body> body;              ///< absent: what the tile set says, else Earth
   std::optional<Projection> projection;  ///< absent: what the tile set says
@@ -38,6 +38,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// The body to draw: --body, else what the tile set says of itself, else Earth. Fails if the tile set says nonsense.
 [[nodiscard]] Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info);
+
+/// The camera to start with: --camera, else straight down over 20°N 0°E from where the whole globe fills the picture.
+[[nodiscard]] Camera first_camera(const SceneOptions& options, const Body& body, Viewport picture);
 
 /// The options as the globe takes them. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
