@@ -1,5 +1,5 @@
 // Patches seen from so near that a pixel lies within one texel or two: one tap, blended in full precision.
-layout(binding = 4) uniform sampler2DArray tiles_precise;
+layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 void main() {
   vec4 cell = cell_at(window_point);

@@ -1,5 +1,5 @@
 // `paper`: formulas (5) and (6) of paper 1 inside the bands v < b and v > 1 - b, interpolated coordinates elsewhere.
-layout(binding = 3) uniform sampler2DArray tiles_mipmapped;
+layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
 
 // The level of detail of a texture query on the whole picture at its finest level.
 float query_level(WindowPoint w, vec4 cell) {

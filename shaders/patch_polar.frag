@@ -1,6 +1,6 @@
-// Pole bands: exact coordinates for each fragment, and its footprint, long in longitude, integrated by up to 16 taps
-// that each find their own cell.
-layout(binding = 4) uniform sampler2DArray tiles_precise;
+// Pole bands, and with `exact` every patch: exact coordinates for each fragment, and its footprint, long in longitude
+// near a pole, integrated by up to 16 taps that each find their own cell.
+layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 void main() {
   WindowPoint w = exact_window_point();

@@ -23,7 +23,6 @@ struct DrawCommand {
 constexpr double kPlainFootprint_texels = 8.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.5;
-constexpr float kAnisotropy = 16.0F;
 
 std::string_view depth_define(DepthMode mode) {
   switch (mode) {
@@ -42,13 +41,12 @@ Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragme
                        {depth_define(depth)});
 }
 
-gl::Sampler sampler(GLenum minify, GLenum wrap, float anisotropy) {
+gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
   glSamplerParameteri(s.name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
   glSamplerParameteri(s.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
   glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
-  if (anisotropy > 1.0F) glSamplerParameterf(s.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
   return s;
 }
 
@@ -82,15 +80,13 @@ Status GlobeRenderer::build_programs() {
     programs_[which] = std::move(*program);
     return Done{};
   };
-  if (options_.texturing == Texturing::exact) {
-    return build(exact, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_exact.frag"});
+  if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
+    const Status s = build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    if (!s || options_.texturing == Texturing::exact) return s;
   }
   if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
   if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
   if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
-  if (options_.texturing == Texturing::automatic) {
-    return build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
-  }
   if (options_.texturing == Texturing::paper) {
     return build(paper, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
   }
@@ -126,12 +122,11 @@ void GlobeRenderer::set_up_vertex_array() {
 }
 
 void GlobeRenderer::set_up_samplers() {
-  bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE, 1.0F);
+  bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE);
   // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with
   // eight bits for the common modes and in float for this one.
-  precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT, 1.0F);
-  anisotropic_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE, kAnisotropy);
-  mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE, 1.0F);
+  precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
+  mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
   cells_texture_ = gl::make_texture(GL_TEXTURE_BUFFER);
 }
 
@@ -171,7 +166,7 @@ void GlobeRenderer::upload_frame(const FrameInput& input, const SlotLayout& layo
 GlobeRenderer::PatchProgram GlobeRenderer::program_for(const SelectedPatch& patch) const {
   switch (options_.texturing) {
     case Texturing::exact:
-      return exact;
+      return polar;
     case Texturing::automatic:
       if (patch.in_band) return polar;
       break;
@@ -231,11 +226,10 @@ void GlobeRenderer::bind_state(const FrameInput& input, TileTextures& tiles) con
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   glBindTextureUnit(1, cells_texture_.name());
   glBindSampler(1, 0);
-  for (GLuint unit : {0U, 2U, 3U, 4U}) glBindTextureUnit(unit, tiles.texture());
+  for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
   glBindSampler(0, bilinear_.name());
-  glBindSampler(2, anisotropic_.name());
-  glBindSampler(3, mipmapped_.name());
-  glBindSampler(4, precise_.name());
+  glBindSampler(2, mipmapped_.name());
+  glBindSampler(3, precise_.name());
 }
 
 void GlobeRenderer::draw_patches(FrameCounts& counts) const {

@@ -51,7 +51,7 @@ class GlobeRenderer {
 
  private:
   /// Programs in the order they are drawn.
-  enum PatchProgram { magnified, plain, oblique, polar, paper, exact, kPatchPrograms };
+  enum PatchProgram { magnified, plain, oblique, polar, paper, kPatchPrograms };
 
   GlobeRenderer(const RenderOptions& options, PatchTree& tree) : options_(options), tree_(tree), patches_(tree) {}
   Status build_programs();
@@ -72,7 +72,7 @@ class GlobeRenderer {
   gl::VertexArray vertex_array_;
   gl::Buffer frame_block_, draws_, commands_, cells_;
   gl::Texture cells_texture_;
-  gl::Sampler bilinear_, precise_, anisotropic_, mipmapped_;
+  gl::Sampler bilinear_, precise_, mipmapped_;
   gl::Texture color_, depth_;
   gl::Framebuffer framebuffer_;
   Viewport size_{0, 0};

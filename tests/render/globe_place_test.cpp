@@ -80,7 +80,7 @@ TEST_F(GlobePlace, IsExactInObliqueViews) {
 
 TEST_F(GlobePlace, IsTheSameInEveryModeDepthProjectionAndLatitude) {
   const Camera camera = camera_at(44.0, 20.0, 3.0e5, 15, -70);
-  for (const Texturing texturing : {Texturing::automatic, Texturing::vertex, Texturing::paper}) {
+  for (const Texturing texturing : {Texturing::automatic, Texturing::vertex, Texturing::paper, Texturing::exact}) {
     for (const DepthMode depth : {DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard}) {
       Scene scene{.camera = camera};
       scene.options.texturing = texturing;
@@ -88,7 +88,7 @@ TEST_F(GlobePlace, IsTheSameInEveryModeDepthProjectionAndLatitude) {
       check(scene, "mode");
     }
   }
-  for (const Texturing texturing : {Texturing::automatic, Texturing::vertex}) {
+  for (const Texturing texturing : {Texturing::automatic, Texturing::vertex, Texturing::exact}) {
     for (const Projection projection : {Projection::equirectangular, Projection::equal_area}) {
       for (const LatitudeKind kind : {LatitudeKind::graphic, LatitudeKind::centric}) {
         Scene scene{.camera = camera};
@@ -114,10 +114,7 @@ TEST_F(GlobePlace, IsExactOnTilesOfAnyRootSpan) {
   }
 }
 
-// Between two tiles Mesa's software rasteriser filters anisotropically with one pixel's tile for its neighbours too, so
-// this looks where no tile ends: a third of the way round is never nearer to the edge of a tile, of whatever level,
-// than a third of it.
-TEST_F(GlobePlace, IsExactWithTheGpusAnisotropicFilter) {
+TEST_F(GlobePlace, IsExactWithCoordinatesForEachFragment) {
   for (const double height_m : {1.0, 1.0e3, 1.0e5, 5.0e5}) {
     for (const double lat : {30.0, -30.0}) {
       Scene scene{.camera = camera_at(lat, lat > 0.0 ? 60.0 : -60.0, height_m, 15, -80)};
