@@ -17,6 +17,7 @@ struct Case {
   const char* name;
   Camera camera;
   Viewport viewport;
+  PatchSelectionOptions options{};
 };
 
 Camera camera_at(double lat_deg, double lon_deg, double height_m, double heading_deg, double pitch_deg) {
@@ -31,6 +32,7 @@ const std::vector<Case>& cases() {
       {"patches_50", camera_at(20, 30, 2.0e7, 0, -90), {1024, 1024}},
       {"patches_150", camera_at(46, 7, 6.0e6, 30, -90), {3840, 2160}},
       {"patches_500", camera_at(70, 7, 1.0e6, 30, -45), {7680, 4320}},
+      {"patches_500_hd", camera_at(46, 7, 6.0e6, 30, -90), {1920, 1080}, {.max_error_px = 0.02}},
       {"tilted", camera_at(46, 7, 3.0e4, 30, -12), {3840, 2160}},
       {"tilted_pole", camera_at(88, 10, 3.0e5, 0, -20), {3840, 2160}},
   };
@@ -44,7 +46,9 @@ constexpr int kSegments = 16;  // as the globe draws
 /// A tree and its tiles after the view has settled.
 struct Settled {
   explicit Settled(const Case& what)
-      : tree(body.ellipsoid, kGrid, kSegments), view(make_view(what.camera, body.ellipsoid, what.viewport)) {
+      : tree(body.ellipsoid, kGrid, kSegments),
+        view(make_view(what.camera, body.ellipsoid, what.viewport)),
+        options(what.options) {
     do {
       frame_once();
       for (const WantedTile& wanted : coverage.wanted) {
@@ -56,13 +60,14 @@ struct Settled {
   }
 
   void frame_once() {
-    select_patches(tree, view, {}, patches);
+    select_patches(tree, view, options, patches);
     cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
   }
 
   Body body = earth();
   PatchTree tree;
   View view;
+  PatchSelectionOptions options;
   TileResidency residency;
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;
@@ -88,7 +93,7 @@ void frame(benchmark::State& state, const Case& what) {
 
 void patches_alone(benchmark::State& state, const Case& what) {
   Settled settled(what);
-  for (auto _ : state) select_patches(settled.tree, settled.view, {}, settled.patches);
+  for (auto _ : state) select_patches(settled.tree, settled.view, settled.options, settled.patches);
   report(state, settled);
 }
 
