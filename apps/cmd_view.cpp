@@ -67,7 +67,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera, as --camera takes it, on standard output each time it comes to rest");
   command->footer(kHelpFooter);
-  command->callback([command, options, &exit_code] { exit_code = view(*options); });
+  command->callback([options, &exit_code] { exit_code = view(*options); });
 }
 
 }  // namespace terrella

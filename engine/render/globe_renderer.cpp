@@ -81,7 +81,7 @@ Status GlobeRenderer::build_programs() {
     return Done{};
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    const Status s = build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    Status s = build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
   if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;

@@ -9,12 +9,12 @@
 namespace terrella {
 
 struct PatchSelectionOptions {
-  double max_error_px = 0.2;          ///< of the surface, and of interpolated texture coordinates
-  double band = 0.05;                 ///< a pole band is this part of the picture's height (paper 1, 1.5)
-  double texels_per_pixel = 1.0;      ///< detail asked of the imagery: 1, a texel a pixel along the meridian
+  double max_error_px = 0.2;           ///< of the surface, and of interpolated texture coordinates
+  double band = 0.05;                  ///< a pole band is this part of the picture's height (paper 1, 1.5)
+  double texels_per_pixel = 1.0;       ///< detail asked of the imagery: 1, a texel a pixel along the meridian
   double max_footprint_texels = 12.0;  ///< the longest extent of a pixel, in texels, that filtering reaches over
-  int max_window = 8;                 ///< a patch whose window has more cells a side is split
-  int max_polar_columns = 32;         ///< a patch that touches a pole takes a coarser level over this many columns
+  int max_window = 8;                  ///< a patch whose window has more cells a side is split
+  int max_polar_columns = 32;          ///< a patch that touches a pole takes a coarser level over this many columns
 };
 
 /// One patch to draw.
