@@ -111,7 +111,10 @@ class Coverer {
         counted = true;
         count(entry);
       }
-      if (entry.state == TileState::resident) return drawn(entry, up);
+      if (entry.state == TileState::resident) {
+        if (!asked) entry.last_needed = frame_;
+        return drawn(entry, up);
+      }
       if (!asked && entry.state == TileState::unknown) {
         asked = true;
         want(patch, id, entry);
