@@ -34,6 +34,7 @@ struct Globe::Impl {
   Impl(const GlobeOptions& o, std::shared_ptr<TileSource> imagery)
       : options(o),
         grid(imagery->info().grid),
+        roots(root_tiles(grid)),
         layout{grid.tile_px, kGutter_px},
         tree(o.body.ellipsoid, grid, kSegments),
         tiles(grid, layout, kMips, o.gpu_bytes),
@@ -47,6 +48,7 @@ struct Globe::Impl {
 
   GlobeOptions options;
   TileGrid grid;
+  std::vector<TileId> roots;
   SlotLayout layout;
   Camera camera;
   PatchTree tree;
@@ -72,7 +74,7 @@ void Globe::Impl::select(Viewport viewport) {
 // Root tiles come first: an ancestor for everything.
 void Globe::Impl::ask() {
   std::vector<TileRequest> requests;
-  for (const TileId& id : root_tiles(grid)) {
+  for (const TileId& id : roots) {
     const TileResidency::Entry& entry = tiles.residency().entry(id);
     if (entry.state == TileState::unknown) requests.push_back({id, 1e9});
   }
@@ -105,7 +107,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   const auto start = Clock::now();
   select(viewport);
   // Slot 0 and those of the root tiles are never given up.
-  const int room = tiles.capacity() - 1 - static_cast<int>(root_tiles(grid).size());
+  const int room = tiles.capacity() - 1 - static_cast<int>(roots.size());
   // A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
   for (int step = 0; step < kMostCoarser && coverage.tiles > room * 9 / 10; ++step) {
     detail *= 0.75;
@@ -133,7 +135,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
 
 // Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
 bool Globe::Impl::roots_decided() {
-  for (const TileId& id : root_tiles(grid)) {
+  for (const TileId& id : roots) {
     if (tiles.residency().entry(id).state == TileState::unknown) return false;
   }
   return true;
