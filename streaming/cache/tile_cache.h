@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/result.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// What the cache knows of a tile: its bytes, or why there are none (DESIGN 11), and what HTTP needs to ask again.
+struct CacheRecord {
+  std::optional<Absence> absence;  ///< none: `bytes` is the tile
+  std::vector<std::byte> bytes;
+  std::string why;  ///< of an absence
+  std::string etag;
+  std::string last_modified;
+  std::int64_t stored_unix_s = 0;
+  std::optional<std::int64_t> expires_unix_s;  ///< none: does not expire
+};
+[[nodiscard]] inline bool is_fresh(const CacheRecord& record, std::int64_t now_unix_s) {
+  return !record.expires_unix_s || *record.expires_unix_s > now_unix_s;
+}
+
+struct CacheOptions {
+  std::uint64_t max_bytes =
+      0;  ///< of the file; least recently used tiles go first and the space is given back; 0: none
+  std::size_t batch_tiles = 256;              ///< written in one transaction at most
+  std::size_t max_queued_bytes = 64UL << 20;  ///< store() waits over this
+};
+
+struct CacheCounts {
+  std::uint64_t file_bytes = 0;
+  std::uint64_t stored = 0;  ///< records made durable since opening
+  std::uint64_t evicted = 0;
+};
+
+/// One source's tiles in a GeoPackage that GDAL and QGIS open while it is in use (DESIGN 8): tiles as in any
+/// GeoPackage, absences, validators, expiry and last use in side tables. Several processes may use one file. All
+/// writing is done by one thread, in batches; root tiles (level grid.min_level) are never evicted.
+class TileCache {
+ public:
+  /// Opens the cache or makes it. A file that holds another source's tiles (another grid, another `source_key`) is
+  /// refused by name. One that is damaged is renamed NAME.damaged-N, a fresh one begun, and `set_aside()` says so.
+  /// thread: any
+  [[nodiscard]] static Result<std::shared_ptr<TileCache>> open(const std::filesystem::path& path,
+                                                               const TileSetInfo& info, const std::string& source_key,
+                                                               const CacheOptions& options = {});
+  virtual ~TileCache() = default;  ///< writes what is queued
+
+  [[nodiscard]] virtual const TileSetInfo& info() const = 0;
+  /// The damaged file that was set aside on opening; empty: none.
+  [[nodiscard]] virtual std::filesystem::path set_aside() const = 0;
+
+  /// What is known, what is queued for writing included; notes the use. thread: any, several at once
+  [[nodiscard]] virtual Result<std::optional<CacheRecord>> find(const TileId& id) = 0;
+  /// The same without the bytes and without noting a use. thread: any, several at once
+  [[nodiscard]] virtual Result<std::optional<CacheRecord>> peek(const TileId& id) = 0;
+  /// Queues a record to be written. `on_durable` is called on the writer's thread once it would survive kill -9, or
+  /// with the reason why it could not be written (disk full); later records are still tried. thread: any
+  virtual void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable = {}) = 0;
+  /// Notes that a tile was found unchanged (304): new expiry, same bytes. thread: any
+  virtual void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,
+                     std::function<void(const Status&)> on_durable = {}) = 0;
+  /// Waits until all that is queued is durable. The first error since the last flush, if any. thread: any but the
+  /// writer
+  [[nodiscard]] virtual Status flush() = 0;
+  [[nodiscard]] virtual CacheCounts counts() const = 0;  ///< thread: any
+};
+
+}  // namespace terrella

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/result.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// Where the tiles of a set are on the network. A value; nothing is asked for.
+struct RemoteTileSet {
+  TileSetInfo info;
+  /// With {z}, {x}, {y} (rows from the north) or {-y} (from the south), {s} (one of `subdomains`), and {row}, {col} as
+  /// other names of {y} and {x}; {z} may stand for `level_names`.
+  std::string url;
+  std::vector<std::string> subdomains;
+  std::vector<std::string> level_names;  ///< by level, where they are not the numbers (WMTS matrix identifiers)
+  std::vector<std::string> headers;      ///< "Name: value"; may be secret: not in messages, not in the cache
+  std::optional<std::chrono::seconds> tile_life;     ///< for replies that do not say when they expire; none: 7 days
+  std::optional<std::chrono::seconds> absence_life;  ///< none: 1 day
+  std::string refuse_bulk;                           ///< why `preload` may not be used on it; empty: it may
+};
+
+/// The address of one tile of the grid. The same tile always goes to the same sub-domain. thread: any
+[[nodiscard]] std::string tile_url(const RemoteTileSet& set, const TileId& id);
+
+/// What tells this set's cache from others': address template, sub-domains and level names; no headers, and of a query
+/// no values of parameters named like key, token or signature. thread: any
+[[nodiscard]] std::string source_key(const RemoteTileSet& set);
+
+}  // namespace terrella
