@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSegments = 16;
+constexpr int kSegments = 24;
 constexpr int kMips = 4;
 constexpr int kGutter_px = 8;
 constexpr std::chrono::milliseconds kPoll{20};

@@ -1,7 +1,6 @@
 #include "geo/patch_id.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -51,9 +50,11 @@ PatchId neighbour_on_next_face(const PatchId& id, PatchSide side) {
   return {.face = face, .level = id.level, .x = cell(to.t), .y = cell(to.b)};
 }
 
-/// -1 + 2 (cell + k/n) / 2^level; exact, because n is a power of two.
+/// -1 + 2 (cell + k/n) / 2^level as one quotient of whole numbers, so that the same point has the same bits at every
+/// level and, mirrored, on every face, also where n is no power of two.
 double face_coordinate(std::uint32_t cell, int k, int n, int level) {
-  return std::ldexp(cell + static_cast<double>(k) / n, 1 - level) - 1.0;
+  const double across = std::ldexp(static_cast<double>(n), level);
+  return (2.0 * (static_cast<double>(cell) * n + k) - across) / across;
 }
 
 std::uint32_t cell_at(double coordinate, int level) {
@@ -115,7 +116,7 @@ PatchId patch_at(const EcefDir& normal, int level, CubeMapping mapping) {
 }
 
 EcefDir patch_point(const PatchId& id, int i, int j, int n, CubeMapping mapping) {
-  assert(n > 0 && std::has_single_bit(static_cast<unsigned>(n)));
+  assert(n > 0);
   return cube_to_sphere(
       {.face = id.face, .i = face_coordinate(id.x, i, n, id.level), .j = face_coordinate(id.y, j, n, id.level)},
       mapping);

@@ -32,7 +32,7 @@ enum class PatchSide : int { west = 0, east = 1, south = 2, north = 3 };  // -i,
 /// The patch of `level` that holds a direction.
 [[nodiscard]] PatchId patch_at(const EcefDir& normal, int level, CubeMapping mapping = CubeMapping::tangent);
 
-/// The unit normal of lattice point (i, j), i and j in 0…n, of a patch divided n × n; n a power of two. Bit-exact
+/// The unit normal of lattice point (i, j), i and j in 0…n, of a patch divided n × n. Bit-exact
 /// across levels, neighbours and faces: the same point of the sphere reached from any patch has the same bits.
 [[nodiscard]] EcefDir patch_point(const PatchId& id, int i, int j, int n, CubeMapping mapping = CubeMapping::tangent);
 

@@ -22,7 +22,7 @@ struct DrawCommand {
 // Three taps over the pixel serve footprints of up to this many texels well enough (shaders/patch_plain.frag).
 constexpr double kPlainFootprint_texels = 12.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
-constexpr double kMagnifiedFootprint_texels = 0.5;
+constexpr double kMagnifiedFootprint_texels = 0.7;
 
 std::string_view depth_define(DepthMode mode) {
   switch (mode) {

@@ -8,6 +8,10 @@
 namespace terrella {
 namespace {
 
+// A bent patch stands with coordinates per fragment only if it is not much larger than the band: each of its pixels
+// pays for them.
+constexpr double kMostOverBand = 4.0;
+
 class Selector {
  public:
   Selector(PatchTree& tree, const View& view, const PatchSelectionOptions& options, std::uint64_t stamp,
@@ -115,7 +119,7 @@ class Selector {
     if (node.geometric_error_m * px > options_.max_error_px) return true;
     const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
     patch.in_band = bent && node.min_colatitude_rad < band_rad_;
-    if (bent && !patch.in_band) return true;
+    if (bent && (!patch.in_band || node.max_colatitude_rad > kMostOverBand * band_rad_)) return true;
     return window_too_wide(node, patch) || reaches_to_the_eye(node, patch);
   }
 

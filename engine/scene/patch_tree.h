@@ -65,7 +65,7 @@ struct PatchNode {
 /// thread: main
 class PatchTree {
  public:
-  /// `segments` a side of each patch: a power of two in [2, 128].
+  /// `segments` a side of each patch: even, in [2, 128].
   PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping = CubeMapping::tangent);
 
   [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }

@@ -98,7 +98,7 @@ WaveError wave_error(const Picture& picture, const View& view, const Ellipsoid& 
   std::sort(off_px.begin(), off_px.end());
   error.pixels = static_cast<int>(off_px.size());
   error.most_px = off_px.back();
-  error.usual_px = off_px[off_px.size() * 99 / 100];
+  error.usual_px = off_px[off_px.size() * 98 / 100];
   error.mean_px /= error.pixels;
   return error;
 }

@@ -29,9 +29,10 @@ class PlaceWaves {
 
 /// A picture of waves, compared with where pick() says that its pixels look.
 struct WaveError {
-  int pixels = 0;           ///< where the three waves together say a place in both directions
-  double most_px = 0.0;     ///< the farthest that a pixel is off
-  double usual_px = 0.0;    ///< that 99 of 100 keep; where tile levels meet a texel is two pixels wide
+  int pixels = 0;        ///< where the three waves together say a place in both directions
+  double most_px = 0.0;  ///< the farthest that a pixel is off
+  double usual_px =
+      0.0;  ///< that 98 of 100 keep: one row of 48 may be where tile levels meet, with texels of two pixels
   glm::dvec2 mean_px{0.0};  ///< of all, right and down: rounding of colours averages out
 };
 [[nodiscard]] WaveError wave_error(const Picture& picture, const View& view, const Ellipsoid& ellipsoid,
