@@ -5,9 +5,9 @@
 
 #include <cerrno>
 
-#include "streaming/cut/gpkg_schema.h"
 #include "streaming/cut/part_name.h"
 #include "streaming/cut/tile_writer.h"
+#include "streaming/gpkg_schema.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "streaming/cut/gpkg_schema.h"
+#include "streaming/gpkg_schema.h"
 
 #include <cmath>
 
