@@ -69,19 +69,55 @@ glm::dvec3 extent_point(const PatchTree& tree, const PatchNode& node, double lon
   return tree.ellipsoid().position(Ellipsoid::normal(lat, Angle::degrees(lon_deg + node.lon_center_deg))).xyz_m;
 }
 
-BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const TileBounds& cell) {
-  const double w = std::max(cell.west_deg - node.lon_center_deg, node.west_deg);
-  const double e = std::min(cell.east_deg - node.lon_center_deg, node.east_deg);
-  const double s = std::max(cell.south_deg, node.south_row_deg);
-  const double n = std::min(cell.north_deg, node.north_row_deg);
-  BoundingSphere sphere{extent_point(tree, node, 0.5 * (w + e), 0.5 * (s + n)), 0.0};
+// Longitudes relative to the patch's centre, and rows.
+struct Extent {
+  double west_deg, east_deg, south_deg, north_deg;
+  [[nodiscard]] double lon_deg(double part) const { return west_deg + part * (east_deg - west_deg); }
+  [[nodiscard]] double row_deg(double part) const { return south_deg + part * (north_deg - south_deg); }
+};
+
+Extent cell_extent(const PatchTree& tree, const PatchNode& node, int x, int y) {
+  const TileWindow& win = node.window;
+  const TileBounds cell = tile_bounds(tree.grid(), TileId{win.level, win.x0 + x, win.y0 + y});
+  return {std::max(cell.west_deg - node.lon_center_deg, node.west_deg),
+          std::min(cell.east_deg - node.lon_center_deg, node.east_deg), std::max(cell.south_deg, node.south_row_deg),
+          std::min(cell.north_deg, node.north_row_deg)};
+}
+
+BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
+  BoundingSphere sphere{extent_point(tree, node, cell.lon_deg(0.5), cell.row_deg(0.5)), 0.0};
   for (int k = 0; k < 9; ++k) {
-    const int column = k % 3;
-    const int row = k / 3;
-    const glm::dvec3 p = extent_point(tree, node, w + 0.5 * column * (e - w), s + 0.5 * row * (n - s));
+    const glm::dvec3 p = extent_point(tree, node, cell.lon_deg(0.5 * (k % 3)), cell.row_deg(0.5 * (k / 3)));
     sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
   }
   return sphere;
+}
+
+// Around the corners' mean; the surface between them bulges by their distance squared over twice the radius of
+// curvature, which is at least b²/a.
+BoundingSphere sphere_around(const std::array<glm::dvec3, 4>& corners, const Ellipsoid& ellipsoid) {
+  BoundingSphere sphere{0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 0.0};
+  for (const glm::dvec3& p : corners) sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
+  sphere.radius_m += sphere.radius_m * sphere.radius_m * ellipsoid.a_m() / (2.0 * ellipsoid.b_m() * ellipsoid.b_m());
+  return sphere;
+}
+
+std::vector<BoundingSphere> spheres_of_parts(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
+  constexpr int kPoints = kCellParts + 1;
+  std::array<glm::dvec3, kPoints * kPoints> points{};
+  const auto at = [&points](int i, int j) -> glm::dvec3& { return points[static_cast<std::size_t>(j * kPoints + i)]; };
+  for (int j = 0; j < kPoints; ++j) {
+    for (int i = 0; i < kPoints; ++i) {
+      at(i, j) = extent_point(tree, node, cell.lon_deg(double(i) / kCellParts), cell.row_deg(double(j) / kCellParts));
+    }
+  }
+  std::vector<BoundingSphere> parts;
+  for (int j = 0; j < kCellParts; ++j) {
+    for (int i = 0; i < kCellParts; ++i) {
+      parts.push_back(sphere_around({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}, tree.ellipsoid()));
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -151,10 +187,16 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
   win.cells.clear();
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {
-      win.cells.push_back(cell_sphere(*this, node, tile_bounds(grid_, TileId{tile_level, win.x0 + x, win.y0 + y})));
+      win.cells.push_back({cell_sphere(*this, node, cell_extent(*this, node, x, y)), {}});
     }
   }
   return win;
+}
+
+const std::vector<BoundingSphere>& PatchTree::cell_parts(PatchNode& node, int x, int y) {
+  CellExtent& cell = node.window.cells[static_cast<std::size_t>(y * node.window.w + x)];
+  if (cell.parts.empty()) cell.parts = spheres_of_parts(*this, node, cell_extent(*this, node, x, y));
+  return cell.parts;
 }
 
 }  // namespace terrella

@@ -19,13 +19,20 @@ struct BoundingSphere {
   double radius_m = 0.0;
 };
 
+/// What a cell of a window shares with its patch.
+struct CellExtent {
+  BoundingSphere whole;
+  std::vector<BoundingSphere> parts;  ///< of kCellParts × kCellParts, empty until they are asked for
+};
+inline constexpr int kCellParts = 8;
+
 /// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
 /// each cell of the window names one tile (DESIGN 5).
 struct TileWindow {
   int level = -1;
   std::int64_t x0 = 0, y0 = 0;
   int w = 0, h = 0;
-  std::vector<BoundingSphere> cells;  ///< row-major; what each cell shares with the patch
+  std::vector<CellExtent> cells;  ///< row-major
 };
 
 /// What never changes about a patch, worked out once and kept in the tree.
@@ -73,6 +80,8 @@ class PatchTree {
   void ensure_children(PatchNode& node);
   /// The node's window at a tile level; kept until another level is asked for.
   const TileWindow& window(PatchNode& node, int tile_level);
+  /// The parts of cell (x, y) of the node's window as it is, counted from its north-west corner.
+  const std::vector<BoundingSphere>& cell_parts(PatchNode& node, int x, int y);
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }

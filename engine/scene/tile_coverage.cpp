@@ -65,7 +65,7 @@ class Coverer {
       for (int x = 0; x < win.w; ++x) {
         const TileId id{win.level, std::clamp<std::int64_t>(win.x0 + x, 0, last_x),
                         std::clamp<std::int64_t>(win.y0 + y, 0, last_y)};
-        const Found found = in_view(patch, win.cells[index(win, x, y)]) ? find_seen(patch, id) : find_unseen(id);
+        const Found found = in_view(patch, x, y) ? find_seen(patch, id) : find_unseen(id);
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up));
       }
@@ -84,12 +84,22 @@ class Coverer {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(win.w) + static_cast<std::size_t>(x);
   }
 
-  [[nodiscard]] bool in_view(const SelectedPatch& patch, const BoundingSphere& sphere) const {
-    if (!patch.cut_by_view) return true;
-    if (classify(planes_, view_, sphere) < 0) return false;
-    if (!seen_from_outside_) return true;
+  // -1 out of view, 1 wholly in view, 0 perhaps in part.
+  [[nodiscard]] int visible(const BoundingSphere& sphere) const {
+    const int in_frame = classify(planes_, view_, sphere);
+    if (in_frame < 0 || !seen_from_outside_) return in_frame;
     // Scaled by the shortest axis the sphere still holds what it held.
-    return glm::dot(sphere.center_m / axes_m_, eye_scaled_) + eye_scaled_length_ * sphere.radius_m / axes_m_.z >= 1.0;
+    const double over = glm::dot(sphere.center_m / axes_m_, eye_scaled_) - 1.0;
+    const double reach = eye_scaled_length_ * sphere.radius_m / axes_m_.z;
+    return over < -reach ? -1 : over < reach ? 0 : in_frame;
+  }
+
+  [[nodiscard]] bool in_view(const SelectedPatch& patch, int x, int y) {
+    if (!patch.cut_by_view) return true;
+    const int whole = visible(patch.node->window.cells[index(patch.node->window, x, y)].whole);
+    if (whole != 0) return whole > 0;
+    return std::ranges::any_of(tree_.cell_parts(*patch.node, x, y),
+                               [this](const BoundingSphere& part) { return visible(part) >= 0; });
   }
 
   // A cell out of view takes what is there; nobody asks for its tile or counts it.

@@ -41,7 +41,7 @@ const std::vector<Case>& cases() {
 
 /// Deep enough that every camera above is limited by the screen, not by the pyramid.
 constexpr TileGrid kGrid{.root_span_deg = 180.0, .tile_px = 256, .max_level = 18};
-constexpr int kSegments = 16;  // as the globe draws
+constexpr int kSegments = 24;  // as the globe draws
 
 /// A tree and its tiles after the view has settled.
 struct Settled {
