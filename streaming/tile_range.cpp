@@ -8,19 +8,14 @@
 namespace terrella {
 namespace {
 
-/// Columns or rows [first, last].
-struct Span {
-  std::int64_t first, last;
-};
-
 /// The numbers for which `is_there` holds among those that reach over [low, high]; it knows about slivers and has the
 /// last word on the first and the last. Both are looked for from one number outside at most, so that what exists for
 /// another reason (the same bounds a turn away) cannot be taken for this span's end with a gap between.
 template <class IsThere>
-Span span_over(double low, double high, std::int64_t count, const IsThere& is_there) {
+TileSpan span_over(double low, double high, std::int64_t count, const IsThere& is_there) {
   const auto most = static_cast<double>(count);
-  Span span{static_cast<std::int64_t>(std::clamp(std::ceil(low) - 1.0, 0.0, most)),
-            static_cast<std::int64_t>(std::clamp(std::floor(high), -1.0, most - 1.0))};
+  TileSpan span{static_cast<std::int64_t>(std::clamp(std::ceil(low) - 1.0, 0.0, most)),
+                static_cast<std::int64_t>(std::clamp(std::floor(high), -1.0, most - 1.0))};
   while (span.first <= span.last && !is_there(span.first)) ++span.first;
   while (span.last >= span.first && !is_there(span.last)) --span.last;
   return span;
@@ -28,7 +23,7 @@ Span span_over(double low, double high, std::int64_t count, const IsThere& is_th
 
 // A tile exists if its column touches the bounds' longitudes and its row their latitudes, so each can be found with the
 // other bounds open.
-Span rows_in_bounds(const TileGrid& grid, int level) {
+TileSpan rows_in_bounds(const TileGrid& grid, int level) {
   TileGrid band = grid;
   band.bounds.west = GeoRect{}.west;
   band.bounds.east = GeoRect{}.east;
@@ -39,18 +34,18 @@ Span rows_in_bounds(const TileGrid& grid, int level) {
 
 /// Ascending, each column once. Bounds over ±180° give two spans; a last column that reaches over 180° may belong to
 /// the bounds that begin at -180°.
-std::vector<Span> columns_in_bounds(const TileGrid& grid, int level) {
+std::vector<TileSpan> columns_in_bounds(const TileGrid& grid, int level) {
   TileGrid wedge = grid;
   wedge.bounds.south = GeoRect{}.south;
   wedge.bounds.north = GeoRect{}.north;
   const double west_deg = grid.bounds.west.deg();
   const double east_deg = grid.bounds.east.deg() + (grid.bounds.east < grid.bounds.west ? 360.0 : 0.0);
-  std::vector<Span> spans;
+  std::vector<TileSpan> spans;
   constexpr std::array kTurnsDeg{-360.0, 0.0, 360.0};
   for (const double turn_deg : kTurnsDeg) {
     const double west = tile_xy(grid, level, 0.0, west_deg + turn_deg).x;
     const double east = tile_xy(grid, level, 0.0, east_deg + turn_deg).x;
-    Span span = span_over(west, east, columns(grid, level), [&](std::int64_t x) {
+    TileSpan span = span_over(west, east, columns(grid, level), [&](std::int64_t x) {
       return exists(wedge, {level, x, 0});
     });
     if (!spans.empty()) span.first = std::max(span.first, spans.back().last + 1);
@@ -61,11 +56,14 @@ std::vector<Span> columns_in_bounds(const TileGrid& grid, int level) {
 
 }  // namespace
 
+TilePlaces tile_places(const TileGrid& grid, int level) {
+  return {columns_in_bounds(grid, level), rows_in_bounds(grid, level)};
+}
+
 void for_each_place(const TileGrid& grid, int level, const std::function<bool(const TileId&)>& call) {
-  const Span rows = rows_in_bounds(grid, level);
-  const std::vector<Span> columns = columns_in_bounds(grid, level);
-  for (std::int64_t y = rows.first; y <= rows.last; ++y) {
-    for (const Span& span : columns) {
+  const TilePlaces places = tile_places(grid, level);
+  for (std::int64_t y = places.rows.first; y <= places.rows.last; ++y) {
+    for (const TileSpan& span : places.columns) {
       for (std::int64_t x = span.first; x <= span.last; ++x) {
         if (!call({level, x, y})) return;
       }
@@ -74,10 +72,10 @@ void for_each_place(const TileGrid& grid, int level, const std::function<bool(co
 }
 
 std::int64_t count_places(const TileGrid& grid, int level) {
-  const Span rows = rows_in_bounds(grid, level);
+  const TilePlaces places = tile_places(grid, level);
   std::int64_t columns = 0;
-  for (const Span& span : columns_in_bounds(grid, level)) columns += span.last - span.first + 1;
-  return columns * std::max<std::int64_t>(0, rows.last - rows.first + 1);
+  for (const TileSpan& span : places.columns) columns += span.last - span.first + 1;
+  return columns * std::max<std::int64_t>(0, places.rows.last - places.rows.first + 1);
 }
 
 }  // namespace terrella

@@ -1,0 +1,84 @@
+#include "streaming/preload/block_walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace terrella {
+namespace {
+
+/// Overlaps below this part of a tile of the finest level are rounding, as for the grid itself (geo/tile_grid.h).
+constexpr double kSliverTiles = 1.0e-6;
+
+TileSpan meet(const TileSpan& a, const TileSpan& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+bool any(const TileSpan& span) { return span.first <= span.last; }
+TileSpan side(std::int64_t number, int shift) { return {number << shift, ((number + 1) << shift) - 1}; }
+
+}  // namespace
+
+BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level)
+    : grid_(grid),
+      ellipsoid_(ellipsoid),
+      region_(region),
+      level_(level),
+      sliver_deg_(kSliverTiles * tile_span_deg(grid, grid.max_level)),
+      places_(tile_places(grid, level)) {
+  const auto longest = static_cast<std::uint64_t>(std::max(columns(grid, level), rows(grid, level)));
+  visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, region.all_segments());
+}
+
+std::optional<TileBlock> BlockWalk::next() {
+  while (ready_.empty()) {
+    if (way_.empty()) return std::nullopt;
+    Opened& top = way_.back();
+    if (top.child == 4) {
+      way_.pop_back();
+      continue;
+    }
+    const int child = top.child++;
+    const Node node{top.node.shift - 1, 2 * top.node.x + child / 2, 2 * top.node.y + child % 2};
+    visit(node, top.segments);
+  }
+  const TileBlock block = ready_.back();
+  ready_.pop_back();
+  return block;
+}
+
+void BlockWalk::visit(const Node& node, const Region::Segments& candidates) {
+  if (!holds_places(node)) return;
+  const Overlap overlap = region_.empty() ? Overlap::inside : region_.classify(rect(node), candidates, touched_);
+  if (overlap == Overlap::outside) return;
+  if (overlap == Overlap::inside || node.shift == 0) {
+    add_blocks(node);
+    return;
+  }
+  way_.push_back({node, 0, touched_});
+}
+
+bool BlockWalk::holds_places(const Node& node) const {
+  if (!any(meet(side(node.y, node.shift), places_.rows))) return false;
+  return std::ranges::any_of(places_.columns,
+                             [&](const TileSpan& span) { return any(meet(side(node.x, node.shift), span)); });
+}
+
+void BlockWalk::add_blocks(const Node& node) {
+  const TileSpan rows = meet(side(node.y, node.shift), places_.rows);
+  for (auto span = places_.columns.rbegin(); span != places_.columns.rend(); ++span) {
+    const TileSpan columns = meet(side(node.x, node.shift), *span);
+    if (any(columns)) ready_.push_back({columns, rows});
+  }
+}
+
+MapRect BlockWalk::rect(const Node& node) const {
+  const double span_deg = tile_span_deg(grid_, level_);
+  const TileSpan columns = side(node.x, node.shift);
+  const TileSpan rows = side(node.y, node.shift);
+  const auto degrees = [&](std::int64_t tiles) { return static_cast<double>(tiles) * span_deg; };
+  const auto latitude = [&](double row_deg) { return latitude_of_row(grid_, ellipsoid_, row_deg).deg(); };
+  return {.west_deg = degrees(columns.first) - 180.0 + sliver_deg_,
+          .south_deg = latitude(std::max(-90.0, 90.0 - degrees(rows.last + 1) + sliver_deg_)),
+          .east_deg = std::min(180.0, degrees(columns.last + 1) - 180.0 - sliver_deg_),
+          .north_deg = latitude(90.0 - degrees(rows.first) - sliver_deg_)};
+}
+
+}  // namespace terrella

@@ -1,0 +1,66 @@
+#include "streaming/preload/geojson_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geo/number.h"
+#include "streaming/file_bytes.h"
+#include "streaming/preload/geojson_region.h"
+
+namespace terrella {
+
+using nlohmann::json;
+
+Result<json> parse_geojson(std::string_view text, const std::string& where) {
+  json object;
+  try {
+    object = json::parse(text);
+  } catch (const json::exception& error) {
+    return Error{fmt::format("{}: not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", where,
+                             dynamic_cast<const json::parse_error*>(&error) != nullptr
+                                 ? dynamic_cast<const json::parse_error&>(error).byte
+                                 : 0)};
+  }
+  if (geojson_type(object).empty()) {
+    return Error{fmt::format("{}: JSON, but no GeoJSON: it has no \"type\"; see RFC 7946", where)};
+  }
+  return object;
+}
+
+Result<std::string> read_geojson_text(const std::filesystem::path& path) {
+  const auto bytes = read_file(path, kMaxGeojsonBytes);
+  if (!bytes) return Error{bytes.error().message};
+  return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+std::string geojson_type(const json& object) {
+  if (!object.is_object()) return {};
+  const auto type = object.find("type");
+  return type != object.end() && type->is_string() ? type->get<std::string>() : std::string();
+}
+
+std::string feature_name(const json& feature, std::size_t index) {
+  const std::string number = fmt::format("feature {}", index + 1);
+  if (!feature.is_object()) return number;
+  const auto properties = feature.find("properties");
+  if (properties == feature.end() || !properties->is_object()) return number;
+  const auto name = properties->find("name");
+  if (name == properties->end() || !name->is_string()) return number;
+  return fmt::format("{} ({})", number, in_quotes(name->get<std::string>()));
+}
+
+Result<MapPoint> geojson_position(const json& position) {
+  if (!position.is_array() || position.size() < 2 || !position[0].is_number() || !position[1].is_number()) {
+    return Error{"a position is not [longitude, latitude]"};
+  }
+  const MapPoint p{position[0].get<double>(), position[1].get<double>()};
+  constexpr double kMostLongitude = 540.0;  // a turn and a half: rings written on over ±180° are common
+  if (!(std::abs(p.lon_deg) <= kMostLongitude) || !(std::abs(p.lat_deg) <= 90.0)) {
+    return Error{fmt::format("the position {},{} is not on the planet; GeoJSON is degrees, longitude first", p.lon_deg,
+                             p.lat_deg)};
+  }
+  return p;
+}
+
+}  // namespace terrella

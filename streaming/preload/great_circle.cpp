@@ -1,0 +1,135 @@
+#include "streaming/preload/great_circle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "geo/ellipsoid.h"
+
+namespace terrella {
+namespace {
+
+constexpr int kMostHalvings = 40;
+
+glm::dvec3 direction(const MapPoint& p) {
+  return Ellipsoid::normal(Angle::degrees(p.lat_deg), Angle::degrees(p.lon_deg)).xyz;
+}
+
+/// The same place with its longitude within half a turn of `near_deg`.
+MapPoint place_near(const glm::dvec3& n, double near_deg) {
+  const double lon = Angle::radians(std::atan2(n.y, n.x)).deg();
+  return {near_deg + std::remainder(lon - near_deg, 360.0),
+          Angle::radians(std::atan2(n.z, std::hypot(n.x, n.y))).deg()};
+}
+
+/// Appends what leads from `a` to `b`, `b` included, `a` not.
+void append_halves(const MapPoint& a, const MapPoint& b, int halvings, MapRing& ring) {
+  const MapPoint flat{0.5 * (a.lon_deg + b.lon_deg), 0.5 * (a.lat_deg + b.lat_deg)};
+  const glm::dvec3 middle = glm::normalize(direction(a) + direction(b));
+  const double off_rad = glm::length(middle - direction(flat));
+  if (halvings == kMostHalvings || off_rad <= Angle::degrees(kArcTolerance_deg).rad()) {
+    ring.push_back(b);
+    return;
+  }
+  const MapPoint on_arc = place_near(middle, flat.lon_deg);
+  append_halves(a, on_arc, halvings + 1, ring);
+  append_halves(on_arc, b, halvings + 1, ring);
+}
+
+bool is_pole(const MapPoint& p) { return std::abs(p.lat_deg) == 90.0; }
+
+/// Appends the edge from the ring's last point to a position, with that position.
+Status append_edge(const MapPoint& given_from, const MapPoint& given_to, MapRing& ring) {
+  const MapPoint from = ring.back();
+  const double turn_deg = given_to.lon_deg - given_from.lon_deg;
+  if (std::abs(turn_deg) == 360.0 && given_to.lat_deg == given_from.lat_deg) {
+    ring.push_back({from.lon_deg + turn_deg, given_to.lat_deg});
+    return Done{};
+  }
+  const double east_deg = std::remainder(turn_deg, 360.0);
+  const MapPoint to{from.lon_deg + east_deg, given_to.lat_deg};
+  if (is_pole(from) || is_pole(to) || east_deg == 0.0) {
+    // A pole has every longitude: the edge is a meridian, and the rest of the way lies at the pole.
+    if (is_pole(from)) ring.push_back({to.lon_deg, from.lat_deg});
+    if (is_pole(to) && !is_pole(from)) ring.push_back({from.lon_deg, to.lat_deg});
+    ring.push_back(to);
+    return Done{};
+  }
+  if (std::abs(east_deg) == 180.0) {
+    const double sum_deg = from.lat_deg + to.lat_deg;
+    if (sum_deg == 0.0) {
+      return Error{
+          fmt::format("from {},{} to {},{} there is no shorter way, they are antipodal; put a position between",
+                      given_from.lon_deg, given_from.lat_deg, given_to.lon_deg, given_to.lat_deg)};
+    }
+    const double pole_deg = std::copysign(90.0, sum_deg);
+    ring.insert(ring.end(), {{from.lon_deg, pole_deg}, {to.lon_deg, pole_deg}, to});
+    return Done{};
+  }
+  append_halves(from, to, 0, ring);
+  return Done{};
+}
+
+/// Twice the integral of the sine of the latitude along a way round the planet: positive if it lies north.
+double mean_side(const MapRing& ring) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const double sines =
+        std::sin(Angle::degrees(ring[i].lat_deg).rad()) + std::sin(Angle::degrees(ring[i - 1].lat_deg).rad());
+    sum += sines * (ring[i].lon_deg - ring[i - 1].lon_deg);
+  }
+  return ring.back().lon_deg > ring.front().lon_deg ? sum : -sum;
+}
+
+/// The part of a ring on one side of a meridian: `side` 1 keeps the east, -1 the west. (Sutherland and Hodgman 1974,
+/// doi:10.1145/360767.360802; what is joined along the meridian cancels out under even-odd filling.)
+MapRing clip(const MapRing& ring, double lon_deg, double side) {
+  MapRing kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const MapPoint& a = ring[i];
+    const MapPoint& b = ring[(i + 1) % ring.size()];
+    const bool a_in = side * (a.lon_deg - lon_deg) >= 0.0;
+    const bool b_in = side * (b.lon_deg - lon_deg) >= 0.0;
+    if (a_in) kept.push_back(a);
+    if (a_in != b_in) {
+      const double part = (lon_deg - a.lon_deg) / (b.lon_deg - a.lon_deg);
+      kept.push_back({lon_deg, a.lat_deg + part * (b.lat_deg - a.lat_deg)});
+    }
+  }
+  return kept;
+}
+
+/// Cuts a ring whose longitudes run on into its parts within [-180, 180].
+std::vector<MapRing> cut_at_antimeridian(const MapRing& ring) {
+  const auto by_lon = [](const MapPoint& a, const MapPoint& b) { return a.lon_deg < b.lon_deg; };
+  const auto [west, east] = std::ranges::minmax_element(ring, by_lon);
+  std::vector<MapRing> parts;
+  for (double turn = std::floor((west->lon_deg + 180.0) / 360.0); turn * 360.0 - 180.0 < east->lon_deg; turn += 1.0) {
+    MapRing part = clip(clip(ring, turn * 360.0 - 180.0, 1.0), turn * 360.0 + 180.0, -1.0);
+    for (MapPoint& p : part) p.lon_deg -= turn * 360.0;
+    if (part.size() >= 2) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions) {
+  MapRing ring{{std::remainder(positions.front().lon_deg, 360.0), positions.front().lat_deg}};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const MapPoint& next = positions[(i + 1) % positions.size()];
+    if (const Status edge = append_edge(positions[i], next, ring); !edge) return edge.error();
+  }
+  const double turns = std::round((ring.back().lon_deg - ring.front().lon_deg) / 360.0);
+  if (std::abs(turns) > 1.0) return Error{"the ring goes round a pole more than once"};
+  if (turns != 0.0) {
+    const double pole_deg = std::copysign(90.0, mean_side(ring));
+    ring.insert(ring.end(), {{ring.back().lon_deg, pole_deg}, {ring.front().lon_deg, pole_deg}});
+  }
+  return cut_at_antimeridian(ring);
+}
+
+}  // namespace terrella

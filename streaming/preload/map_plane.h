@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+namespace terrella {
+
+/// A place in the plane of longitude and geodetic latitude, degrees: there every tile is a rectangle. Longitudes of a
+/// ring that is being built run on over ±180°; those of a region lie in [-180, 180].
+struct MapPoint {
+  double lon_deg = 0.0;
+  double lat_deg = 0.0;
+};
+
+/// A rectangle of that plane; west < east, south < north.
+struct MapRect {
+  double west_deg = -180.0;
+  double south_deg = -90.0;
+  double east_deg = 180.0;
+  double north_deg = 90.0;
+};
+
+/// A closed ring; the last point is joined to the first.
+using MapRing = std::vector<MapPoint>;
+
+}  // namespace terrella
