@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "streaming/cache/sqlite_writer.h"
+#include "streaming/cache/tile_cache.h"
+
+namespace terrella {
+
+/// The statements that change a cache's rows. Transactions are the caller's. thread: the connection's
+class CacheRows {
+ public:
+  /// Tiles of `root_level` get no last use, so that they are never evicted.
+  [[nodiscard]] static WriteResult<CacheRows> prepare(SqliteWriter& database, int root_level);
+
+  /// Puts a record in the place of what was known of the tile; but `failed` never takes the place of a tile.
+  [[nodiscard]] WriteStatus put(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s);
+  [[nodiscard]] WriteStatus renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires);
+  /// `row` is the tile's id in the table; a later use that is there stays.
+  [[nodiscard]] WriteStatus note_use(std::int64_t row, std::int64_t used_unix_s);
+  /// Deletes up to `most` tiles that were used longest ago and absences that are as old. Returns how many rows.
+  [[nodiscard]] WriteResult<std::int64_t> evict(int most);
+
+  /// What is known of a place: when it was stored.
+  struct Known {
+    std::optional<std::int64_t> tile_stored;
+    std::optional<std::int64_t> absence_stored;
+  };
+  [[nodiscard]] WriteResult<Known> known(const TileId& id);
+
+ private:
+  CacheRows(SqliteWriter& database, int root_level) : database_(&database), root_level_(root_level) {}
+  [[nodiscard]] WriteStatus prepare_all();
+  [[nodiscard]] WriteStatus put_tile(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s);
+  [[nodiscard]] WriteStatus put_absence(const TileId& id, const CacheRecord& record);
+  [[nodiscard]] WriteStatus delete_tile(std::int64_t row);
+  [[nodiscard]] WriteResult<std::optional<std::int64_t>> row_of(const TileId& id);
+
+  enum Which : std::size_t {
+    kInsertTile,
+    kFindTile,
+    kUpdateTile,
+    kPutSide,
+    kDropAbsence,
+    kPutAbsence,
+    kDropTile,
+    kDropSide,
+    kRenewTile,
+    kRenewAbsence,
+    kNoteUse,
+    kOldest,
+    kDropOldAbsences,
+    kTileStored,
+    kAbsenceStored,
+    kCount
+  };
+  SqliteWriter* database_;
+  int root_level_;
+  std::vector<SqliteStatement> statements_;  ///< by Which
+};
+
+}  // namespace terrella

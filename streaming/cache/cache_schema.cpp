@@ -1,0 +1,166 @@
+#include "streaming/cache/cache_schema.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "streaming/gpkg_schema.h"
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+// clang-format off
+constexpr std::array kSideTables = {
+    "CREATE TABLE terrella_cache (key TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    "CREATE TABLE terrella_cache_tiles (id INTEGER PRIMARY KEY, etag TEXT NOT NULL, last_modified TEXT NOT NULL, "
+    "stored INTEGER NOT NULL, expires INTEGER, used INTEGER)",
+    // Root tiles have no last use: they are never evicted, so they need not stand in the index.
+    "CREATE INDEX terrella_cache_tiles_used ON terrella_cache_tiles (used) WHERE used IS NOT NULL",
+    "CREATE TABLE terrella_cache_absences (zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
+    "tile_row INTEGER NOT NULL, kind TEXT NOT NULL, why TEXT NOT NULL, etag TEXT NOT NULL, last_modified TEXT NOT NULL, "
+    "stored INTEGER NOT NULL, expires INTEGER, PRIMARY KEY (zoom_level, tile_column, tile_row)) WITHOUT ROWID",
+    "CREATE INDEX terrella_cache_absences_stored ON terrella_cache_absences (stored)",
+};
+// clang-format on
+
+constexpr std::array kNames = {"absent", "blank", "broken", "failed"};
+
+WriteResult<bool> has(SqliteWriter& database, const std::string& condition) {
+  const WriteResult<std::int64_t> count = database.integer("SELECT count(*) FROM sqlite_master WHERE " + condition);
+  if (!count) return count.error();
+  return *count > 0;
+}
+
+/// The statement that made the table of tiles, from the schema that cut sets have too.
+std::string tiles_table() {
+  for (const SqlStatement& statement : geopackage_schema({})) {
+    if (statement.sql.starts_with("CREATE TABLE tiles ")) return statement.sql;
+  }
+  return {};
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
+  return result + "'";
+}
+
+/// Every table that is written to must be word for word ours, with no trigger or index of others' on it: what stands
+/// there (expressions, defaults, virtual tables) would run with each tile.
+WriteResult<bool> tables_are_ours(SqliteWriter& database) {
+  std::string expected = quoted(tiles_table());
+  for (const char* sql : kSideTables) expected += ", " + quoted(sql);
+  const std::string on_ours =
+      "lower(tbl_name) IN ('tiles', 'terrella_cache', 'terrella_cache_tiles', "
+      "'terrella_cache_absences') AND sql IS NOT NULL";
+  const auto right = database.integer("SELECT count(*) FROM sqlite_master WHERE sql IN (" + expected + ")");
+  if (!right) return right.error();
+  const auto all = database.integer("SELECT count(*) FROM sqlite_master WHERE " + on_ours);
+  if (!all) return all.error();
+  constexpr auto kExpected = static_cast<std::int64_t>(kSideTables.size()) + 1;
+  return *right == kExpected && *all == kExpected;
+}
+
+WriteStatus write_all(SqliteWriter& database, const TileSetInfo& info, const std::string& source_key) {
+  for (const SqlStatement& statement : geopackage_schema(info)) {
+    if (WriteStatus done = database.run(statement); !done) return done;
+  }
+  for (const char* sql : kSideTables) {
+    if (WriteStatus done = database.run(sql); !done) return done;
+  }
+  return database.run({"INSERT INTO terrella_cache VALUES ('version', ?1), ('source', ?2)",
+                       {std::to_string(kCacheVersion), source_key}});
+}
+
+WriteStatus write_file(const fs::path& part, const TileSetInfo& info, const std::string& source_key) {
+  WriteResult<SqliteWriter> database = SqliteWriter::open(part, SqliteWriter::Mode::create);
+  if (!database) return database.error();
+  return write_cache_schema(*database, info, source_key);
+}
+
+/// Gives the file its name unless there is one of that name; 0 or errno.
+int give_name(const fs::path& part, const fs::path& path) {
+  if (link(part.c_str(), path.c_str()) == 0) return 0;
+  if (errno == EEXIST) return 0;
+  // File systems of memory cards know no second names.
+  std::error_code failed;
+  if (!fs::exists(path, failed)) fs::rename(part, path, failed);
+  return failed.value();
+}
+
+}  // namespace
+
+const char* absence_name(Absence kind) { return kNames.at(static_cast<std::size_t>(kind)); }
+
+Absence absence_named(const std::string& name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (name == kNames.at(i)) return static_cast<Absence>(i);
+  }
+  return Absence::failed;
+}
+
+WriteStatus write_cache_schema(SqliteWriter& database, const TileSetInfo& info, const std::string& source_key) {
+  const std::string pragmas[] = {fmt::format("PRAGMA page_size = {}", kCachePageBytes),
+                                 "PRAGMA auto_vacuum = INCREMENTAL"};
+  for (const std::string& pragma : pragmas) {
+    if (WriteStatus done = database.run(pragma); !done) return done;
+  }
+  if (WriteStatus begun = database.run("BEGIN"); !begun) return begun;
+  if (WriteStatus written = write_all(database, info, source_key); !written) return written;
+  return database.run("COMMIT");
+}
+
+Status create_cache_file(const fs::path& path, const TileSetInfo& info, const std::string& source_key) {
+  const auto cannot = [&](const std::string& why) {
+    return Error{
+        fmt::format("{}: the cache cannot be made: {}; name a file in a folder that can be written, with space",
+                    path.string(), why)};
+  };
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  static std::atomic<unsigned> calls{0};
+  const fs::path part = folder / fmt::format(".{}.{}-{}.part", path.filename().string(), getpid(), calls++);
+  const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return cannot(std::strerror(errno));
+  close(file);
+  const WriteStatus written = write_file(part, info, source_key);
+  const int named = written ? give_name(part, path) : 0;
+  fs::remove(part, ignored);
+  if (!written) return cannot(written.error().message);
+  if (named != 0) return cannot(std::strerror(named));
+  return Done{};
+}
+
+WriteResult<FileKind> kind_of(SqliteWriter& database) {
+  const WriteResult<bool> cache = has(database, "lower(name) = 'terrella_cache'");
+  if (!cache) return cache.error();
+  if (!*cache) {
+    const WriteResult<bool> tile_set = has(database, "lower(name) IN ('gpkg_contents', 'metadata')");
+    if (!tile_set) return tile_set.error();
+    return *tile_set ? FileKind::tile_set : FileKind::other;
+  }
+  const WriteResult<bool> ours = tables_are_ours(database);
+  if (!ours) return ours.error();
+  if (!*ours) {
+    // A later version may have other tables; its own word for that is believed, since nothing is written then.
+    const auto version = database.text("SELECT value FROM terrella_cache WHERE key = 'version'");
+    const bool newer = version && version->size() < 9 && std::atoi(version->c_str()) > kCacheVersion;
+    return newer ? FileKind::newer : FileKind::tampered;
+  }
+  const auto version = database.text("SELECT value FROM terrella_cache WHERE key = 'version'");
+  if (!version) return version.error();
+  if (*version == std::to_string(kCacheVersion)) return FileKind::cache;
+  return std::atoi(version->c_str()) > kCacheVersion ? FileKind::newer : FileKind::tampered;
+}
+
+}  // namespace terrella

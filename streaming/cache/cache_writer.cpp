@@ -1,0 +1,152 @@
+#include "streaming/cache/cache_writer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <utility>
+
+#include "streaming/cache/open_cache.h"
+#include "streaming/directory_source.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kPatience{60'000};
+constexpr int kEvictedAtATime = 32;
+/// Moving a page to the front of the file is a write of it: a step is small against a batch.
+constexpr std::int64_t kPagesGivenBackAtATime = 128;
+
+std::uint64_t log_bytes(const fs::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path.string() + "-wal", error);
+  return error ? 0 : size;
+}
+
+WriteResult<std::int64_t> first_number(SqliteStatement& statement) {
+  const WriteResult<bool> row = statement.step();
+  const std::int64_t value = row && *row ? statement.integer(0) : 0;
+  statement.reset();
+  if (!row) return row.error();
+  return value;
+}
+
+}  // namespace
+
+WriteResult<std::unique_ptr<CacheWriter>> CacheWriter::make(SqliteWriter database, fs::path path, int root_level,
+                                                            std::uint64_t max_bytes) {
+  std::unique_ptr<CacheWriter> writer(new CacheWriter(std::move(database), std::move(path)));
+  SqliteWriter& file = writer->database_;
+  const WriteResult<std::int64_t> page_bytes = file.integer("PRAGMA page_size");
+  if (!page_bytes) return page_bytes.error();
+  writer->page_bytes_ = *page_bytes;
+  writer->budget_ = cache_budget(max_bytes, *page_bytes);
+  if (auto limited = file.integer(fmt::format("PRAGMA journal_size_limit = {}", writer->budget_.log_bytes)); !limited) {
+    return limited.error();
+  }
+  WriteResult<CacheRows> rows = CacheRows::prepare(file, root_level);
+  if (!rows) return rows.error();
+  writer->rows_ = *std::move(rows);
+  const std::pair<std::optional<SqliteStatement>*, const char*> all[] = {
+      {&writer->begin_, "BEGIN IMMEDIATE"},
+      {&writer->commit_, "COMMIT"},
+      {&writer->rollback_, "ROLLBACK"},
+      {&writer->page_count_, "PRAGMA page_count"},
+      {&writer->free_count_, "PRAGMA freelist_count"}};
+  for (const auto& [slot, sql] : all) {
+    WriteResult<SqliteStatement> statement = file.prepare(sql);
+    if (!statement) return statement.error();
+    *slot = *std::move(statement);
+  }
+  return writer;
+}
+
+Status CacheWriter::write(const CacheBatch& batch) {
+  database_.wait_for_locks(kPatience);
+  evicted_now_ = 0;
+  WriteStatus done = begin_->run();
+  if (done) {
+    done = write_rows(batch, std::time(nullptr));
+    if (done) done = commit_->run();
+    // SQLite has rolled back by itself after some errors; saying it again does no harm.
+    if (!done) static_cast<void>(rollback_->run());
+  }
+  if (!done) return cache_error(path_, done.error());
+  for (const CacheChange& change : batch.changes) stored_ += change.record ? 1 : 0;
+  evicted_ += evicted_now_;
+  keep_log_short();
+  return Done{};
+}
+
+WriteStatus CacheWriter::write_rows(const CacheBatch& batch, std::int64_t now_unix_s) {
+  for (const auto& [row, used] : batch.uses) {
+    if (WriteStatus noted = rows_->note_use(row, used); !noted) return noted;
+  }
+  std::uint64_t bytes = 0;
+  for (const CacheChange& change : batch.changes) bytes += change.record ? change.record->bytes.size() : 0;
+  if (WriteStatus room = make_room(pages_for(bytes, batch.changes.size(), page_bytes_)); !room) return room;
+  for (const CacheChange& change : batch.changes) {
+    const Renewal& renewal = change.renewal;
+    WriteStatus done = change.record ? rows_->put(change.id, *change.record, now_unix_s)
+                                     : rows_->renew(change.id, renewal.stored_unix_s, renewal.expires_unix_s);
+    if (!done) return done;
+  }
+  return give_back_pages();
+}
+
+WriteStatus CacheWriter::make_room(std::int64_t needed_pages) {
+  if (budget_.file_pages == 0) return Done{};
+  while (true) {
+    const WriteResult<std::int64_t> pages = first_number(*page_count_);
+    if (!pages) return pages.error();
+    const WriteResult<std::int64_t> free_pages = first_number(*free_count_);
+    if (!free_pages) return free_pages.error();
+    if (pages_over(budget_, *pages, *free_pages, needed_pages) == 0) return Done{};
+    const WriteResult<std::int64_t> evicted = rows_->evict(kEvictedAtATime);
+    if (!evicted) return evicted.error();
+    if (*evicted == 0) return Done{};
+    evicted_now_ += static_cast<std::uint64_t>(*evicted);
+  }
+}
+
+/// In steps, one for each batch: the file is over its limit only after the limit was lowered.
+WriteStatus CacheWriter::give_back_pages() {
+  if (budget_.file_pages == 0) return Done{};
+  const WriteResult<std::int64_t> pages = first_number(*page_count_);
+  if (!pages) return pages.error();
+  if (*pages <= budget_.file_pages) return Done{};
+  const std::int64_t step = std::min(*pages - budget_.file_pages, kPagesGivenBackAtATime);
+  return database_.run(fmt::format("PRAGMA incremental_vacuum({})", step));
+}
+
+/// A passive checkpoint waits for nobody. It leaves the log as long as it is while somebody reads from it; when that
+/// has gone on for too long, readers are waited for, and they are short.
+void CacheWriter::keep_log_short() {
+  const std::uint64_t log = log_bytes(path_);
+  if (log < budget_.log_bytes) return;
+  checkpoint("PASSIVE", std::chrono::milliseconds(0));
+  if (log >= budget_.log_bytes + budget_.log_bytes / 2) checkpoint("RESTART", std::chrono::milliseconds(500));
+}
+
+void CacheWriter::checkpoint(const char* mode, std::chrono::milliseconds patience) {
+  database_.wait_for_locks(patience);
+  // It may fail (another process does it, the disk is full): then the next one does it, nothing is lost.
+  static_cast<void>(database_.run(fmt::format("PRAGMA wal_checkpoint({})", mode)));
+  database_.wait_for_locks(kPatience);
+}
+
+void CacheWriter::tidy() {
+  if (log_bytes(path_) > 0) checkpoint("TRUNCATE", std::chrono::milliseconds(100));
+}
+
+void CacheWriter::close() {
+  rows_.reset();
+  for (auto* statement : {&begin_, &commit_, &rollback_, &page_count_, &free_count_}) statement->reset();
+  checkpoint("TRUNCATE", std::chrono::milliseconds(1000));
+  database_.wait_for_locks(std::chrono::milliseconds(0));
+  static_cast<void>(database_.run("PRAGMA journal_mode = DELETE"));
+}
+
+}  // namespace terrella

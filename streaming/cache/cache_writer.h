@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+
+#include "streaming/cache/cache_limit.h"
+#include "streaming/cache/cache_rows.h"
+#include "streaming/cache/sqlite_writer.h"
+#include "streaming/cache/write_queue.h"
+
+namespace terrella {
+
+/// Writes batches into a cache, keeps its size and its log within limits. thread: one at a time; the counts any
+class CacheWriter {
+ public:
+  [[nodiscard]] static WriteResult<std::unique_ptr<CacheWriter>> make(SqliteWriter database, std::filesystem::path path,
+                                                                      int root_level, std::uint64_t max_bytes);
+
+  /// One transaction; on failure nothing of the batch is written.
+  [[nodiscard]] Status write(const CacheBatch& batch);
+  /// After some idle time: gives space back and empties the log.
+  void tidy();
+  /// Leaves one plain file behind if nobody else has it open: no log, readable where nothing can be written.
+  void close();
+
+  [[nodiscard]] const CacheBudget& budget() const { return budget_; }
+  [[nodiscard]] std::uint64_t stored() const { return stored_; }
+  [[nodiscard]] std::uint64_t evicted() const { return evicted_; }
+
+ private:
+  CacheWriter(SqliteWriter database, std::filesystem::path path)
+      : database_(std::move(database)), path_(std::move(path)) {}
+  [[nodiscard]] WriteStatus write_rows(const CacheBatch& batch, std::int64_t now_unix_s);
+  [[nodiscard]] WriteStatus make_room(std::int64_t needed_pages);
+  [[nodiscard]] WriteStatus give_back_pages();
+  void keep_log_short();
+  void checkpoint(const char* mode, std::chrono::milliseconds patience);
+
+  SqliteWriter database_;
+  const std::filesystem::path path_;
+  CacheBudget budget_;
+  std::int64_t page_bytes_ = 0;
+  std::optional<CacheRows> rows_;
+  std::optional<SqliteStatement> begin_, commit_, rollback_, page_count_, free_count_;
+  std::atomic<std::uint64_t> stored_ = 0;
+  std::atomic<std::uint64_t> evicted_ = 0;
+  std::uint64_t evicted_now_ = 0;  ///< in the transaction that is open
+};
+
+}  // namespace terrella

@@ -1,0 +1,180 @@
+#include "streaming/cache/open_cache.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <optional>
+
+#include "streaming/cache/cache_schema.h"
+#include "streaming/geopackage_source.h"
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxSetAside = 10'000;
+/// Two processes may find the same damage, or one another's new file; each round ends with a file that is there.
+constexpr int kMaxRounds = 8;
+
+/// What a look at the file ends in: a database, a refusal, or damage.
+struct Look {
+  std::optional<SqliteWriter> database;
+  std::optional<Error> refused;
+  std::string damage;
+};
+
+Look damaged(std::string what) {
+  Look look;
+  look.damage = std::move(what);
+  return look;
+}
+Look refused(Error error) {
+  Look look;
+  look.refused = std::move(error);
+  return look;
+}
+Look failed(const fs::path& path, const WriteError& error) {
+  return error.problem == WriteProblem::damaged ? damaged(error.message) : refused(cache_error(path, error));
+}
+
+/// The file's number on its file system: what was looked at is what is renamed.
+std::optional<ino_t> number_of(const fs::path& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return status.st_ino;
+}
+
+/// Empty: sound. Bounded by the size of what is read: SQLite 3.40 cannot be told to stop a check.
+WriteResult<std::string> find_damage(SqliteWriter& database, const fs::path& path) {
+  std::error_code error;
+  const bool small = fs::file_size(path, error) <= kMaxQuickCheckBytes;
+  const char* side = "PRAGMA quick_check('terrella_cache')";
+  WriteResult<std::string> said = database.text(small ? "PRAGMA quick_check(1)" : side);
+  if (said && *said == "ok") return std::string();
+  return said;
+}
+
+std::optional<Error> kind_refusal(FileKind kind, const fs::path& path) {
+  const std::string name = path.string();
+  switch (kind) {
+    case FileKind::tile_set:
+      return Error{name + ": is a tile set, not a cache; name another file as the cache"};
+    case FileKind::other:
+      return Error{name + ": is an SQLite database of another program, not a cache; name another file as the cache"};
+    case FileKind::newer:
+      return Error{name + ": is a cache of a later version of terrella; name another file, or use that version"};
+    case FileKind::cache:
+    case FileKind::tampered:
+      break;
+  }
+  return std::nullopt;
+}
+
+/// Another source's tiles are worth keeping: they are refused, not set aside.
+Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo& info, const std::string& key) {
+  const auto source = database.text("SELECT value FROM terrella_cache WHERE key = 'source'");
+  if (!source) return failed(path, source.error());
+  const auto text = database.text(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
+  if (!text) return failed(path, text.error());
+  const Result<TileSetInfo> held = parse_tileset_json(*text, path.string());
+  if (!held) return damaged(held.error().message);
+  if (*source != key) {
+    return refused(
+        {fmt::format("{}: holds tiles of {}, not of {}; name another file as the cache", path.string(), *source, key)});
+  }
+  if (!same_tiles(*held, info)) {
+    return refused(
+        {fmt::format("{}: holds tiles of {} in another grid, extent or format than it has now; name another "
+                     "file as the cache, or delete this one",
+                     path.string(), *source)});
+  }
+  Look look;
+  look.database = std::move(database);
+  return look;
+}
+
+/// Nothing is written to the file before it is known to be ours and sound.
+Look look_at(const fs::path& path, const TileSetInfo& info, const std::string& source_key) {
+  if (!is_sqlite_file(path)) return damaged("not an SQLite database");
+  WriteResult<SqliteWriter> database = SqliteWriter::open(path, SqliteWriter::Mode::existing);
+  if (!database) return failed(path, database.error());
+  database->leave_log_on_close(true);
+  const WriteResult<FileKind> kind = kind_of(*database);
+  if (!kind) return failed(path, kind.error());
+  if (std::optional<Error> refusal = kind_refusal(*kind, path)) return refused(*refusal);
+  if (*kind == FileKind::tampered) return damaged("its tables are not those of a cache");
+  const WriteResult<std::string> damage = find_damage(*database, path);
+  if (!damage) return failed(path, damage.error());
+  if (!damage->empty()) return damaged(*damage);
+  return check_source(*std::move(database), path, info, source_key);
+}
+
+/// Renames the file and what belongs to it. Empty: it was no longer there, or no longer the one that was looked at.
+Result<fs::path> set_aside(const fs::path& path, std::optional<ino_t> looked_at) {
+  for (int n = 1; n <= kMaxSetAside; ++n) {
+    const fs::path aside = path.string() + fmt::format(".damaged-{}", n);
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(aside, error))) continue;
+    if (number_of(path) != looked_at) return fs::path();
+    fs::rename(path, aside, error);
+    if (error) {
+      return Error{
+          fmt::format("{}: is damaged and cannot be renamed: {}; move it away", path.string(), error.message())};
+    }
+    for (const char* ending : {"-wal", "-shm", "-journal"}) {
+      fs::rename(path.string() + ending, aside.string() + ending, error);
+    }
+    return aside;
+  }
+  return Error{path.string() + ": is damaged, and so were many before it; delete what you do not need of them"};
+}
+
+}  // namespace
+
+bool same_tiles(const TileSetInfo& a, const TileSetInfo& b) {
+  const auto essence = [](TileSetInfo info) {
+    info.name.clear();
+    info.attribution.clear();
+    info.body.clear();
+    return to_tileset_json(info);
+  };
+  return essence(a) == essence(b);
+}
+
+Error cache_error(const fs::path& path, const WriteError& error) {
+  const char* advice = "";
+  if (error.problem == WriteProblem::full) advice = "; make space, later tiles are tried again";
+  if (error.problem == WriteProblem::busy) advice = "; close what holds it, later tiles are tried again";
+  if (error.problem == WriteProblem::damaged) advice = "; start again, it is set aside then";
+  return Error{fmt::format("{}: the cache cannot be written: {}{}", path.string(), error.message, advice)};
+}
+
+Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo& info, const std::string& source_key) {
+  fs::path aside;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return Error{path.string() + ": is a folder; name a file as the cache"};
+    if (!fs::exists(path, error)) {
+      if (Status made = create_cache_file(path, info, source_key); !made) return made.error();
+    }
+    const std::optional<ino_t> number = number_of(path);
+    Look look = look_at(path, info, source_key);
+    if (look.refused) return *look.refused;
+    if (!look.database) {
+      Result<fs::path> renamed = set_aside(path, number);
+      if (!renamed) return renamed.error();
+      if (!renamed->empty()) aside = *renamed;
+      continue;
+    }
+    if (WriteStatus logged = look.database->run("PRAGMA journal_mode = WAL"); !logged) {
+      return cache_error(path, logged.error());
+    }
+    look.database->leave_log_on_close(false);
+    return OpenedCache{*std::move(look.database), aside};
+  }
+  return Error{path.string() + ": is damaged again and again by another program; name another file as the cache"};
+}
+
+}  // namespace terrella

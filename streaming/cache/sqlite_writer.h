@@ -1,0 +1,97 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "geo/result.h"
+#include "streaming/gpkg_schema.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace terrella {
+
+enum class WriteProblem {
+  busy,     ///< another process held the file for longer than one waits
+  full,     ///< no space, or a limit on the file's size
+  damaged,  ///< not a database, or pages that contradict each other
+  other,
+};
+struct WriteError {
+  WriteProblem problem = WriteProblem::other;
+  std::string message;  ///< by the system's reason if there is one, else SQLite's words; without the path
+};
+template <class T>
+using WriteResult = Result<T, WriteError>;
+using WriteStatus = WriteResult<Done>;
+
+/// A prepared statement. What is bound as a view must live until reset(). thread: the connection's
+class SqliteStatement {
+ public:
+  void bind(int index, std::int64_t value);
+  void bind(int index, const std::optional<std::int64_t>& value);  ///< none: NULL
+  void bind(int index, std::string_view value);
+  void bind(int index, std::span<const std::byte> value);
+  /// True: there is a row. False: done.
+  [[nodiscard]] WriteResult<bool> step();
+  /// Runs it to its end and resets it.
+  [[nodiscard]] WriteStatus run();
+  void reset();
+
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] bool is_null(int column) const;
+  [[nodiscard]] std::string text(int column) const;
+
+ private:
+  friend class SqliteWriter;
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  explicit SqliteStatement(sqlite3_stmt* statement) : statement_(statement) {}
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// How long to wait for a lock, and since when.
+struct LockPatience {
+  std::chrono::milliseconds limit{0};
+  std::chrono::steady_clock::time_point until{};
+};
+
+/// A connection that writes. The file's schema is distrusted: no triggers, no views, no functions with side effects.
+/// Statements must not outlive it. thread: one at a time
+class SqliteWriter {
+ public:
+  enum class Mode { existing, create };
+  [[nodiscard]] static WriteResult<SqliteWriter> open(const std::filesystem::path& path, Mode mode);
+
+  [[nodiscard]] WriteResult<SqliteStatement> prepare(std::string_view sql);
+  [[nodiscard]] WriteStatus run(std::string_view sql);
+  [[nodiscard]] WriteStatus run(const SqlStatement& said);
+  /// The first column of the first row.
+  [[nodiscard]] WriteResult<std::int64_t> integer(std::string_view sql);
+  [[nodiscard]] WriteResult<std::string> text(std::string_view sql);
+
+  [[nodiscard]] bool changed_a_row() const;  ///< the last INSERT, UPDATE or DELETE did
+  [[nodiscard]] std::int64_t last_row_id() const;
+
+  /// How long a lock that another process holds is waited for; at first 60 s.
+  void wait_for_locks(std::chrono::milliseconds limit);
+  /// Whether the write-ahead log stays as it is when the last connection closes.
+  void leave_log_on_close(bool leave);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<LockPatience> patience_;  ///< on the heap: SQLite keeps its address
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,169 @@
+#include "streaming/cache/tile_cache.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <thread>
+#include <utility>
+
+#include "streaming/cache/cache_reader.h"
+#include "streaming/cache/cache_writer.h"
+#include "streaming/cache/open_cache.h"
+#include "streaming/cache/write_queue.h"
+#include "streaming/directory_source.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A use is written down again only when the last one that is known is this old.
+constexpr std::int64_t kUseGrain_s = 30;
+/// After this long without work the log is emptied into the file.
+constexpr std::chrono::seconds kIdle{2};
+
+void apply(const Renewal& renewal, CacheRecord& record) {
+  record.stored_unix_s = renewal.stored_unix_s;
+  record.expires_unix_s = renewal.expires_unix_s;
+}
+
+CacheRecord without_bytes(const CacheRecord& record) {
+  return {.absence = record.absence,
+          .bytes = {},
+          .why = record.why,
+          .etag = record.etag,
+          .last_modified = record.last_modified,
+          .stored_unix_s = record.stored_unix_s,
+          .expires_unix_s = record.expires_unix_s};
+}
+
+WriteQueue::Limits limits_of(const CacheOptions& options, const CacheBudget& budget) {
+  return {.batch_tiles = std::max<std::size_t>(1, options.batch_tiles),
+          .batch_bytes = budget.batch_bytes,
+          .queued_bytes = options.max_queued_bytes};
+}
+
+class SqliteTileCache : public TileCache {
+ public:
+  SqliteTileCache(fs::path path, TileSetInfo info, const CacheOptions& options, fs::path aside,
+                  std::unique_ptr<CacheWriter> writer)
+      : path_(std::move(path)),
+        info_(std::move(info)),
+        set_aside_(std::move(aside)),
+        writer_(std::move(writer)),
+        queue_(limits_of(options, writer_->budget())),
+        readers_(path_),
+        thread_([this] { write_until_closed(); }) {}
+
+  ~SqliteTileCache() override {
+    queue_.close();
+    thread_.join();
+    readers_.close();
+    writer_->close();
+  }
+  SqliteTileCache(const SqliteTileCache&) = delete;
+  SqliteTileCache& operator=(const SqliteTileCache&) = delete;
+
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] fs::path set_aside() const override { return set_aside_; }
+
+  [[nodiscard]] Result<std::optional<CacheRecord>> find(const TileId& id) override { return look_up(id, true); }
+  [[nodiscard]] Result<std::optional<CacheRecord>> peek(const TileId& id) override { return look_up(id, false); }
+
+  void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable) override {
+    queue_.push({.id = id,
+                 .record = std::make_shared<const CacheRecord>(std::move(record)),
+                 .renewal = {},
+                 .on_durable = std::move(on_durable)});
+  }
+
+  void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,
+             std::function<void(const Status&)> on_durable) override {
+    queue_.push(
+        {.id = id, .record = nullptr, .renewal = {stored_unix_s, expires_unix_s}, .on_durable = std::move(on_durable)});
+  }
+
+  [[nodiscard]] Status flush() override { return queue_.flush(); }
+
+  [[nodiscard]] CacheCounts counts() const override {
+    CacheCounts counts{.file_bytes = 0, .stored = writer_->stored(), .evicted = writer_->evicted()};
+    for (const char* ending : {"", "-wal"}) {
+      std::error_code error;
+      const std::uintmax_t size = fs::file_size(path_.string() + ending, error);
+      if (!error) counts.file_bytes += size;
+    }
+    return counts;
+  }
+
+ private:
+  [[nodiscard]] Result<std::optional<CacheRecord>> look_up(const TileId& id, bool whole) {
+    // Before the file: what leaves the queue meanwhile is in the file by then.
+    const std::optional<PendingRecord> pending = queue_.pending(id);
+    const bool failed = pending && pending->record && pending->record->absence == Absence::failed;
+    if (pending && pending->record && !failed) {
+      CacheRecord record = whole ? *pending->record : without_bytes(*pending->record);
+      if (pending->renewal) apply(*pending->renewal, record);
+      return std::optional(std::move(record));
+    }
+    Result<std::optional<FoundRecord>> found = readers_.find(id, whole);
+    if (!found) return found.error();
+    // A failure that waits to be written does not take the place of a tile.
+    if (failed && (!*found || (*found)->record.absence)) return std::optional(*pending->record);
+    if (!*found) return std::optional<CacheRecord>();
+    if (whole) note_use(**found);
+    if (pending && pending->renewal) apply(*pending->renewal, (*found)->record);
+    return std::optional(std::move((*found)->record));
+  }
+
+  void note_use(const FoundRecord& found) {
+    if (!found.row || !found.used) return;
+    const std::int64_t now = std::time(nullptr);
+    if (*found.used + kUseGrain_s <= now) queue_.note_use(*found.row, now);
+  }
+
+  void write_until_closed() {
+    bool tidied = true;
+    for (bool last = false; !last;) {
+      CacheBatch batch = queue_.take(std::chrono::steady_clock::now() + (tidied ? std::chrono::hours(1) : kIdle));
+      last = batch.last;
+      if (!batch.changes.empty() || !batch.uses.empty()) {
+        write(batch);
+        tidied = false;
+      } else if (!last) {
+        writer_->tidy();
+        tidied = true;
+      }
+    }
+  }
+
+  void write(CacheBatch& batch) {
+    const Status status = writer_->write(batch);
+    for (const CacheChange& change : batch.changes) {
+      if (change.on_durable) change.on_durable(status);
+    }
+    queue_.finish(batch, status);
+  }
+
+  const fs::path path_;
+  const TileSetInfo info_;
+  const fs::path set_aside_;
+  const std::unique_ptr<CacheWriter> writer_;
+  WriteQueue queue_;
+  CacheReaders readers_;
+  std::thread thread_;  ///< last: it uses all the others
+};
+
+}  // namespace
+
+Result<std::shared_ptr<TileCache>> TileCache::open(const fs::path& path, const TileSetInfo& info,
+                                                   const std::string& source_key, const CacheOptions& options) {
+  Result<OpenedCache> opened = open_cache_database(path, info, source_key);
+  if (!opened) return opened.error();
+  auto writer = CacheWriter::make(std::move(opened->database), path, info.grid.min_level, options.max_bytes);
+  if (!writer) return cache_error(path, writer.error());
+  return std::shared_ptr<TileCache>(
+      std::make_shared<SqliteTileCache>(path, info, options, opened->set_aside, *std::move(writer)));
+}
+
+}  // namespace terrella

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "streaming/cache/tile_cache.h"
+
+namespace terrella {
+
+struct Renewal {
+  std::int64_t stored_unix_s = 0;
+  std::optional<std::int64_t> expires_unix_s;
+};
+
+/// A change that waits for the writer: a record, or the renewal of one.
+struct CacheChange {
+  TileId id;
+  std::shared_ptr<const CacheRecord> record;  ///< none: a renewal
+  Renewal renewal;
+  std::function<void(const Status&)> on_durable;
+};
+
+/// What the file does not know yet of one place.
+struct PendingRecord {
+  std::shared_ptr<const CacheRecord> record;  ///< none: as in the file
+  std::optional<Renewal> renewal;             ///< of the record, or of what is in the file
+  std::uint64_t last_change = 0;
+};
+
+struct CacheBatch {
+  std::vector<CacheChange> changes;
+  std::vector<std::pair<std::int64_t, std::int64_t>> uses;  ///< row of the tile, last use
+  std::uint64_t last_change = 0;
+  bool last = false;  ///< the queue is closed and this is all that was left
+};
+
+/// Changes on their way to the writer, in order, and what they mean to readers until they are written.
+class WriteQueue {
+ public:
+  struct Limits {
+    std::size_t batch_tiles = 256;
+    std::size_t batch_bytes = 8UL << 20;
+    std::size_t queued_bytes = 64UL << 20;
+  };
+  explicit WriteQueue(const Limits& limits) : limits_(limits) {}
+
+  /// Waits while too many bytes are queued, unless the caller is the writer. thread: any
+  void push(CacheChange change);
+  /// thread: any
+  void note_use(std::int64_t row, std::int64_t used_unix_s);
+  [[nodiscard]] std::optional<PendingRecord> pending(const TileId& id) const;  ///< thread: any
+
+  /// Waits for changes, then a moment for more of them; also returns, perhaps empty, at `until`. thread: the writer
+  [[nodiscard]] CacheBatch take(std::chrono::steady_clock::time_point until);
+  /// The batch's changes are in the file, or will never be. thread: the writer
+  void finish(const CacheBatch& batch, const Status& status);
+
+  /// Waits for all that was pushed before; the first error since the last call. thread: any but the writer
+  [[nodiscard]] Status flush();
+  void close();  ///< take() does not wait any more. thread: any
+
+ private:
+  void merge_pending(const CacheChange& change);
+  [[nodiscard]] bool hurried() const;
+  [[nodiscard]] CacheBatch take_locked();
+
+  const Limits limits_;
+  mutable std::mutex mutex_;
+  std::condition_variable work_, space_, done_;
+  std::deque<CacheChange> changes_;  ///< guarded by mutex_, as all that follows
+  std::unordered_map<TileId, PendingRecord, TileIdHash> pending_;
+  std::unordered_map<std::int64_t, std::int64_t> uses_;
+  std::chrono::steady_clock::time_point first_use_noted_{};
+  std::size_t queued_bytes_ = 0;   ///< in changes_ and in the batch that is being written
+  std::uint64_t pushed_ = 0;       ///< number of the last change
+  std::uint64_t finished_ = 0;     ///< number of the last change that is done with
+  std::uint64_t flush_up_to_ = 0;  ///< somebody waits for this change
+  std::optional<Error> first_error_;
+  std::thread::id writer_;
+  bool closed_ = false;
+};
+
+}  // namespace terrella
