@@ -1,0 +1,139 @@
+#include "streaming/http/http_fetcher.h"
+
+#include <cassert>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "streaming/http/network.h"
+
+namespace terrella {
+namespace {
+
+struct Rank {
+  std::uint64_t id = 0;
+  double priority = 0.0;
+};
+struct Cancel {
+  std::uint64_t id = 0;
+};
+using Command = std::variant<HttpRequest, Rank, Cancel>;
+
+// Ranks are read when a request is sent, so that a change need not wake the thread; but they must not pile up.
+constexpr std::size_t kMaxUnread = 1024;
+
+void begin_curl() {
+  static const CURLcode begun = curl_global_init(CURL_GLOBAL_DEFAULT);
+  assert(begun == CURLE_OK);
+  static_cast<void>(begun);
+}
+
+void check(const HttpOptions& options) {
+  using std::chrono::milliseconds;
+  assert(options.connections_per_host >= 1 && options.connections_per_host <= 64);
+  assert(options.in_flight_per_host >= 1 && options.in_flight_per_host <= 1024);
+  assert(options.rate_per_host >= 0.0 && options.burst >= 1.0);
+  assert(options.attempts >= 1 && options.attempts <= 20 && options.max_redirects >= 0);
+  assert(options.first_backoff >= milliseconds(0) && options.longest_backoff >= milliseconds(0));
+  static_cast<void>(options);
+}
+
+}  // namespace
+
+struct HttpFetcher::Impl {
+  Impl(const HttpOptions& options, std::function<void(HttpReply&&)> on_reply)
+      : network((begin_curl(), options), std::move(on_reply), tally), thread([this] { run(); }) {}
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    network.wake();
+    thread.join();
+  }
+
+  // thread: any -----------------------------------------------------------------------------------------------------
+  void push(Command&& command, bool urgent);
+
+  // thread: network -------------------------------------------------------------------------------------------------
+  void run();
+  [[nodiscard]] bool take_commands();
+  void apply(Command&& command);
+
+  HttpTally tally;
+  Network network;
+  std::mutex mutex;  ///< guards the three below
+  std::vector<Command> inbox;
+  bool woken = false;
+  bool stopping = false;
+  std::vector<Command> taken;  ///< thread: network
+  std::thread thread;
+};
+
+void HttpFetcher::Impl::push(Command&& command, bool urgent) {
+  bool wake = false;
+  {
+    const std::lock_guard lock(mutex);
+    inbox.push_back(std::move(command));
+    wake = !woken && (urgent || inbox.size() >= kMaxUnread);
+    if (wake) woken = true;
+  }
+  if (wake) network.wake();
+}
+
+bool HttpFetcher::Impl::take_commands() {
+  {
+    const std::lock_guard lock(mutex);
+    if (stopping) return false;
+    taken.swap(inbox);
+    woken = false;
+  }
+  for (Command& command : taken) apply(std::move(command));
+  taken.clear();
+  return true;
+}
+
+void HttpFetcher::Impl::apply(Command&& command) {
+  if (auto* request = std::get_if<HttpRequest>(&command)) {
+    network.submit(std::move(*request));
+  } else if (const auto* rank = std::get_if<Rank>(&command)) {
+    network.set_priority(rank->id, rank->priority);
+  } else if (const auto* cancelled = std::get_if<Cancel>(&command)) {
+    network.cancel(cancelled->id);
+  }
+}
+
+void HttpFetcher::Impl::run() {
+  while (take_commands()) {
+    if (!network.turn()) network.wait();
+  }
+}
+
+HttpFetcher::HttpFetcher(const HttpOptions& options, std::function<void(HttpReply&&)> on_reply) {
+  check(options);
+  assert(on_reply != nullptr);
+  impl_ = std::make_unique<Impl>(options, std::move(on_reply));
+}
+
+HttpFetcher::~HttpFetcher() = default;
+
+void HttpFetcher::submit(HttpRequest request) {
+  ++impl_->tally.waiting;
+  impl_->push(std::move(request), true);
+}
+
+void HttpFetcher::set_priority(std::uint64_t id, double priority) { impl_->push(Rank{id, priority}, false); }
+
+void HttpFetcher::cancel(std::uint64_t id) { impl_->push(Cancel{id}, true); }
+
+HttpCounts HttpFetcher::counts() const {
+  const HttpTally& tally = impl_->tally;
+  return {.waiting = tally.waiting,
+          .in_flight = tally.in_flight,
+          .requests = tally.requests,
+          .retries = tally.retries,
+          .body_bytes = tally.body_bytes};
+}
+
+}  // namespace terrella

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <curl/curl.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "streaming/http/http_fetcher.h"
+#include "streaming/http/http_headers.h"
+#include "streaming/http/retry_policy.h"
+
+namespace terrella {
+
+/// One curl easy handle with what it receives. What is the same for all requests is set once; begin() sets the rest, so
+/// that a handle can be used again and again. thread: network
+class Transfer {
+ public:
+  /// What one attempt asks for.
+  struct Question {
+    const std::string* url = nullptr;
+    const std::vector<std::string>* headers = nullptr;  ///< checked already; null: none
+    std::string_view etag;
+    std::string_view last_modified;
+    bool wait_for_multiplexing = false;  ///< rather than to open a further connection
+  };
+
+  /// Throws std::bad_alloc if curl has no handle to give.
+  explicit Transfer(const HttpOptions& options);
+  Transfer(const Transfer&) = delete;
+  Transfer& operator=(const Transfer&) = delete;
+
+  void begin(const Question& question);
+  /// After curl has said that it is over.
+  [[nodiscard]] Answer answer(CURLcode code);
+  /// What is wrong with the server's certificate, for people; empty if that was not the trouble.
+  [[nodiscard]] std::string_view certificate_fault() const { return certificate_fault_; }
+  [[nodiscard]] const ReplyFields& fields() const { return fields_; }
+  [[nodiscard]] std::vector<std::byte> take_body() { return std::move(body_); }
+  [[nodiscard]] std::string redirect_url() const;  ///< absolute; empty: none
+  [[nodiscard]] bool multiplexed() const;
+  [[nodiscard]] CURL* handle() const { return handle_.get(); }
+
+ private:
+  struct ListFree {
+    void operator()(curl_slist* list) const { curl_slist_free_all(list); }
+  };
+  struct HandleFree {
+    void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
+  };
+
+  void set_limits(const HttpOptions& options);
+  void add_header(const std::string& line);
+  [[nodiscard]] bool take(std::string_view bytes);
+  [[nodiscard]] bool take_of_content(std::string_view bytes);
+  [[nodiscard]] long status() const;
+  static std::size_t on_body(char* bytes, std::size_t size, std::size_t count, void* self);
+  static std::size_t on_header(char* bytes, std::size_t size, std::size_t count, void* self);
+
+  const std::size_t max_body_bytes_;
+  std::vector<char> details_ = std::vector<char>(CURL_ERROR_SIZE, '\0');
+  std::unique_ptr<CURL, HandleFree> handle_;
+  std::unique_ptr<curl_slist, ListFree> headers_;
+  ReplyFields fields_;
+  std::vector<std::byte> body_;
+  std::size_t error_body_bytes_ = 0;
+  std::string_view certificate_fault_;
+  bool conditional_ = false;
+  Cut cut_ = Cut::none;
+};
+
+}  // namespace terrella
