@@ -1,0 +1,56 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geo/coordinates.h"
+#include "geo/result.h"
+
+namespace terrella {
+
+inline constexpr std::size_t kMaxJsonTextBytes = 16384;
+
+/// Parses text that must hold one JSON object of at most `max_bytes`. The error begins with `where`. thread: any
+[[nodiscard]] Result<nlohmann::json> parse_json_object(std::string_view text, std::size_t max_bytes,
+                                                       const std::string& where);
+
+/// Reads the fields of one JSON object; the first one that is wrong is kept as the error, which names `where` and the
+/// field. A field that is null is one that is not there. Both arguments must outlive it. thread: one
+class JsonFields {
+ public:
+  JsonFields(const nlohmann::json& object, const std::string& where) : object_(object), where_(where) {}
+
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+  [[nodiscard]] bool has(const char* field) const;
+  std::string text(const char* field);  ///< empty if it is not there
+  /// `otherwise` stands for a field that is not there; none: it must be.
+  int integer(const char* field, std::optional<int> otherwise);
+  double number(const char* field);  ///< must be there
+  /// One of two words, as 0 or 1.
+  int choice(const char* field, const char* first, const char* second, std::optional<int> otherwise);
+  GeoRect bounds(const char* field);                       ///< degrees; the planet if it is not there
+  std::vector<std::string> texts(const char* field);       ///< empty if it is not there
+  void refuse_others(std::span<const char* const> known);  ///< any field that is not among these is wrong
+
+  template <class T>
+  T fail(const char* field, const std::string& what) {
+    if (!error_) error_ = Error{fmt::format("{}: the field \"{}\" {}", where_, field, what)};
+    return T{};
+  }
+
+ private:
+  const nlohmann::json* find(const char* field, bool required);
+
+  const nlohmann::json& object_;
+  const std::string& where_;
+  std::optional<Error> error_;
+};
+
+}  // namespace terrella

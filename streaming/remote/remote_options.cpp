@@ -1,0 +1,92 @@
+#include "streaming/remote/remote_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "geo/body.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::size_t kMaxHeaders = 64;
+constexpr std::size_t kMaxHeaderBytes = 8192;
+constexpr std::size_t kMaxSubdomains = 64;
+
+void prefer(std::string& said, const std::string& otherwise) {
+  if (said.empty()) said = otherwise;
+}
+
+template <class T>
+void prefer(std::optional<T>& said, const std::optional<T>& otherwise) {
+  if (!said) said = otherwise;
+}
+
+bool is_letter_or_digit(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// RFC 9110: a name is a token. A line break in a value would begin a header of its own.
+bool is_header(const std::string& header) {
+  const std::size_t colon = header.find(':');
+  if (colon == std::string::npos || colon == 0 || header.size() > kMaxHeaderBytes) return false;
+  const auto name_ends = header.begin() + static_cast<std::ptrdiff_t>(colon);
+  const bool token = std::all_of(header.begin(), name_ends, [](char c) {
+    return is_letter_or_digit(c) || std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+  });
+  return token && std::all_of(name_ends, header.end(),
+                              [](char c) { return (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\t'; });
+}
+
+bool is_subdomain(const std::string& name) {
+  return !name.empty() && name.size() <= 63 &&
+         std::ranges::all_of(name, [](char c) { return is_letter_or_digit(c) || c == '-' || c == '.'; });
+}
+
+}  // namespace
+
+RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
+  RemoteOptions merged = said;
+  prefer(merged.layer, otherwise.layer);
+  prefer(merged.matrix_set, otherwise.matrix_set);
+  prefer(merged.style, otherwise.style);
+  prefer(merged.time, otherwise.time);
+  prefer(merged.root_span_deg, otherwise.root_span_deg);
+  prefer(merged.tile_px, otherwise.tile_px);
+  prefer(merged.min_level, otherwise.min_level);
+  prefer(merged.max_level, otherwise.max_level);
+  prefer(merged.bounds, otherwise.bounds);
+  prefer(merged.projection, otherwise.projection);
+  prefer(merged.latitude, otherwise.latitude);
+  prefer(merged.format, otherwise.format);
+  prefer(merged.name, otherwise.name);
+  prefer(merged.attribution, otherwise.attribution);
+  prefer(merged.body, otherwise.body);
+  if (merged.subdomains.empty()) merged.subdomains = otherwise.subdomains;
+  merged.headers.insert(merged.headers.end(), otherwise.headers.begin(), otherwise.headers.end());
+  prefer(merged.tile_life, otherwise.tile_life);
+  prefer(merged.absence_life, otherwise.absence_life);
+  return merged;
+}
+
+Status check_options(const RemoteOptions& options, const std::string& where) {
+  if (options.headers.size() > kMaxHeaders) {
+    return Error{fmt::format("{}: {} headers, at most {} are sent", where, options.headers.size(), kMaxHeaders)};
+  }
+  for (std::size_t i = 0; i < options.headers.size(); ++i) {
+    if (is_header(options.headers[i])) continue;
+    return Error{fmt::format("{}: header {} is not of the form \"Name: value\" on one line", where, i + 1)};
+  }
+  if (options.subdomains.size() > kMaxSubdomains) {
+    return Error{
+        fmt::format("{}: {} sub-domains, at most {} are used", where, options.subdomains.size(), kMaxSubdomains)};
+  }
+  for (const std::string& name : options.subdomains) {
+    if (!is_subdomain(name)) return Error{fmt::format("{}: \"{}\" is not a sub-domain", where, name)};
+  }
+  if (options.body && !options.body->empty()) {
+    if (const auto body = parse_body(*options.body); !body) return Error{where + ": body: " + body.error().message};
+  }
+  return Done{};
+}
+
+}  // namespace terrella

@@ -1,0 +1,84 @@
+#include "streaming/remote/remote_tile_set.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "streaming/remote/web_address.h"
+
+namespace terrella {
+namespace {
+
+TileId shifted(const RemoteTileSet& set, const TileId& id) {
+  const auto level = static_cast<std::size_t>(id.level);
+  if (level >= set.shifts.size()) return id;
+  const TileShift& shift = set.shifts[level];
+  TileId moved{id.level, id.x + shift.columns, id.y + shift.rows};
+  if (shift.turn_columns > 0) moved.x = (moved.x % shift.turn_columns + shift.turn_columns) % shift.turn_columns;
+  return moved;
+}
+
+std::string level_name(const RemoteTileSet& set, int level) {
+  const auto index = static_cast<std::size_t>(level);
+  return index < set.level_names.size() ? percent_encode(set.level_names[index]) : std::to_string(level);
+}
+
+std::string value_of(std::string_view name, const RemoteTileSet& set, const TileId& id) {
+  if (name == "z") return level_name(set, id.level);
+  if (name == "-y") return std::to_string(rows(set.info.grid, id.level) - 1 - id.y);
+  if (name == "s") return set.subdomains.empty() ? "" : set.subdomains[TileIdHash{}(id) % set.subdomains.size()];
+  const TileId moved = shifted(set, id);
+  return std::to_string(name == "x" || name == "col" ? moved.x : moved.y);
+}
+
+bool is_secret(std::string_view parameter) {
+  const std::string name = lower_case(parameter);
+  constexpr std::string_view kParts[] = {"token", "signature", "secret", "passw", "credential"};
+  return name.ends_with("key") || name == "sig" || name == "auth" ||
+         std::ranges::any_of(kParts, [&](std::string_view part) { return name.find(part) != std::string::npos; });
+}
+
+/// The template without fragment, user and password, and without the values of secret parameters.
+std::string without_secrets(std::string_view url) {
+  url = url.substr(0, url.find('#'));
+  std::string kept = for_people(url);
+  std::size_t at = url.find('?');
+  while (at != std::string_view::npos) {
+    const std::size_t next = url.find_first_of("&;", at + 1);
+    const std::string_view parameter = url.substr(at, next == std::string_view::npos ? next : next - at);
+    const std::size_t value = parameter.find('=');
+    const std::string_view name = parameter.substr(1, value == std::string_view::npos ? value : value - 1);
+    kept += is_secret(name) ? parameter.substr(0, value) : parameter;
+    at = next;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string tile_url(const RemoteTileSet& set, const TileId& id) {
+  assert(id.level >= 0 && id.level <= kMaxTileLevel);
+  std::string url;
+  std::string_view rest = set.url;
+  for (std::size_t at = rest.find('{'); at != std::string_view::npos; at = rest.find('{')) {
+    const std::size_t end = std::min(rest.find('}', at), rest.size() - 1);
+    url += rest.substr(0, at);
+    url += value_of(rest.substr(at + 1, end - at - 1), set, id);
+    rest.remove_prefix(end + 1);
+  }
+  return url.append(rest);
+}
+
+std::string source_key(const RemoteTileSet& set) {
+  nlohmann::ordered_json key;
+  key["url"] = without_secrets(set.url);
+  key["subdomains"] = set.subdomains;
+  key["levels"] = set.level_names;
+  auto& shifts = key["shifts"] = nlohmann::ordered_json::array();
+  for (const TileShift& shift : set.shifts) shifts.push_back({shift.columns, shift.rows, shift.turn_columns});
+  return key.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace terrella

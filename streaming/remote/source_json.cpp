@@ -1,0 +1,111 @@
+#include "streaming/remote/source_json.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "geo/tile_grid.h"
+#include "streaming/json_fields.h"
+#include "streaming/tileset_check.h"
+
+namespace terrella {
+namespace {
+
+constexpr int kVersion = 1;
+constexpr int kMaxLife_s = 315'360'000;  // ten years: longer is a mistake of units
+
+constexpr std::array kKnown = {"version", "name",      "attribution", "body",           "url",        "subdomains",
+                               "headers", "wmts",      "layer",       "matrix_set",     "style",      "time",
+                               "tms",     "min_level", "max_level",   "root_span_deg",  "tile_px",    "bounds",
+                               "format",  "latitude",  "projection",  "absence_life_s", "tile_life_s"};
+
+std::optional<std::string> text_if(JsonFields& fields, const char* field) {
+  return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
+}
+
+std::optional<int> integer_if(JsonFields& fields, const char* field, int least, int most) {
+  if (!fields.has(field)) return std::nullopt;
+  const int value = fields.integer(field, std::nullopt);
+  if (value >= least && value <= most) return value;
+  return fields.fail<int>(field, fmt::format("must be in [{}, {}]", least, most));
+}
+
+std::optional<std::chrono::seconds> life_if(JsonFields& fields, const char* field) {
+  const auto seconds = integer_if(fields, field, 0, kMaxLife_s);
+  return seconds ? std::optional(std::chrono::seconds(*seconds)) : std::nullopt;
+}
+
+std::optional<double> root_span_if(JsonFields& fields) {
+  if (!fields.has("root_span_deg")) return std::nullopt;
+  const double span = fields.number("root_span_deg");
+  if (span >= kMinRootSpanDeg && span <= kMaxRootSpanDeg) return span;
+  return fields.fail<double>("root_span_deg", fmt::format("must be in [{}, {}]", kMinRootSpanDeg, kMaxRootSpanDeg));
+}
+
+void read_grid(JsonFields& fields, RemoteOptions& options) {
+  options.root_span_deg = root_span_if(fields);
+  options.tile_px = integer_if(fields, "tile_px", kMinTilePx, kMaxTilePx);
+  options.min_level = integer_if(fields, "min_level", 0, kMaxTileLevel);
+  options.max_level = integer_if(fields, "max_level", 0, kMaxTileLevel);
+  if (fields.has("bounds")) options.bounds = fields.bounds("bounds");
+  if (fields.has("format")) {
+    options.format = fields.choice("format", "jpg", "png", 0) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  }
+  if (fields.has("projection")) {
+    const bool equal_area = fields.choice("projection", "equirectangular", "equal-area", 0) == 1;
+    options.projection = equal_area ? Projection::equal_area : Projection::equirectangular;
+  }
+  if (fields.has("latitude")) {
+    const bool centric = fields.choice("latitude", "graphic", "centric", 0) == 1;
+    options.latitude = centric ? LatitudeKind::centric : LatitudeKind::graphic;
+  }
+}
+
+void read_kind(JsonFields& fields, SourceDescription& source) {
+  const int kinds = fields.has("url") + fields.has("wmts") + fields.has("tms");
+  if (kinds != 1) {
+    fields.fail<int>("url", kinds == 0 ? "is missing (or \"wmts\", or \"tms\")"
+                                       : "cannot stand beside \"wmts\" or \"tms\": a source is one of the three");
+    return;
+  }
+  using Kind = SourceDescription::Kind;
+  source.kind = fields.has("url") ? Kind::url_template : fields.has("wmts") ? Kind::wmts : Kind::tms;
+  for (const char* field : {"url", "wmts", "tms"}) {
+    if (fields.has(field)) source.address = fields.text(field);
+  }
+  for (const char* field : {"layer", "matrix_set", "style", "time"}) {
+    if (fields.has(field) && source.kind != Kind::wmts) fields.fail<int>(field, "is for a \"wmts\" alone");
+  }
+}
+
+}  // namespace
+
+Result<SourceDescription> parse_source_json(std::string_view text, const std::string& where) {
+  const Result<nlohmann::json> object = parse_json_object(text, kMaxSourceJsonBytes, where);
+  if (!object) return object.error();
+  JsonFields fields(*object, where);
+  SourceDescription source;
+  RemoteOptions& options = source.options;
+  fields.refuse_others(kKnown);
+  if (fields.integer("version", kVersion) != kVersion) fields.fail<int>("version", "must be 1");
+  read_kind(fields, source);
+  options.layer = fields.text("layer");
+  options.matrix_set = fields.text("matrix_set");
+  options.style = fields.text("style");
+  options.time = fields.text("time");
+  options.name = text_if(fields, "name");
+  options.attribution = text_if(fields, "attribution");
+  options.body = text_if(fields, "body");
+  options.subdomains = fields.texts("subdomains");
+  options.headers = fields.texts("headers");
+  options.tile_life = life_if(fields, "tile_life_s");
+  options.absence_life = life_if(fields, "absence_life_s");
+  read_grid(fields, options);
+  if (fields.error()) return *fields.error();
+  if (Status checked = check_options(options, where); !checked) return checked.error();
+  if (options.bounds) {
+    if (Status checked = check_grid(TileGrid{.bounds = *options.bounds}, where); !checked) return checked.error();
+  }
+  return source;
+}
+
+}  // namespace terrella

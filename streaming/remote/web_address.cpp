@@ -1,0 +1,101 @@
+#include "streaming/remote/web_address.h"
+
+#include <curl/curl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace terrella {
+namespace {
+
+struct CleanUp {
+  void operator()(CURLU* url) const { curl_url_cleanup(url); }
+  void operator()(char* text) const { curl_free(text); }
+};
+
+std::string part(CURLU* url, CURLUPart which) {
+  char* text = nullptr;
+  if (curl_url_get(url, which, &text, 0) != CURLUE_OK) return {};
+  const std::unique_ptr<char, CleanUp> owner(text);
+  return text;
+}
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool is_plain(char c) {
+  return (c >= '0' && c <= '9') || (lower(c) >= 'a' && lower(c) <= 'z') ||
+         std::string_view("-._~:,").find(c) != std::string_view::npos;
+}
+
+void append_encoded(std::string& text, char c) {
+  fmt::format_to(std::back_inserter(text), "%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+}
+
+}  // namespace
+
+std::optional<WebAddress> parse_address(const std::string& url) {
+  const std::unique_ptr<CURLU, CleanUp> parsed(curl_url());
+  if (!parsed || curl_url_set(parsed.get(), CURLUPART_URL, url.c_str(), CURLU_NON_SUPPORT_SCHEME) != CURLUE_OK) {
+    return std::nullopt;
+  }
+  WebAddress address{.scheme = lower_case(part(parsed.get(), CURLUPART_SCHEME)),
+                     .host = lower_case(part(parsed.get(), CURLUPART_HOST)),
+                     .path = part(parsed.get(), CURLUPART_PATH)};
+  if (address.host.ends_with('.')) address.host.pop_back();
+  return address;
+}
+
+bool has_scheme(std::string_view text) {
+  const std::size_t end = text.find("://");
+  return end != std::string_view::npos && end > 0 && end <= 16 &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end),
+                     [](char c) { return is_plain(c) || c == '+'; });
+}
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lowered(text);
+  std::ranges::transform(lowered, lowered.begin(), lower);
+  return lowered;
+}
+
+std::string percent_encode(std::string_view text) {
+  std::string encoded;
+  for (const char c : text) {
+    if (is_plain(c)) {
+      encoded += c;
+    } else {
+      append_encoded(encoded, c);
+    }
+  }
+  return encoded;
+}
+
+std::string encode_braces(std::string_view url) {
+  std::string encoded;
+  for (const char c : url) {
+    if (c == '{' || c == '}') {
+      append_encoded(encoded, c);
+    } else {
+      encoded += c;
+    }
+  }
+  return encoded;
+}
+
+std::string for_people(std::string_view url) {
+  std::string shown(url.substr(0, std::min(url.find('?'), url.find('#'))));
+  const std::size_t scheme = shown.find("://");
+  if (scheme == std::string::npos) return shown;
+  const std::size_t host = scheme + 3;
+  const std::size_t path = std::min(shown.find('/', host), shown.size());
+  const std::size_t user = shown.rfind('@', path);
+  if (user != std::string::npos && user >= host) shown.erase(host, user + 1 - host);
+  return shown;
+}
+
+}  // namespace terrella
