@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -73,4 +73,4 @@ bool HostGate::is_idle(Time now) const {
   return in_flight_ == 0 && now >= not_before_ && (limits_.rate_per_s <= 0.0 || tokens(now) >= limits_.burst);
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

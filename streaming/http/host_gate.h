@@ -3,7 +3,7 @@
 #include <chrono>
 #include <optional>
 
-namespace terrella {
+namespace terrella::http {
 
 struct HostLimits {
   int connections = 6;      ///< requests in flight while the host does not multiplex, ≥ 1
@@ -53,4 +53,4 @@ class HostGate {
   bool known_ = false;
 };
 
-}  // namespace terrella
+}  // namespace terrella::http

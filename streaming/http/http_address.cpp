@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using Url = std::unique_ptr<CURLU, decltype(&curl_url_cleanup)>;
@@ -55,4 +55,4 @@ Result<Address> parse_address(const std::string& url) {
 
 std::string shown(const Address& address) { return address.origin + address.path; }
 
-}  // namespace terrella
+}  // namespace terrella::http

@@ -5,7 +5,7 @@
 
 #include "geo/result.h"
 
-namespace terrella {
+namespace terrella::http {
 
 /// Where a request goes. thread: any
 struct Address {
@@ -22,4 +22,4 @@ struct Address {
 /// Address without query, user and password, for people.
 [[nodiscard]] std::string shown(const Address& address);
 
-}  // namespace terrella
+}  // namespace terrella::http

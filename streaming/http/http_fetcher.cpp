@@ -61,8 +61,8 @@ struct HttpFetcher::Impl {
   [[nodiscard]] bool take_commands();
   void apply(Command&& command);
 
-  HttpTally tally;
-  Network network;
+  http::HttpTally tally;
+  http::Network network;
   std::mutex mutex;  ///< guards the three below
   std::vector<Command> inbox;
   bool woken = false;
@@ -128,7 +128,7 @@ void HttpFetcher::set_priority(std::uint64_t id, double priority) { impl_->push(
 void HttpFetcher::cancel(std::uint64_t id) { impl_->push(Cancel{id}, true); }
 
 HttpCounts HttpFetcher::counts() const {
-  const HttpTally& tally = impl_->tally;
+  const http::HttpTally& tally = impl_->tally;
   return {.waiting = tally.waiting,
           .in_flight = tally.in_flight,
           .requests = tally.requests,

@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
@@ -177,4 +177,4 @@ Status check_request_header(std::string_view header) {
   return Done{};
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

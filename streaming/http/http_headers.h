@@ -9,7 +9,7 @@
 
 #include "geo/result.h"
 
-namespace terrella {
+namespace terrella::http {
 
 /// What of an answer's header fields matters here. Untrusted: values that are too long or hold control characters are
 /// left out. thread: any, one at a time
@@ -53,4 +53,4 @@ void read_field_line(std::string_view line, ReplyFields& fields);
 /// Whether the text holds no control character but tab: what else would end a line and begin another.
 [[nodiscard]] bool is_field_value(std::string_view text);
 
-}  // namespace terrella
+}  // namespace terrella::http

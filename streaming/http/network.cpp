@@ -5,7 +5,7 @@
 
 #include "streaming/file_bytes.h"
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using std::chrono::milliseconds;
@@ -257,4 +257,4 @@ void Network::wait() {
 
 void Network::wake() { curl_multi_wakeup(multi_.get()); }
 
-}  // namespace terrella
+}  // namespace terrella::http

@@ -9,7 +9,7 @@
 
 #include "streaming/http/request_queue.h"
 
-namespace terrella {
+namespace terrella::http {
 
 /// HttpCounts, to be read from any thread.
 struct HttpTally {
@@ -89,4 +89,4 @@ class Network {
   Time now_;  ///< of this turn
 };
 
-}  // namespace terrella
+}  // namespace terrella::http

@@ -5,7 +5,7 @@
 
 #include "streaming/http/network.h"
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using std::chrono::milliseconds;
@@ -168,4 +168,4 @@ void Network::hand_over(Job& job, HttpReply&& reply) {
   --count;
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 double rank(const Job& job) {
@@ -22,4 +22,4 @@ bool ByDue::operator()(const Job* a, const Job* b) const {
   return a->due != b->due ? a->due < b->due : a->sequence < b->sequence;
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

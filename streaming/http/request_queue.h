@@ -11,7 +11,7 @@
 #include "streaming/http/http_fetcher.h"
 #include "streaming/http/transfer.h"
 
-namespace terrella {
+namespace terrella::http {
 
 struct Host;
 
@@ -58,4 +58,4 @@ struct Host {
   std::string given_up_why;  ///< while the gate is given up
 };
 
-}  // namespace terrella
+}  // namespace terrella::http

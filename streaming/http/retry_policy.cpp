@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using Next = Verdict::Next;
@@ -121,4 +121,4 @@ std::chrono::milliseconds backoff(const HttpOptions& options, int attempt, doubl
   return std::chrono::milliseconds(static_cast<std::int64_t>(bounded_ms * (0.75 + 0.5 * random)));
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

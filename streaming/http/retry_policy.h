@@ -7,7 +7,7 @@
 
 #include "streaming/http/http_fetcher.h"
 
-namespace terrella {
+namespace terrella::http {
 
 /// Why a transfer was ended from our side.
 enum class Cut {
@@ -44,4 +44,4 @@ struct Verdict {
 /// `random` in [0, 1).
 [[nodiscard]] std::chrono::milliseconds backoff(const HttpOptions& options, int attempt, double random);
 
-}  // namespace terrella
+}  // namespace terrella::http

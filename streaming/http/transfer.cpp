@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <new>
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 // A page that explains an error is read to its end, so that the connection can be used again, unless it is longer.
@@ -144,4 +144,4 @@ std::size_t Transfer::on_header(char* bytes, std::size_t size, std::size_t count
   return CURL_WRITEFUNC_ERROR;
 }
 
-}  // namespace terrella
+}  // namespace terrella::http

@@ -12,7 +12,7 @@
 #include "streaming/http/http_headers.h"
 #include "streaming/http/retry_policy.h"
 
-namespace terrella {
+namespace terrella::http {
 
 /// One curl easy handle with what it receives. What is the same for all requests is set once; begin() sets the rest, so
 /// that a handle can be used again and again. thread: network
@@ -71,4 +71,4 @@ class Transfer {
   Cut cut_ = Cut::none;
 };
 
-}  // namespace terrella
+}  // namespace terrella::http

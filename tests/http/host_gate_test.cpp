@@ -4,7 +4,7 @@
 
 #include "streaming/http/retry_policy.h"
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 using std::chrono::milliseconds;
@@ -151,4 +151,4 @@ TEST(Verdict, OfABrokenTransfer) {
 }
 
 }  // namespace
-}  // namespace terrella
+}  // namespace terrella::http

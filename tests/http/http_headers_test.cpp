@@ -4,7 +4,7 @@
 
 #include "streaming/http/http_address.h"
 
-namespace terrella {
+namespace terrella::http {
 namespace {
 
 constexpr std::int64_t kNow = 784111777;  // Sun, 06 Nov 1994 08:49:37 GMT, the date of RFC 9110's examples
@@ -118,4 +118,4 @@ TEST(HttpAddress, IsRefusedWithoutItsQuery) {
 }
 
 }  // namespace
-}  // namespace terrella
+}  // namespace terrella::http
