@@ -27,6 +27,12 @@ enum class ImageFormat { jpeg, png, unknown };
 /// By the first bytes, not by a name.
 [[nodiscard]] ImageFormat sniff_format(std::span<const std::byte> bytes);
 
+/// Pixels, as a picture's header says; not checked against any limit.
+struct PictureSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+
 /// Decodes a JPEG or PNG tile from memory. Never throws, never crashes on hostile bytes. A truncated picture is an
 /// error. thread: any
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits = {});

@@ -57,6 +57,19 @@ Result<Image> decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& 
   return image;
 }
 
+Result<PictureSize> jpeg_size(std::span<const std::byte> bytes) {
+  const Handle handle(tjInitDecompress());
+  if (!handle) return Error{"JPEG: out of memory"};
+  PictureSize size;
+  int subsampling = 0;
+  int color_space = 0;
+  if (tjDecompressHeader3(handle.get(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                          &size.width_px, &size.height_px, &subsampling, &color_space) != 0) {
+    return jpeg_error(handle);
+  }
+  return size;
+}
+
 Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
   assert(quality >= 1 && quality <= 100);
   assert(image.rgba.size() == rgba_size(image.width_px, image.height_px));

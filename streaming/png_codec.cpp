@@ -116,6 +116,15 @@ Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& l
   return image;
 }
 
+Result<PictureSize> png_size(std::span<const std::byte> bytes) {
+  Decoder decoder;
+  decoder.rest = bytes;
+  if (!set_up(decoder)) return png_failure("out of memory");
+  if (!read_header(decoder)) return png_failure(decoder.message);
+  return PictureSize{static_cast<int>(png_get_image_width(decoder.png, decoder.info)),
+                     static_cast<int>(png_get_image_height(decoder.png, decoder.info))};
+}
+
 Result<std::vector<std::byte>> encode_png(const Image& image) {
   assert(image.rgba.size() == static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * 4);
   png_image header{};

@@ -7,5 +7,7 @@ namespace terrella {
 /// decode_image() for bytes that sniff_format() took for a PNG. Sixteen bits are rounded to eight, palettes and gray
 /// are expanded; gamma and colour profiles are not applied. thread: any
 [[nodiscard]] Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
+/// What the header says; nothing is decoded. thread: any
+[[nodiscard]] Result<PictureSize> png_size(std::span<const std::byte> bytes);
 
 }  // namespace terrella

@@ -1,0 +1,228 @@
+#include "streaming/preload/preloader.h"
+
+#include <algorithm>
+#include <map>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "streaming/preload/answer_queue.h"
+#include "streaming/preload/store_tally.h"
+#include "streaming/preload/tile_check.h"
+#include "streaming/preload/wanted_tiles.h"
+
+namespace terrella {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kBetweenReports{100};
+constexpr milliseconds kLongestWait{5};
+
+class Run {
+ public:
+  Run(const TilePlan& plan, TileCache& cache,
+      const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
+      const PreloadOptions& options)
+      : cache_(cache),
+        options_(options),
+        wanted_(plan, cache, options.refresh_older_than),
+        tally_(std::make_shared<StoreTally>(options.on_stored)),
+        origin_(make_origin([this](HttpReply&& reply) { answers_.push(std::move(reply)); })) {
+    counts_.planned = plan.total();
+  }
+
+  Result<PreloadResult> run() {
+    if (const Status passed = first_pass(); !passed) return passed.error();
+    if (end_ == PreloadEnd::complete) second_pass();
+    wind_down();
+    for (const auto& [id, why] : failed_) lack(id, Lack::failed, why);
+    origin_.reset();
+    if (const Status flushed = cache_.flush(); !flushed && !tally_->failed()) return flushed.error();
+    while (!tally_->settled()) std::this_thread::sleep_for(kLongestWait);
+    if (tally_->failed()) return tally_->error();
+    if (options_.progress) options_.progress(counts());
+    return PreloadResult{end_, counts()};
+  }
+
+ private:
+  struct Asked {
+    TileId id;
+    bool have = false;
+  };
+
+  Status first_pass() {
+    while (going()) {
+      while (asked_.size() < options_.window && !wanted_.done()) {
+        auto next = wanted_.next();
+        if (!next) return next.error();
+        if (!*next) break;
+        ask(**next);
+      }
+      if (asked_.empty() && wanted_.done()) return Done{};
+      const bool looking = !wanted_.done() && asked_.size() < options_.window;
+      take_answers(looking ? milliseconds(0) : kLongestWait);
+    }
+    return Done{};
+  }
+
+  // The fetcher has tried each several times by now; this is for what passes in minutes.
+  void second_pass() {
+    second_ = true;
+    std::vector<std::pair<TileId, std::string>> again = std::exchange(failed_, {});
+    std::size_t next = 0;
+    while (going() && (next < again.size() || !asked_.empty())) {
+      for (; asked_.size() < options_.window && next < again.size(); ++next) {
+        ask({.id = again[next].first, .etag = {}, .last_modified = {}});
+      }
+      take_answers(kLongestWait);
+    }
+    failed_.insert(failed_.end(), std::make_move_iterator(again.begin() + static_cast<std::ptrdiff_t>(next)),
+                   std::make_move_iterator(again.end()));
+  }
+
+  /// Reports from time to time; false: it is time to stop.
+  bool going() {
+    if (tally_->failed()) end_ = PreloadEnd::stopped;
+    const auto now = Clock::now();
+    if (options_.progress && now - reported_ >= kBetweenReports) {
+      reported_ = now;
+      if (!options_.progress(counts())) end_ = PreloadEnd::stopped;
+    }
+    if (failures_in_a_row_ >= options_.give_up_after) end_ = PreloadEnd::source_down;
+    return end_ == PreloadEnd::complete;
+  }
+
+  void ask(WantedTileRecord wanted) {
+    const std::uint64_t number = ++last_number_;
+    asked_.emplace(number, Asked{wanted.id, wanted.have});
+    origin_->ask({number, wanted.id, std::move(wanted.etag), std::move(wanted.last_modified)});
+  }
+
+  void take_answers(milliseconds longest) {
+    for (HttpReply& reply : answers_.take(longest)) {
+      const auto asked = asked_.find(reply.id);
+      if (asked == asked_.end()) continue;
+      const Asked about = asked->second;
+      asked_.erase(asked);
+      failures_in_a_row_ = reply.outcome == HttpOutcome::failed ? failures_in_a_row_ + 1 : 0;
+      settle(about, std::move(reply));
+    }
+  }
+
+  void settle(const Asked& asked, HttpReply&& reply) {
+    switch (reply.outcome) {
+      case HttpOutcome::content:
+        return settle_content(asked.id, std::move(reply));
+      case HttpOutcome::not_modified:
+        if (!asked.have)
+          return lack(asked.id, Lack::broken, "304 Not Modified of what was never asked for conditionally");
+        return cache_.renew(asked.id, unix_now_s(), expiry(reply, options_.tile_life),
+                            tally_->sent(StoreTally::Kind::unchanged, asked.id, 0));
+      case HttpOutcome::nothing:
+        return note_absence(asked.id, Absence::absent, std::move(reply));
+      case HttpOutcome::refused:
+        return lack(asked.id, Lack::refused, reply.why);
+      case HttpOutcome::failed:
+        if (second_ || failed_.size() >= options_.most_second_tries) return lack(asked.id, Lack::failed, reply.why);
+        failed_.emplace_back(asked.id, std::move(reply.why));
+    }
+  }
+
+  void settle_content(const TileId& id, HttpReply&& reply) {
+    if (reply.no_store) return lack(id, Lack::refused, "the server forbids storing it (Cache-Control: no-store)");
+    if (reply.body.empty()) return note_absence(id, Absence::blank, std::move(reply));
+    if (const Status good = check_tile(reply.body, options_.tile_px); !good) {
+      return lack(id, Lack::broken, good.error().message);
+    }
+    const std::size_t bytes = reply.body.size();
+    CacheRecord record = record_of(std::move(reply), options_.tile_life);
+    cache_.store(id, std::move(record), tally_->sent(StoreTally::Kind::tile, id, bytes));
+  }
+
+  void note_absence(const TileId& id, Absence kind, HttpReply&& reply) {
+    reply.body.clear();
+    std::string why = std::move(reply.why);
+    CacheRecord record = record_of(std::move(reply), options_.absence_life);
+    record.absence = kind;
+    record.why = std::move(why);
+    const auto counted = kind == Absence::blank ? StoreTally::Kind::blank : StoreTally::Kind::absent;
+    cache_.store(id, std::move(record), tally_->sent(counted, id, 0));
+  }
+
+  [[nodiscard]] CacheRecord record_of(HttpReply&& reply, std::chrono::seconds life) const {
+    CacheRecord record;
+    record.bytes = std::move(reply.body);
+    record.etag = std::move(reply.etag);
+    record.last_modified = std::move(reply.last_modified);
+    record.stored_unix_s = unix_now_s();
+    record.expires_unix_s = expiry(reply, life);
+    return record;
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> expiry(const HttpReply& reply, std::chrono::seconds life) const {
+    if (!options_.expires) return std::nullopt;
+    return reply.expires_unix_s ? *reply.expires_unix_s : unix_now_s() + life.count();
+  }
+
+  void lack(const TileId& id, Lack kind, const std::string& why) {
+    if (kind == Lack::broken) ++counts_.broken;
+    if (kind == Lack::refused) ++counts_.refused;
+    if (kind == Lack::failed) ++counts_.failed;
+    if (options_.on_lacking) options_.on_lacking(id, kind, why);
+  }
+
+  // What the host has begun to answer is worth waiting for; what it has not been asked for yet is the latest.
+  void wind_down() {
+    std::size_t waiting = origin_->counts().waiting;
+    while (waiting > 0 && !asked_.empty()) {
+      const auto latest = std::prev(asked_.end());
+      origin_->withdraw(latest->first);
+      asked_.erase(latest);
+      --waiting;
+    }
+    const auto deadline = Clock::now() + options_.finish_within;
+    while (!asked_.empty() && Clock::now() < deadline && !tally_->failed()) take_answers(kLongestWait);
+  }
+
+  [[nodiscard]] PreloadCounts counts() const {
+    PreloadCounts counts = counts_;
+    counts.there = wanted_.there();
+    counts.stored = tally_->durable(StoreTally::Kind::tile);
+    counts.unchanged = tally_->durable(StoreTally::Kind::unchanged);
+    counts.absent = tally_->durable(StoreTally::Kind::absent);
+    counts.blank = tally_->durable(StoreTally::Kind::blank);
+    counts.stored_bytes = tally_->bytes();
+    counts.passed = counts.there + counts.stored + counts.unchanged + counts.absent + counts.blank + counts.lacking();
+    if (origin_) last_asked_ = origin_->counts();
+    counts.asked = last_asked_;
+    return counts;
+  }
+
+  TileCache& cache_;
+  const PreloadOptions& options_;
+  WantedTiles wanted_;
+  std::shared_ptr<StoreTally> tally_;
+  AnswerQueue answers_;
+  std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
+  std::vector<std::pair<TileId, std::string>> failed_;
+  PreloadCounts counts_;
+  mutable HttpCounts last_asked_;
+  std::uint64_t last_number_ = 0;
+  int failures_in_a_row_ = 0;
+  bool second_ = false;
+  PreloadEnd end_ = PreloadEnd::complete;
+  Clock::time_point reported_{};
+  std::unique_ptr<TileOrigin> origin_;  ///< goes first: it answers into the rest
+};
+
+}  // namespace
+
+Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
+                              const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
+                              const PreloadOptions& options) {
+  return Run(plan, cache, make_origin, options).run();
+}
+
+}  // namespace terrella

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "geo/result.h"
+#include "geo/tile_grid.h"
+
+namespace terrella {
+
+/// What a preload has sent to the cache's writer and what has become of it. thread: any
+class StoreTally : public std::enable_shared_from_this<StoreTally> {
+ public:
+  enum class Kind : std::size_t { tile, unchanged, absent, blank };
+  using OnDurable = std::function<void(const Status&)>;
+
+  /// `on_stored` is called for each tile that is durable, on the writer's thread; may be empty.
+  explicit StoreTally(std::function<void(const TileId&)> on_stored) : on_stored_(std::move(on_stored)) {}
+
+  /// Counts something as sent; what to give to TileCache as `on_durable`.
+  [[nodiscard]] OnDurable sent(Kind kind, const TileId& id, std::size_t bytes);
+
+  [[nodiscard]] std::int64_t durable(Kind kind) const { return durable_[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  [[nodiscard]] bool failed() const { return failed_; }
+  [[nodiscard]] Error error() const;                         ///< the first; only if failed()
+  [[nodiscard]] bool settled() const { return open_ == 0; }  ///< nothing is on its way
+
+ private:
+  void ended(Kind kind, const TileId& id, std::size_t bytes, const Status& status);
+
+  std::function<void(const TileId&)> on_stored_;
+  std::atomic<std::int64_t> durable_[4] = {};
+  std::atomic<std::uint64_t> bytes_ = 0;
+  std::atomic<std::int64_t> open_ = 0;
+  std::atomic<bool> failed_ = false;
+  mutable std::mutex mutex_;
+  std::optional<Error> error_;
+};
+
+}  // namespace terrella
