@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   add_view_command(app, exit_code);
   add_render_command(app, exit_code);
   add_cut_command(app, exit_code);
+  add_preload_command(app, exit_code);
   add_info_command(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,194 @@
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "apps/commands.h"
+#include "apps/lack_report.h"
+#include "apps/preload_options.h"
+#include "apps/preload_plan.h"
+#include "apps/preload_progress.h"
+#include "apps/preload_report.h"
+#include "apps/preload_source.h"
+#include "apps/stop_signals.h"
+#include "streaming/preload/wanted_tiles.h"
+
+namespace terrella {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
+    "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
+    "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg";
+
+constexpr int kMostSampled = 20;
+constexpr double kSampleRate = 10.0;      // requests a second
+constexpr int kQuestionsAConnection = 8;  // under way at once where a connection carries several
+constexpr std::chrono::hours kDay{24};
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "terrella preload: {}\n", message);
+  return kFailed;
+}
+
+/// A file of lines; none if it has no name.
+using LinesFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+HttpOptions network_options(const PreloadCommand& command) {
+  HttpOptions http = command.http;
+  http.in_flight_per_host = std::max(32, http.connections_per_host * kQuestionsAConnection);
+  // Who asks for a rate does not want the first second's requests at once.
+  if (http.rate_per_host > 0.0) http.burst = std::clamp(http.rate_per_host / 4.0, 1.0, http.burst);
+  return http;
+}
+
+std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
+  if (!command.refresh_older_than_days) return std::nullopt;
+  return std::chrono::duration_cast<std::chrono::seconds>(*command.refresh_older_than_days * kDay);
+}
+
+PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
+  PreloadOptions options;
+  options.tile_px = source.set.info.grid.tile_px;
+  options.refresh_older_than = refresh_age(command);
+  options.tile_life = source.set.tile_life.value_or(options.tile_life);
+  options.absence_life = source.set.absence_life.value_or(options.absence_life);
+  options.expires = source.remote;
+  return options;
+}
+
+Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, const PreloadSource& source) {
+  CacheOptions options;
+  options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
+  auto cache = TileCache::open(command.output, source.set.info, source.key, options);
+  if (cache && !(*cache)->set_aside().empty()) {
+    fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
+               (*cache)->set_aside().string());
+  }
+  return cache;
+}
+
+Result<std::int64_t> count_there(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(command.output, unknown)) return std::int64_t{0};
+  const auto cache = open_cache(command, source);
+  if (!cache) return cache.error();
+  WantedTiles wanted(plan, **cache, refresh_age(command));
+  while (!wanted.done()) {
+    if (const auto next = wanted.next(); !next) return next.error();
+  }
+  return wanted.there();
+}
+
+int forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  PreloadForecast forecast{.levels = plan.counts(), .sample = {}};
+  const auto there = count_there(command, source, plan);
+  if (!there) return fail(there.error().message);
+  forecast.there = *there;
+  forecast.rate = command.http.rate_per_host;
+  forecast.jobs = command.http.connections_per_host;
+  if (!command.offline) {
+    forecast.sample = sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
+  }
+  fmt::print("{}", command.json ? to_json(forecast) : to_text(forecast));
+  return kDone;
+}
+
+/// What a person is told of a run that is not all good, and the exit code.
+int conclude(const PreloadCommand& command, const PreloadResult& result) {
+  const PreloadCounts& c = result.counts;
+  const char* again = "the same command goes on where this one ended";
+  if (result.end == PreloadEnd::stopped) {
+    fmt::print(stderr, "terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned,
+               again);
+    return kDoneInPart;
+  }
+  if (result.end == PreloadEnd::source_down) {
+    fmt::print(stderr, "terrella preload: given up, {} does not answer any more; {}\n", command.source, again);
+    return kDoneInPart;
+  }
+  if (c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned) {
+    fmt::print(stderr, "terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
+               c.planned, command.source);
+    return kDoneInPart;
+  }
+  if (c.lacking() == 0) return kDone;
+  fmt::print(stderr, "terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
+             command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
+  return kDoneInPart;
+}
+
+int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  auto lacks = LackReport::open(command.missing_file);
+  if (!lacks) return fail(lacks.error().message);
+  LinesFile stored(command.stored_file.empty() ? nullptr : std::fopen(command.stored_file.c_str(), "ae"), &std::fclose);
+  if (!stored && !command.stored_file.empty()) return fail(command.stored_file + ": cannot be written; see --stored");
+  const auto cache = open_cache(command, source);
+  if (!cache) return fail(cache.error().message);
+  PreloadOptions options = preload_options(command, source);
+  options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };
+  if (stored) {
+    options.on_stored = [&](const TileId& id) {
+      fmt::print(stored.get(), "{}/{}/{}\n", id.level, id.x, id.y);
+      std::fflush(stored.get());
+    };
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  Result<PreloadResult> result = Error{};
+  {
+    PreloadProgress progress;
+    options.progress = [&](const PreloadCounts& counts) {
+      progress.show(counts);
+      return !StopSignals::came();
+    };
+    result = preload(plan, **cache, source.make_origin, options);
+  }
+  if (!result) return fail(result.error().message + "; what was stored before is safe, and the same command goes on");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const PreloadReport report{command.output, *result, lacks->groups(), seconds};
+  fmt::print("{}", command.json ? to_json(report) : to_text(report));
+  if (const Status listed = lacks->close(); !listed) return fail(listed.error().message);
+  return conclude(command, *result);
+}
+
+int run(PreloadCommand& command) {
+  if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
+  const StopSignals signals;
+  HttpOptions http = network_options(command);
+  if (command.dry_run) {
+    const double rate = http.rate_per_host;
+    http.rate_per_host = rate > 0.0 ? std::min(rate, kSampleRate) : kSampleRate;
+    http.attempts = 1;
+  }
+  const auto source = open_preload_source(command.source, command.remote, http);
+  if (!source) return fail(source.error().message);
+  if (!source->set.refuse_bulk.empty()) return fail(command.source + ": " + source->set.refuse_bulk);
+  const auto plan = make_preload_plan(command, source->set.info);
+  if (!plan) return fail(plan.error().message);
+  return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);
+}
+
+}  // namespace
+
+void add_preload_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline.");
+  sub.footer(kExamples);
+  const auto command = std::make_shared<PreloadCommand>();
+  add_preload_options(sub, *command);
+  sub.callback([command, &exit_code] {
+    if (const Status together = check_together(*command); !together) {
+      throw CLI::ValidationError("preload", together.error().message);
+    }
+    exit_code = run(*command);
+  });
+}
+
+}  // namespace terrella

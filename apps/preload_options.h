@@ -1,0 +1,50 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/camera.h"
+#include "geo/coordinates.h"
+#include "streaming/http/http_fetcher.h"
+#include "streaming/preload/tile_plan.h"
+#include "streaming/remote/remote_options.h"
+
+namespace terrella {
+
+/// The first and the last of some levels.
+struct LevelRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// What `terrella preload` was told. Every value has been checked once the parse is over.
+struct PreloadCommand {
+  std::string source;
+  std::string output;
+  std::optional<LevelRange> levels;
+  std::vector<GeoRect> boxes;
+  std::vector<std::string> polygons;
+  std::string flight;
+  Viewport size{.width_px = 1920, .height_px = 1080};
+  std::optional<Shard> shard;
+  RemoteOptions remote;
+  HttpOptions http;
+  std::optional<double> refresh_older_than_days;
+  std::size_t cache_size_mb = 0;
+  std::string missing_file;
+  std::string stored_file;
+  bool dry_run = false;
+  bool offline = false;
+  bool json = false;
+};
+
+/// Adds SOURCE and the options to the subcommand; `command` must outlive the parse. thread: main
+void add_preload_options(CLI::App& app, PreloadCommand& command);
+
+/// What only all options together show; an error is wrong usage.
+[[nodiscard]] Status check_together(const PreloadCommand& command);
+
+}  // namespace terrella

@@ -1,0 +1,62 @@
+#include "apps/preload_plan.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "apps/flight_tiles.h"
+#include "geo/body.h"
+#include "streaming/preload/geojson_region.h"
+
+namespace terrella {
+namespace {
+
+Result<LevelRange> levels_of(const PreloadCommand& command, const TileGrid& grid) {
+  const LevelRange has{grid.min_level, grid.max_level};
+  if (!command.levels) return has;
+  if (command.levels->first < has.first || command.levels->last > has.last) {
+    return Error{fmt::format("--levels {}-{}: {} has levels {} to {}", command.levels->first, command.levels->last,
+                             command.source, has.first, has.last)};
+  }
+  return *command.levels;
+}
+
+Result<Region> region_of(const PreloadCommand& command) {
+  Region region;
+  for (const GeoRect& box : command.boxes) region.add_box(box);
+  for (const std::string& path : command.polygons) {
+    const auto polygons = read_geojson_region(path);
+    if (!polygons) return polygons.error();
+    region.add(*polygons);
+  }
+  return region;
+}
+
+Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command, const TileSetInfo& info) {
+  const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
+  if (!body) return body.error();
+  const auto levels = levels_of(command, info.grid);
+  if (!levels) return levels.error();
+  if (!command.flight.empty()) {
+    auto path = read_flight(command.flight);
+    if (!path) return path.error();
+    const FlightView view{.body = *body, .grid = info.grid, .size = command.size};
+    std::vector<TileId> tiles = tiles_along(*path, view);
+    std::erase_if(tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
+    return std::shared_ptr<const TilePlan>(plan_list(std::move(tiles)));
+  }
+  auto region = region_of(command);
+  if (!region) return region.error();
+  return std::shared_ptr<const TilePlan>(
+      plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const TilePlan>> make_preload_plan(const PreloadCommand& command, const TileSetInfo& info) {
+  auto whole = whole_plan(command, info);
+  if (!whole || !command.shard) return whole;
+  return std::shared_ptr<const TilePlan>(shard_of(*std::move(whole), *command.shard));
+}
+
+}  // namespace terrella

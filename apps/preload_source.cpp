@@ -1,0 +1,58 @@
+#include "apps/preload_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <utility>
+
+#include "streaming/remote/url_template.h"
+
+namespace terrella {
+namespace {
+
+Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions& remote, const HttpOptions& http) {
+  auto set = template_tile_set(source, remote, true, source);
+  if (!set) return set.error();
+  PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
+  opened.make_origin = [set = *std::move(set), http](TileOrigin::OnAnswer on_answer) {
+    return network_origin(set, http, std::move(on_answer));
+  };
+  return opened;
+}
+
+Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
+  auto tiles = open_tile_set(source);
+  if (!tiles) return tiles.error();
+  const std::shared_ptr<TileSource> shared = *std::move(tiles);
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(source, unknown);
+  PreloadSource opened{.set = {}, .key = "file:" + (unknown ? source : whole.string()), .make_origin = {}};
+  opened.set.info = shared->info();
+  opened.make_origin = [shared, jobs](TileOrigin::OnAnswer on_answer) {
+    return disk_origin(shared, jobs, std::move(on_answer));
+  };
+  return opened;
+}
+
+}  // namespace
+
+Result<PreloadSource> open_preload_source(const std::string& source, const RemoteOptions& remote,
+                                          const HttpOptions& http) {
+  return source.find("://") != std::string::npos ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
+}
+
+Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const std::string& url,
+                                              const std::vector<std::string>& headers) {
+  std::promise<HttpReply> promise;
+  std::future<HttpReply> answer = promise.get_future();
+  HttpFetcher fetcher(http, [&promise](HttpReply&& reply) { promise.set_value(std::move(reply)); });
+  HttpRequest request;
+  request.url = url;
+  request.headers = headers;
+  fetcher.submit(std::move(request));
+  HttpReply reply = answer.get();
+  if (reply.outcome != HttpOutcome::content) return Error{reply.why};
+  return std::move(reply.body);
+}
+
+}  // namespace terrella

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "streaming/preload/tile_origin.h"
+#include "streaming/preload/tile_plan.h"
+
+namespace terrella {
+
+/// What a few tiles of a plan say of all of them.
+struct SizeSample {
+  int asked = 0;
+  int answered = 0;               ///< content, or that there is none
+  double bytes_per_tile = 0.0;    ///< mean over the plan, tiles that are not there counted as none
+  double seconds_per_tile = 0.0;  ///< from asking to having, one at a time
+  std::string why;                ///< of the last that did not answer
+};
+
+/// Asks for at most `most` tiles spread over the plan, one after the other; finer levels, which most tiles are of, more
+/// often. Stops at the first two that do not answer, or when `go_on` says so. Blocks. thread: any
+[[nodiscard]] SizeSample sample_sizes(
+    const TilePlan& plan, int most, const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
+    const std::function<bool()>& go_on);
+
+}  // namespace terrella
