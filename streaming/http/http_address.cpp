@@ -27,7 +27,7 @@ bool has_blank_or_control(const std::string& url) {
 
 }  // namespace
 
-Result<Address> parse_address(const std::string& url) {
+Result<Address> parse_http_address(const std::string& url) {
   const Url parsed(curl_url(), &curl_url_cleanup);
   if (has_blank_or_control(url)) {
     return Error{"an address holds a blank, a line end or another control character: write it as %20 or remove it"};

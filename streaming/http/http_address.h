@@ -17,7 +17,7 @@ struct Address {
 
 /// Refuses other schemes and addresses with blanks or control characters. The error names host and path where they can
 /// be told, and never the query, which may hold a key.
-[[nodiscard]] Result<Address> parse_address(const std::string& url);
+[[nodiscard]] Result<Address> parse_http_address(const std::string& url);
 
 /// Address without query, user and password, for people.
 [[nodiscard]] std::string shown(const Address& address);

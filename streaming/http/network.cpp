@@ -62,7 +62,7 @@ void Network::submit(HttpRequest&& request) {
   const auto [entry, is_new] = jobs_.try_emplace(job.request.id, std::move(owned));
   assert(is_new);
   if (!is_new) return;
-  Result<Address> address = parse_address(job.request.url);
+  Result<Address> address = parse_http_address(job.request.url);
   if (!address) return reply(job, HttpOutcome::refused, 0, address.error().message);
   job.address = std::move(*address);
   std::string fault = fault_of(job.request);

@@ -61,7 +61,7 @@ void Network::redirect(Job& job, const Verdict& verdict, int status, std::string
     return reply(job, HttpOutcome::refused, status,
                  fmt::format("{}: redirected more than {} times", from, options_.max_redirects));
   }
-  Result<Address> address = parse_address(url);
+  Result<Address> address = parse_http_address(url);
   if (!address) return reply(job, HttpOutcome::refused, status, from + " redirects: " + address.error().message);
   if (address->scheme == Address::Scheme::file) {
     return reply(job, HttpOutcome::refused, status, from + ": redirects to a file of this machine");

@@ -99,19 +99,19 @@ TEST(RequestHeader, IsRefusedByNameAndWithoutItsValue) {
 }
 
 TEST(HttpAddress, HasAnOriginAndNoQuery) {
-  const auto address = parse_address("HTTPS://user:word@Tiles.Example/a/b.jpg?key=secret#c");
+  const auto address = parse_http_address("HTTPS://user:word@Tiles.Example/a/b.jpg?key=secret#c");
   ASSERT_TRUE(address.ok());
   EXPECT_EQ(address->scheme, Address::Scheme::https);
   EXPECT_EQ(shown(*address), "https://tiles.example:443/a/b.jpg");
-  EXPECT_EQ(parse_address("http://[::1]:8080/")->origin, "http://[::1]:8080");
-  EXPECT_EQ(parse_address("file:///a%20b/c.jpg")->path, "/a b/c.jpg");
+  EXPECT_EQ(parse_http_address("http://[::1]:8080/")->origin, "http://[::1]:8080");
+  EXPECT_EQ(parse_http_address("file:///a%20b/c.jpg")->path, "/a b/c.jpg");
 }
 
 TEST(HttpAddress, IsRefusedWithoutItsQuery) {
   for (const std::string url : {"ftp://h/a?secret", "gopher://h/?secret", "http://h/a\r\nX: y?secret",
                                 "http://h/a b?secret", "http://", "a/b?secret", "", "file://other/etc/x?secret",
                                 "file:///a%00?secret", "http://h:99999/?secret", "javascript:secret"}) {
-    const auto address = parse_address(url);
+    const auto address = parse_http_address(url);
     ASSERT_FALSE(address.ok()) << url;
     EXPECT_EQ(address.error().message.find("secret"), std::string::npos) << address.error().message;
   }
