@@ -49,6 +49,14 @@ constexpr const char* kTms =
     "<TileSet href=\"0\" units-per-pixel=\"1.40625\"/><TileSet href=\"1\" "
     "units-per-pixel=\"0.703125\"/></TileSets></TileMap>";
 
+constexpr const char* kFields =
+    "HTTP/1.1 103 Early Hints\r\nLink: </a>\r\n\r\nHTTP/1.1 200 OK\r\nDate: Sun, 06 Nov 1994 08:49:37 GMT\r\n"
+    "Content-Type: image/jpeg\r\nETag: W/\"5f-1\"\r\nLast-Modified: Sunday, 06-Nov-94 08:49:37 GMT\r\n"
+    "Cache-Control: public, max-age=60, private=\"a, b\"\r\nAge: 5\r\nExpires: 0\r\n\r\n";
+constexpr const char* kRefusal =
+    "HTTP/2 429\r\nCache-Control: no-store, no-cache\r\nRetry-After: Sun, 06 Nov 1994 08:50:37 GMT\r\n"
+    "Retry-After: 120\r\n\r\n";
+
 constexpr const char* kTables =
     "PRAGMA page_size = 512;"
     "CREATE TABLE gpkg_spatial_ref_sys (srs_id, organization, organization_coordsys_id);"
@@ -85,6 +93,10 @@ int main(int argc, char** argv) {
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));
+  write(folder / "http_headers/content", kFields);
+  write(folder / "http_headers/refusal", kRefusal);
+  write(folder / "http_headers/header", "X-Key: value");
+  write(folder / "http_headers/address", "https://user:word@tiles.example:8443/1/2/3.jpg?key=value#a");
   write(folder / "tileset_json/a.json", to_tileset_json(info()));
   write(folder / "tms_xml/a.xml", kTms);
   const std::string ours =
