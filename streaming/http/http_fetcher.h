@@ -65,6 +65,7 @@ struct HttpReply {
   std::string why;  ///< for people: host and path without query, what was wrong; empty for content
 };
 
+/// A request counts as waiting or in flight until its reply has been given.
 struct HttpCounts {
   std::size_t waiting = 0;    ///< submitted, not with the host
   std::size_t in_flight = 0;  ///< with the host

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace terrella::test {
 namespace {
@@ -117,6 +118,16 @@ HttpReply Replies::wait(std::uint64_t id) {
 bool Replies::wait_for(std::size_t replies) {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, kPatience, [&] { return replies_.size() >= replies; });
+}
+
+bool Replies::wait_until_idle() const {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (std::chrono::steady_clock::now() < deadline) {
+    const HttpCounts counts = fetcher_.counts();
+    if (counts.waiting == 0 && counts.in_flight == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
 }
 
 std::vector<HttpReply> Replies::all() const {

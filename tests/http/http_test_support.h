@@ -63,6 +63,8 @@ class Replies {
   [[nodiscard]] HttpReply wait(std::uint64_t id);
   [[nodiscard]] HttpReply fetch(const std::string& url) { return wait(get(url)); }
   [[nodiscard]] bool wait_for(std::size_t replies);
+  /// Nothing waits and nothing is in flight.
+  [[nodiscard]] bool wait_until_idle() const;
   [[nodiscard]] std::vector<HttpReply> all() const;  ///< in the order in which they came
 
  private:
