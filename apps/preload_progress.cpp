@@ -39,8 +39,10 @@ void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now
   if (seconds <= 0.0) return;
   const std::int64_t asked = counts.passed - counts.there;
   const double rate = static_cast<double>(asked - asked_measured_) / seconds;
-  const double weight = tiles_per_s_ == 0.0 ? 1.0 : 1.0 - std::exp(-seconds / kSmoothing_s);
-  tiles_per_s_ += weight * (rate - tiles_per_s_);
+  // A running mean that begins with no opinion: what it has seen so far counts for all of it.
+  const double kept = std::exp(-seconds / kSmoothing_s);
+  tiles_seen_ = kept * tiles_seen_ + (1.0 - kept) * rate;
+  weight_seen_ = kept * weight_seen_ + (1.0 - kept);
   asked_measured_ = asked;
   measured_ = now;
 }
@@ -51,9 +53,10 @@ std::string PreloadProgress::line(const PreloadCounts& counts) const {
   std::string text = fmt::format("{:.1f} % of {} tiles: {} stored ({}), {} there already", part * 100.0, counts.planned,
                                  counts.stored, bytes_text(static_cast<double>(counts.stored_bytes)), counts.there);
   if (counts.lacking() > 0) text += fmt::format(", {} lacking", counts.lacking());
-  if (tiles_per_s_ >= 0.05) {
-    text += fmt::format("; {:.0f} tiles/s, {} left", tiles_per_s_,
-                        duration_text(static_cast<double>(counts.planned - counts.passed) / tiles_per_s_));
+  const double tiles_per_s = weight_seen_ > 0.0 ? tiles_seen_ / weight_seen_ : 0.0;
+  if (tiles_per_s >= 0.05) {
+    text += fmt::format("; {:.0f} tiles/s, {} left", tiles_per_s,
+                        duration_text(static_cast<double>(counts.planned - counts.passed) / tiles_per_s));
   }
   return text;
 }

@@ -31,7 +31,8 @@ class PreloadProgress {
   Clock::time_point measured_ = begun_;
   Clock::time_point told_ = begun_;
   std::int64_t asked_measured_ = 0;
-  double tiles_per_s_ = 0.0;  ///< of those that had to be asked for
+  double tiles_seen_ = 0.0;  ///< a second, of those that had to be asked for, times weight_seen_
+  double weight_seen_ = 0.0;
 };
 
 /// "2 h 5 min", "40 s".

@@ -1,0 +1,87 @@
+"""The servers of tests/http, running, and small pyramids of tiles for them to serve."""
+
+import collections
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import urllib.request
+
+SOURCE = pathlib.Path(os.environ["TERRELLA_SOURCE"])
+HTTP = SOURCE / "tests/http"
+TILES = sorted((SOURCE / "tests/fixtures/natural_earth_ii").glob("*/*/*.jpg"))
+
+
+def write_pyramid(folder, levels):
+    """{z}/{x}/{y}.jpg of the levels 0 to levels-1, two roots; which picture is where depends on the place alone."""
+    for z in range(levels):
+        for x in range(2 << z):
+            column = folder / str(z) / str(x)
+            column.mkdir(parents=True)
+            for y in range(1 << z):
+                shutil.copyfile(tile_file(z, x, y), column / f"{y}.jpg")
+
+
+def tile_file(z, x, y):
+    return TILES[(z * 31 + x * 7 + y) % len(TILES)]
+
+
+def tiles_in(levels):
+    return sum(2 << (2 * z) for z in range(levels))
+
+
+@contextlib.contextmanager
+def running(*command):
+    process = subprocess.Popen([sys.executable, "-B", *map(str, command)], stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, text=True)
+    try:
+        yield json.loads(process.stdout.readline())
+    finally:
+        process.stdin.close()
+        process.wait()
+        process.stdout.close()
+
+
+@contextlib.contextmanager
+def nginx(root):
+    with running(HTTP / "nginx.py", root) as told:
+        yield Nginx(told)
+
+
+class Nginx:
+    def __init__(self, told):
+        self.template = f"http://127.0.0.1:{told['port']}/{{z}}/{{x}}/{{y}}.jpg"
+        self.tls_template = f"https://localhost:{told['tls_port']}/{{z}}/{{x}}/{{y}}.jpg"
+        self.ca_file = told["ca_file"]
+        self.access_log = pathlib.Path(told["access_log"])
+
+    def requests(self):
+        """(status, path) of each request so far."""
+        lines = self.access_log.read_text().splitlines() if self.access_log.exists() else []
+        return [(int(line.split()[2]), line.split()[3]) for line in lines]
+
+    def counts(self):
+        return collections.Counter(path for _, path in self.requests())
+
+
+@contextlib.contextmanager
+def misbehaving(root, faults, *options):
+    """`faults`: path under root to what goes wrong with it (tests/http/README.md)."""
+    faults_file = root.parent / "faults.json"
+    faults_file.write_text(json.dumps(faults))
+    with running(HTTP / "misbehaving_server.py", "--until-stdin-ends", "--root", root, "--faults", faults_file,
+                 *options) as told:
+        yield Misbehaving(told["port"])
+
+
+class Misbehaving:
+    def __init__(self, port):
+        self.address = f"http://127.0.0.1:{port}"
+        self.template = self.address + "/{z}/{x}/{y}.jpg"
+
+    def log(self):
+        with urllib.request.urlopen(self.address + "/log") as answer:
+            return [json.loads(line) for line in answer]

@@ -1,0 +1,258 @@
+"""Preloading from a real server: what is stored, resumed, refreshed, sharded, told."""
+
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import servers
+from preload_test import PreloadTest
+from program import DONE, DONE_IN_PART, FAILED, PROGRAM, WRONG_USAGE
+
+LEVELS = 5
+KILLS = int(os.environ.get("TERRELLA_KILLS", "20"))
+
+
+class Nginx(PreloadTest):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="terrella-preload-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.pyramid = pathlib.Path(folder.name) / "tiles"
+        servers.write_pyramid(cls.pyramid, LEVELS)
+
+    def setUp(self):
+        super().setUp()
+        self.server = self.enterContext(servers.nginx(self.pyramid))
+
+    def command(self, *options):
+        return [PROGRAM, "preload", self.server.template, "-o", str(self.cache), "--levels", f"0-{LEVELS - 1}",
+                *map(str, options)]
+
+    def test_all_tiles_once_and_right(self):
+        summary, _ = self.preload(self.server.template, "--levels", f"0-{LEVELS - 1}")
+        self.assertEqual(summary["stored"], servers.tiles_in(LEVELS))
+        self.assertEqual(len(self.stored()), servers.tiles_in(LEVELS))
+        self.assert_stored_are_right()
+        self.assert_sound()
+        self.assertEqual(set(self.server.counts().values()), {1})
+
+    def test_over_https_with_http2(self):
+        summary, _ = self.preload(self.server.tls_template, "--levels", "0-3", "--ca-file", self.server.ca_file)
+        self.assertEqual(summary["stored"], servers.tiles_in(4))
+        self.assertIn("HTTP/2.0", self.server.access_log.read_text())
+        self.assert_stored_are_right()
+
+    def test_a_second_run_asks_for_nothing(self):
+        self.preload(self.server.template, "--levels", "0-3", "--max-level", "4")
+        before = len(self.server.requests())
+        summary, _ = self.preload(self.server.template, "--levels", "0-3", "--max-level", "4")
+        self.assertEqual((summary["there"], summary["stored"], summary["requests"]), (servers.tiles_in(4), 0, 0))
+        self.assertEqual(len(self.server.requests()), before)
+        summary, _ = self.preload(self.server.template, "--levels", "0-4")
+        self.assertEqual(summary["stored"], servers.tiles_in(5) - servers.tiles_in(4))
+
+    def test_refresh_asks_conditionally(self):
+        self.preload(self.server.template, "--levels", "0-3")
+        summary, _ = self.preload(self.server.template, "--levels", "0-3", "--refresh-older-than", "1")
+        self.assertEqual(summary["requests"], 0)
+        summary, _ = self.preload(self.server.template, "--levels", "0-3", "--refresh-older-than", "0")
+        self.assertEqual((summary["unchanged"], summary["stored"]), (servers.tiles_in(4), 0))
+        statuses = [status for status, _ in self.server.requests()]
+        self.assertEqual(statuses.count(304), servers.tiles_in(4))
+        self.assertEqual(len(self.stored()), servers.tiles_in(4))
+
+    def test_boxes_over_the_antimeridian_and_polygons(self):
+        self.preload(self.server.template, "--levels", "0-4", "--bbox", "170,-10,-170,10")
+        self.assertEqual({x for z, x, _ in self.stored() if z == 4}, {0, 31})
+        polygon = {"type": "Polygon", "coordinates": [[[0, 75], [90, 75], [180, 75], [-90, 75], [0, 75]]]}
+        self.write("cap.geojson", json.dumps(polygon).encode())
+        self.preload(self.server.template, "--levels", "0-4", "--polygon", "cap.geojson")
+        self.assertEqual(len([1 for z, _, y in self.stored() if z == 4 and y == 0]), 32)
+
+    def test_a_flight(self):
+        way = {"type": "Feature", "properties": {"pitch": -60, "heading": 90},
+               "geometry": {"type": "LineString", "coordinates": [[8, 47, 300000], [12, 42, 100000]]}}
+        self.write("flight.geojson", json.dumps(way).encode())
+        summary, _ = self.preload(self.server.template, "--levels", "0-4", "--flight", "flight.geojson", "--size",
+                                  "640x360")
+        places = self.stored().keys()
+        self.assertLess(len(places), servers.tiles_in(LEVELS) / 4)
+        self.assertIn((4, int((180 + 8) / 11.25), int((90 - 47) / 11.25)), places)
+        self.assertIn((4, int((180 + 12) / 11.25), int((90 - 42) / 11.25)), places)
+        for z, x, y in places:
+            self.assertTrue(z == 0 or (z - 1, x // 2, y // 2) in places, "an ancestor is lacking")
+
+    def test_shards_together_are_the_whole(self):
+        stored = []
+        for index in range(1, 4):
+            self.cache = self.folder / f"part{index}.gpkg"
+            self.preload(self.server.template, "--levels", "0-4", "--shard", f"{index}/3")
+            stored.append(self.stored().keys())
+        self.assertEqual(len(set().union(*stored)), servers.tiles_in(LEVELS))
+        self.assertEqual(sum(map(len, stored)), servers.tiles_in(LEVELS))
+        self.assertEqual(set(self.server.counts().values()), {1})
+
+    def test_dry_run_asks_little_and_stores_nothing(self):
+        done = self.run_program(*self.command("--dry-run", "--json", "--rate", "100")[1:])
+        forecast = json.loads(done.stdout)
+        self.assertEqual(forecast["tiles"], servers.tiles_in(LEVELS))
+        self.assertLessEqual(len(self.server.requests()), 20)
+        whole = sum(path.stat().st_size for path in self.pyramid.glob("*/*/*.jpg"))
+        self.assertAlmostEqual(forecast["bytes"] / whole, 1.0, delta=0.5)
+        self.assertGreaterEqual(forecast["seconds"], servers.tiles_in(LEVELS) / 100 * 0.99)
+        self.assertFalse(self.cache.exists())
+
+    def test_dry_run_offline_says_unknown(self):
+        done = self.run_program(*self.command("--dry-run", "--offline")[1:])
+        self.assertEqual(done.returncode, DONE)
+        self.assertIn("bytes: unknown", done.stdout)
+        self.assertEqual(self.server.requests(), [])
+
+    def test_the_rate_is_kept(self):
+        begun = time.monotonic()
+        self.preload(self.server.template, "--levels", "0-3", "--rate", "60")
+        first_second = 60 / 4  # the bucket's burst
+        self.assertGreaterEqual(time.monotonic() - begun, (servers.tiles_in(4) - first_second) / 60 * 0.95)
+
+    def test_absent_tiles_are_no_failure_but_nothing_at_all_is(self):
+        summary, _ = self.preload(self.server.template, "--levels", "4-5")
+        self.assertEqual((summary["absent"], summary["stored"]), (2 << 10, 2 << 8))
+        self.cache = self.folder / "wrong.gpkg"
+        _, said = self.preload(self.server.template.replace("{z}", "wrong/{z}"), "--levels", "0-2", code=DONE_IN_PART)
+        self.assertIn("none of the 42 tiles", said)
+
+    def test_secrets_are_sent_and_never_told_or_stored(self):
+        summary, said = self.preload(self.server.template + "?key=hidden1", "--header", "X-Token: hidden2", "--levels",
+                                     "0-2")
+        self.assertEqual(summary["stored"], servers.tiles_in(3))
+        self.assertTrue(all("key=hidden1" in path for _, path in self.server.requests()))
+        base = b"".join(path.read_bytes() for path in self.folder.glob("cache.gpkg*"))
+        for text in (json.dumps(summary).encode(), said.encode(), base):
+            self.assertNotIn(b"hidden", text)
+
+    def test_killed_and_started_again(self):
+        """What was reported is there and right, and nothing that is there is fetched again."""
+        random.seed(20261121)
+        log = self.folder / "stored.txt"
+        for _ in range(KILLS):
+            process = subprocess.Popen(self.command("--stored", log, "--rate", "400"), stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(random.uniform(0.0, 0.25))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            if not self.cache.exists():
+                continue
+            reported = self.reported(log)
+            self.assert_sound()
+            stored = self.stored()
+            self.assertLessEqual(reported, stored.keys(), "reported, and not there")
+        summary, _ = self.preload(self.server.template, "--levels", f"0-{LEVELS - 1}")
+        self.assertEqual(len(self.stored()), servers.tiles_in(LEVELS))
+        self.assert_stored_are_right()
+        # A run can lose what was under way when it was killed: the window and what waited to be written.
+        under_way = 384 + 512
+        again = sum(self.server.counts().values()) - servers.tiles_in(LEVELS)
+        self.assertLessEqual(again, KILLS * under_way)
+        self.assertEqual(summary["there"] + summary["stored"], servers.tiles_in(LEVELS))
+
+    def reported(self, log):
+        if not log.exists():
+            return set()
+        lines = log.read_text().split("\n")[:-1]  # the last may have been cut off
+        return {tuple(map(int, line.split("/"))) for line in lines}
+
+    def test_reported_tiles_are_not_fetched_again(self):
+        log = self.folder / "stored.txt"
+        process = subprocess.Popen(self.command("--stored", log, "--rate", "600"), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        time.sleep(0.8)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        reported = self.reported(log)
+        self.assertGreater(len(reported), 0)
+        self.preload(self.server.template, "--levels", f"0-{LEVELS - 1}")
+        counts = self.server.counts()
+        self.assertEqual({counts[f"/{z}/{x}/{y}.jpg"] for z, x, y in reported}, {1})
+
+    def test_interrupted_it_ends_cleanly_and_says_how_to_go_on(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                self.cache = self.folder / f"cache{number}.gpkg"
+                process = subprocess.Popen(self.command("--rate", "100", "--json"), stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                time.sleep(0.7)
+                process.send_signal(number)
+                begun = time.monotonic()
+                out, said = process.communicate()
+                self.assertLess(time.monotonic() - begun, 7)
+                self.assertEqual(process.returncode, DONE_IN_PART, said)
+                summary = json.loads(out)
+                self.assertEqual(summary["end"], "stopped")
+                self.assertEqual(len(self.stored()), summary["stored"])
+                self.assertIn("same command goes on", said)
+                self.assert_sound()
+
+    def test_a_full_disk(self):
+        done = self.run_program(*self.command()[1:], file_size_limit=3 << 20)
+        self.assertEqual(done.returncode, FAILED, done.stdout + done.stderr)
+        self.assertIn(str(self.cache), done.stderr)
+        self.assert_sound()
+        self.assert_stored_are_right()
+        kept = len(self.stored())
+        self.assertGreater(kept, 0)
+        summary, _ = self.preload(self.server.template, "--levels", f"0-{LEVELS - 1}")
+        self.assertEqual(summary["there"] + summary["stored"], servers.tiles_in(LEVELS))
+        self.assertGreaterEqual(summary["there"], kept)
+
+    def test_progress_has_rate_and_time_left(self):
+        _, said = self.preload(self.server.template, "--levels", "0-3", "--rate", "70")
+        self.assertRegex(said, r"% of 170 tiles: \d+ stored .*; \d+ tiles/s, [\d.]+ s left")
+
+
+class Other(PreloadTest):
+    def test_a_set_on_disk_is_copied(self):
+        from program import NATURAL_EARTH
+        summary, _ = self.preload(NATURAL_EARTH)
+        self.assertEqual(summary["stored"], servers.tiles_in(3))
+        done = self.assert_done("info", self.cache, "--verify")
+        self.assertRegex(done.stdout, re.compile(r"42"))
+        summary, _ = self.preload(NATURAL_EARTH)
+        self.assertEqual(summary["there"], servers.tiles_in(3))
+
+    def test_hosts_that_forbid_it(self):
+        _, said = self.preload("https://tile.openstreetmap.org/{z}/{x}/{y}.png", "--levels", "0-3", code=FAILED)
+        self.assertIn("openstreetmap", said)
+        self.assertFalse(self.cache.exists())
+
+    def test_wrong_usage(self):
+        template = "http://127.0.0.1:9/{z}/{x}/{y}.jpg"
+        for options, says in [(("--levels", "5-3"), "--levels"), (("--levels", "0-25"), "24"),
+                              (("--bbox", "0,10,5,5"), "--bbox"), (("--shard", "4/3"), "--shard"),
+                              (("--jobs", "0"), "--jobs"), (("--rate", "-1"), "--rate"), (("--offline",), "--dry-run"),
+                              (("--flight", "f", "--bbox", "0,0,1,1"), "--flight"), (("--size", "5"), "--size")]:
+            with self.subTest(options):
+                self.assert_fails(WRONG_USAGE, "preload", template, "-o", "x.gpkg", *options, says=[says])
+        self.assert_fails(WRONG_USAGE, "preload", template, "-o", "x.jpg", says=[".gpkg"])
+        self.assert_nothing_but()
+
+    def test_a_bad_polygon_file_is_named(self):
+        self.write("bad.geojson", b'{"type":"FeatureCollection","features":[{"type":"Feature","geometry":'
+                                  b'{"type":"Point","coordinates":[0,0]}}]}')
+        self.assert_fails(FAILED, "preload", "http://127.0.0.1:9/{z}/{x}/{y}.jpg", "--levels", "0-3", "-o", "x.gpkg",
+                          "--polygon", "bad.geojson", says=["bad.geojson", "feature 1", "Point"])
+
+    def test_nobody_answers(self):
+        _, said = self.preload("http://127.0.0.1:9/{z}/{x}/{y}.jpg", "--levels", "0-2", "--retries", "0",
+                               code=DONE_IN_PART)
+        self.assertIn("42 tiles are lacking", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
