@@ -42,6 +42,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   read_all(text);
   if (check_request_header(text).ok()) check(text.find_first_of(std::string_view("\r\n\0", 3)) == std::string::npos);
-  if (const auto address = parse_address(text)) check(is_field_value(shown(*address)));
+  if (const auto address = parse_http_address(text)) check(is_field_value(shown(*address)));
   return 0;
 }
