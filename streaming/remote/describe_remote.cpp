@@ -1,0 +1,172 @@
+#include "streaming/remote/describe_remote.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <pugixml.hpp>
+
+#include "streaming/file_bytes.h"
+#include "streaming/remote/remote_tms.h"
+#include "streaming/remote/source_json.h"
+#include "streaming/remote/url_template.h"
+#include "streaming/remote/web_address.h"
+#include "streaming/remote/wmts.h"
+#include "streaming/remote/xml_names.h"
+#include "streaming/tileset_json.h"
+#include "streaming/tms_xml.h"
+
+namespace terrella {
+namespace {
+
+enum class Kind { url_template, json, wmts, tms, unknown };
+
+std::string_view file_name(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
+
+std::string_view path_of(std::string_view address) { return address.substr(0, address.find_first_of("?#")); }
+
+Kind kind_of_name(std::string_view tile_set) {
+  if (tile_set.find('{') != std::string_view::npos) return Kind::url_template;
+  const std::string lowered = lower_case(tile_set);
+  const std::string_view path = path_of(lowered);
+  if (lowered.find("wmtscapabilities") != std::string::npos ||
+      lowered.find("request=getcapabilities") != std::string::npos)
+    return Kind::wmts;
+  if (file_name(path) == kTmsFile) return Kind::tms;
+  return path.ends_with(".json") ? Kind::json : Kind::unknown;
+}
+
+Kind kind_of_document(std::string_view text) {
+  if (trimmed(text).starts_with('{')) return Kind::json;
+  pugi::xml_document document;
+  if (text.size() > kMaxCapabilitiesBytes || !document.load_buffer(text.data(), text.size())) return Kind::unknown;
+  const std::string_view root = local_name(document.document_element().name());
+  if (root == "TileMap") return Kind::tms;
+  return root == "Capabilities" || root == "ExceptionReport" ? Kind::wmts : Kind::unknown;
+}
+
+bool is_from_network(std::string_view address) {
+  const std::string lowered = lower_case(address.substr(0, 8));
+  return lowered.starts_with("http://") || lowered.starts_with("https://");
+}
+
+/// Headers given for one address may go to another one on the same host, and not from https to http.
+bool may_have_headers(const std::string& given_for, const std::string& other) {
+  const auto from = parse_address(given_for);
+  const auto to = parse_address(other);
+  return from && to && from->host == to->host && (from->scheme == to->scheme || to->scheme == "https");
+}
+
+Status check_pointer(const std::string& from, const std::string& to, const RemoteOptions& options) {
+  if (is_from_network(from) && !is_from_network(to)) {
+    return Error{fmt::format("{}: it points to {}, which is not on the network", for_people(from), for_people(to))};
+  }
+  if (is_from_network(from) && !options.headers.empty() && !may_have_headers(from, to)) {
+    return Error{
+        fmt::format("{}: its tiles are at {}, a host that the headers were not given for; if they should go "
+                    "there, give the URL template of the tiles",
+                    for_people(from), for_people(to))};
+  }
+  return Done{};
+}
+
+/// Where the sub-domains are, a template's first tile stands for all: its host is what is compared.
+Result<RemoteTileSet> checked(Result<RemoteTileSet> set, const std::string& from) {
+  if (!set) return set;
+  const RemoteOptions headers{.headers = set->headers};
+  RemoteTileSet each = *set;
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, set->subdomains.size()); ++i) {
+    if (!set->subdomains.empty()) each.subdomains = {set->subdomains[i]};
+    const std::string url = tile_url(each, {.level = set->info.grid.min_level});
+    if (Status pointed = check_pointer(from, url, headers); !pointed) return pointed.error();
+  }
+  return set;
+}
+
+class Describing {
+ public:
+  explicit Describing(const FetchDocument& fetch) : fetch_(fetch) {}
+
+  Result<RemoteTileSet> describe(const std::string& address, const RemoteOptions& options) {
+    const Kind kind = kind_of_name(address);
+    if (kind == Kind::url_template) return template_tile_set(address, options, true, "tile set");
+    const Result<std::string> text = read(address, options);
+    if (!text) return text.error();
+    return interpret(kind == Kind::unknown ? kind_of_document(*text) : kind, *text, address, options);
+  }
+
+ private:
+  Result<std::string> read(const std::string& address, const RemoteOptions& options) {
+    if (Status fine = check_options(options, for_people(address)); !fine) return fine.error();
+    if (!has_scheme(address)) {
+      Result<std::vector<std::byte>, FileError> bytes = read_file(address, kMaxCapabilitiesBytes);
+      if (!bytes) return Error{bytes.error().message};
+      return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    }
+    const auto parsed = parse_address(address);
+    if (!parsed || (parsed->scheme != "http" && parsed->scheme != "https" && parsed->scheme != "file")) {
+      return Error{fmt::format("{}: not an address that can be read; http, https and file can", for_people(address))};
+    }
+    Result<std::vector<std::byte>> bytes = fetch_(address, options.headers);
+    if (!bytes) return bytes.error();
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  }
+
+  Result<RemoteTileSet> interpret(Kind kind, const std::string& text, const std::string& address,
+                                  const RemoteOptions& options) {
+    const std::string where = for_people(address);
+    switch (kind) {
+      case Kind::wmts:
+        return checked(parse_wmts_capabilities(text, options, where), address);
+      case Kind::tms:
+        return parse_remote_tms(text, with_scheme(address), options, where);
+      case Kind::json:
+        return follow(text, address, options);
+      default:
+        return Error{where +
+                     ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS "
+                     "capabilities, tilemapresource.xml or JSON"};
+    }
+  }
+
+  Result<RemoteTileSet> follow(const std::string& text, const std::string& address, const RemoteOptions& options) {
+    const std::string where = for_people(address);
+    const Result<SourceDescription> source = parse_source_json(text, where);
+    if (!source) return source.error();
+    const RemoteOptions merged = merge(options, source->options);
+    if (source->kind == SourceDescription::Kind::url_template) {
+      // A description may hold its own headers for its own tiles: those of the command line were given for its host.
+      Result<RemoteTileSet> set = template_tile_set(source->address, merged, !is_from_network(address), where);
+      if (!set || options.headers.empty()) return set;
+      return checked(std::move(set), address);
+    }
+    if (Status pointed = check_pointer(address, source->address, options); !pointed) return pointed.error();
+    const Result<std::string> document = read(source->address, merged);
+    if (!document) return Error{where + ": " + document.error().message};
+    const Kind kind = source->kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
+    return interpret(kind, *document, source->address, merged);
+  }
+
+  static std::string with_scheme(const std::string& address) {
+    if (has_scheme(address)) return address;
+    std::error_code ignored;
+    return "file://" + std::filesystem::absolute(address, ignored).string();
+  }
+
+  const FetchDocument& fetch_;
+};
+
+}  // namespace
+
+bool is_remote(std::string_view tile_set) {
+  if (has_scheme(tile_set) || tile_set.find("{z}") != std::string_view::npos) return true;
+  const std::string name = lower_case(file_name(tile_set));
+  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile);
+}
+
+Result<RemoteTileSet> describe_remote(const std::string& tile_set, const RemoteOptions& options,
+                                      const FetchDocument& fetch) {
+  return Describing(fetch).describe(tile_set, options);
+}
+
+}  // namespace terrella

@@ -1,0 +1,65 @@
+#include "streaming/remote/remote_tms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "streaming/remote/url_template.h"
+#include "streaming/remote/web_address.h"
+#include "streaming/tileset_check.h"
+#include "streaming/tms_xml.h"
+
+namespace terrella {
+namespace {
+
+/// The span of the root tile, where a person knows better than gdal2tiles' description, which says 180° of both its
+/// kinds; and the levels that are wanted.
+Status adjust(TileGrid& grid, const RemoteOptions& options, const std::string& where) {
+  grid.root_span_deg = options.root_span_deg.value_or(grid.root_span_deg);
+  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
+  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
+  if (first > last) {
+    return Error{
+        fmt::format("{}: it has levels {} to {}, none of those asked for", where, grid.min_level, grid.max_level)};
+  }
+  grid.min_level = first;
+  grid.max_level = last;
+  if (options.tile_px && *options.tile_px != grid.tile_px) {
+    return Error{
+        fmt::format("{}: its tiles have {} pixels, not the {} that were given", where, grid.tile_px, *options.tile_px)};
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& address, const RemoteOptions& options,
+                                       const std::string& where) {
+  Result<TmsDescription> tms = parse_tms_xml(xml, where);
+  if (!tms) return tms.error();
+  if (Status adjusted = adjust(tms->info.grid, options, where); !adjusted) return adjusted.error();
+  const std::string plain = encode_braces(address.substr(0, address.find('#')));
+  const std::size_t query = std::min(plain.find('?'), plain.size());
+  const std::string folder = plain.substr(0, plain.rfind('/', query) + 1);
+
+  RemoteOptions rest = options;
+  rest.root_span_deg = tms->info.grid.root_span_deg;
+  rest.tile_px = tms->info.grid.tile_px;
+  rest.min_level = tms->info.grid.min_level;
+  rest.max_level = tms->info.grid.max_level;
+  rest.format = tms->info.format;
+  if (!options.bounds) rest.bounds = tms->info.grid.bounds;
+  if (!options.name && !tms->info.name.empty()) rest.name = tms->info.name;
+  // Level 0 of one root tile does not lie on the grid; that it was not left out is no wish of anybody's.
+  if (!options.min_level && rest.min_level == 0) rest.min_level.reset();
+  const std::string url = folder + "{z}/{x}/{-y}." + tms->extension + plain.substr(query);
+  Result<RemoteTileSet> set = template_tile_set(url, rest, true, where);
+  if (!set) return set;
+  set->level_names.resize(static_cast<std::size_t>(set->info.grid.max_level) + 1);
+  for (const auto& [level, name] : tms->folder) {
+    if (level <= set->info.grid.max_level) set->level_names[static_cast<std::size_t>(level)] = name;
+  }
+  return set;
+}
+
+}  // namespace terrella

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geo/result.h"
+#include "streaming/remote/remote_options.h"
+#include "streaming/remote/remote_tile_set.h"
+
+namespace terrella {
+
+/// The tiles beside a geodetic tilemapresource.xml that was fetched from `address`: {folder}/{x}/{y from the south}; a
+/// query of the address goes with each. Whether it has one root tile or two, gdal2tiles does not say: check_grid()
+/// finds out. The error begins with `where`. thread: any
+[[nodiscard]] Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& address,
+                                                     const RemoteOptions& options, const std::string& where);
+
+}  // namespace terrella
