@@ -159,7 +159,7 @@ TEST(Wmts, RefusesSetsThatNoRootSpanDescribes) {
   expect_refused(like({.corner = "west north"}), "TopLeftCorner");
   expect_refused(like({.denominator = -1.0}), "ScaleDenominator");
   expect_refused(like({.tile_px = 7}), "TileWidth");
-  expect_refused(like({.denominator = 100.0, .sizes = {{3600000, 1800000}}}), "root tiles");
+  expect_refused(like({.denominator = 1e6, .sizes = {{560, 280}}}), "root tiles");
 }
 
 TEST(Wmts, TakesTheFirstSetThatCanBeShown) {
