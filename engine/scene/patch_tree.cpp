@@ -93,31 +93,26 @@ BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const E
   return sphere;
 }
 
-// Around the corners' mean; the surface between them bulges by their distance squared over twice the radius of
-// curvature, which is at least b²/a.
-BoundingSphere sphere_around(const std::array<glm::dvec3, 4>& corners, const Ellipsoid& ellipsoid) {
-  BoundingSphere sphere{0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 0.0};
-  for (const glm::dvec3& p : corners) sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
-  sphere.radius_m += sphere.radius_m * sphere.radius_m * ellipsoid.a_m() / (2.0 * ellipsoid.b_m() * ellipsoid.b_m());
-  return sphere;
-}
-
-std::vector<BoundingSphere> spheres_of_parts(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
-  constexpr int kPoints = kCellParts + 1;
-  std::array<glm::dvec3, kPoints * kPoints> points{};
-  const auto at = [&points](int i, int j) -> glm::dvec3& { return points[static_cast<std::size_t>(j * kPoints + i)]; };
-  for (int j = 0; j < kPoints; ++j) {
-    for (int i = 0; i < kPoints; ++i) {
-      at(i, j) = extent_point(tree, node, cell.lon_deg(double(i) / kCellParts), cell.row_deg(double(j) / kCellParts));
+SurfaceLattice lattice_over(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
+  SurfaceLattice lattice;
+  for (int j = 0; j <= kLatticeQuads; ++j) {
+    for (int i = 0; i <= kLatticeQuads; ++i) {
+      lattice.points_m.push_back(
+          extent_point(tree, node, cell.lon_deg(double(i) / kLatticeQuads), cell.row_deg(double(j) / kLatticeQuads)));
     }
   }
-  std::vector<BoundingSphere> parts;
-  for (int j = 0; j < kCellParts; ++j) {
-    for (int i = 0; i < kCellParts; ++i) {
-      parts.push_back(sphere_around({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}, tree.ellipsoid()));
-    }
+  // Sagittas of a quad's sides: of a parallel by its own radius, of a meridian by the least radius of curvature, b²/a;
+  // a tenth more, as an arc of a few degrees is no parabola.
+  const Ellipsoid& e = tree.ellipsoid();
+  double parallel_m = 0.0, side_m = 0.0;
+  for (std::size_t k = 0; k < lattice.points_m.size(); ++k) {
+    const glm::dvec3& p = lattice.points_m[k];
+    parallel_m = std::max(parallel_m, std::hypot(p.x, p.y));
+    if (k > kLatticeQuads) side_m = std::max(side_m, glm::length(p - lattice.points_m[k - kLatticeQuads - 1]));
   }
-  return parts;
+  const double step_rad = (cell.east_deg - cell.west_deg) / kLatticeQuads * (std::numbers::pi / 180.0);
+  lattice.bulge_m = 1.1 / 8.0 * (parallel_m * step_rad * step_rad + side_m * side_m * e.a_m() / (e.b_m() * e.b_m()));
+  return lattice;
 }
 
 }  // namespace
@@ -193,10 +188,10 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
   return win;
 }
 
-const std::vector<BoundingSphere>& PatchTree::cell_parts(PatchNode& node, int x, int y) {
+const SurfaceLattice& PatchTree::cell_lattice(PatchNode& node, int x, int y) {
   CellExtent& cell = node.window.cells[static_cast<std::size_t>(y * node.window.w + x)];
-  if (cell.parts.empty()) cell.parts = spheres_of_parts(*this, node, cell_extent(*this, node, x, y));
-  return cell.parts;
+  if (cell.lattice.points_m.empty()) cell.lattice = lattice_over(*this, node, cell_extent(*this, node, x, y));
+  return cell.lattice;
 }
 
 }  // namespace terrella

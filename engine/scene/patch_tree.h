@@ -19,12 +19,18 @@ struct BoundingSphere {
   double radius_m = 0.0;
 };
 
+/// Points of a surface, ECEF metres, row-major, kLatticeQuads + 1 a side.
+struct SurfaceLattice {
+  std::vector<glm::dvec3> points_m;
+  double bulge_m = 0.0;  ///< the surface rises at most this far over a quad's corners
+};
+inline constexpr int kLatticeQuads = 4;
+
 /// What a cell of a window shares with its patch.
 struct CellExtent {
   BoundingSphere whole;
-  std::vector<BoundingSphere> parts;  ///< of kCellParts × kCellParts, empty until they are asked for
+  SurfaceLattice lattice;  ///< empty until it is asked for
 };
-inline constexpr int kCellParts = 8;
 
 /// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
 /// each cell of the window names one tile (DESIGN 5).
@@ -80,8 +86,8 @@ class PatchTree {
   void ensure_children(PatchNode& node);
   /// The node's window at a tile level; kept until another level is asked for.
   const TileWindow& window(PatchNode& node, int tile_level);
-  /// The parts of cell (x, y) of the node's window as it is, counted from its north-west corner.
-  const std::vector<BoundingSphere>& cell_parts(PatchNode& node, int x, int y);
+  /// Of cell (x, y) of the node's window as it is, counted from its north-west corner.
+  const SurfaceLattice& cell_lattice(PatchNode& node, int x, int y);
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }

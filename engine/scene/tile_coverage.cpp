@@ -4,9 +4,17 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
 
 namespace terrella {
 namespace {
+
+// A level is coarse enough if its texels are at most 2^0.02 pixels: a rounding of 1.4 % spares half of the borderline
+// tiles.
+constexpr double kLevelRounding = 0.02;
+// A cell larger than this part of its distance has pixels of too different size to be judged by its middle.
+constexpr double kLargeCell = 0.25;
 
 // Entries looked up in this frame. Cells side by side climb through the same ancestors, so a few remembered entries a
 // level save most walks through the hash table. Nothing is erased while a frame's cells are found.
@@ -51,21 +59,56 @@ class Coverer {
       : tree_(tree), view_(view), memo_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     axes_m_ = glm::dvec3(e.a_m(), e.a_m(), e.b_m());
-    eye_scaled_ = view.eye.xyz_m / axes_m_;
-    eye_scaled_length_ = glm::length(eye_scaled_);
-    seen_from_outside_ = glm::dot(eye_scaled_, eye_scaled_) > 1.0;
+    radians_per_pixel_ = 1.0 / view.pixels_per_radian();
+    texel0_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
+    const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m_;
+    eye_over_axes2_ = eye_scaled / axes_m_;
+    horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
+    if (glm::dot(eye_scaled, eye_scaled) <= 1.0) limits_ &= ~kHorizon;
   }
 
-  void cover(const SelectedPatch& patch) {
+  // First which tile each cell would take, then the tiles: a cell that could do with a coarser one takes the finer one
+  // where another cell asks for that anyhow.
+  void cover(const std::vector<SelectedPatch>& patches) {
+    for (const SelectedPatch& patch : patches) choose_levels(patch);
+    const Choice* choice = choices_.data();
+    for (const SelectedPatch& patch : patches) {
+      cover(patch, choice);
+      choice += patch.node->window.cells.size();
+    }
+  }
+
+ private:
+  /// What a cell would take by itself.
+  struct Choice {
+    TileResidency::Entry* entry = nullptr;  ///< none: the cell is out of view
+    int spare = 0;                          ///< levels coarser than the window
+  };
+
+  void choose_levels(const SelectedPatch& patch) {
     const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
-    out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
-    bool uncovered = false;
-    const std::int64_t last_x = columns(tree_.grid(), win.level) - 1, last_y = rows(tree_.grid(), win.level) - 1;
+    const double spare_texels = std::exp2(win.level - 1 + kLevelRounding);
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
-        const TileId id{win.level, std::clamp<std::int64_t>(win.x0 + x, 0, last_x),
-                        std::clamp<std::int64_t>(win.y0 + y, 0, last_y)};
-        const Found found = in_view(patch, x, y) ? find_seen(patch, id) : find_unseen(id);
+        Choice& choice = choices_.emplace_back();
+        if (!in_view(patch, x, y)) continue;
+        const double texels = texels_wanted(win.cells[index(win, x, y)].whole);
+        for (double most = spare_texels; texels <= most && choice.spare < win.level - tree_.grid().min_level;
+             most *= 0.5)
+          ++choice.spare;
+        choice.entry = &memo_.judged(tree_.grid(), ancestor(tile_of(win, x, y), choice.spare));
+        choice.entry->last_chosen = frame_;
+      }
+    }
+  }
+
+  void cover(const SelectedPatch& patch, const Choice* choice) {
+    const TileWindow& win = patch.node->window;
+    out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
+    bool uncovered = false;
+    for (int y = 0; y < win.h; ++y) {
+      for (int x = 0; x < win.w; ++x, ++choice) {
+        const Found found = find(patch, tile_of(win, x, y), *choice);
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up));
       }
@@ -73,7 +116,36 @@ class Coverer {
     if (uncovered) ++out_.uncovered;
   }
 
- private:
+  // Cells beyond the planet repeat its edge.
+  [[nodiscard]] TileId tile_of(const TileWindow& win, int x, int y) const {
+    return {win.level, std::min(win.x0 + x, columns(tree_.grid(), win.level) - 1),
+            std::min(win.y0 + y, rows(tree_.grid(), win.level) - 1)};
+  }
+
+  static TileId ancestor(TileId id, int levels_up) {
+    for (int k = 0; k < levels_up; ++k) id = parent(id);
+    return id;
+  }
+
+  // How many texels of level 0 a pixel in the middle of a cell asks for, both along the meridian and along the
+  // parallel. A patch has the level of its nearest part; a cell that asks for less takes a coarser one. Towards the
+  // poles, where tiles are thin and many, the texels may be somewhat larger than a pixel.
+  [[nodiscard]] double texels_wanted(const BoundingSphere& cell) const {
+    const glm::dvec3 to_eye = view_.eye.xyz_m - cell.center_m;
+    const glm::dvec3 normal = glm::normalize(cell.center_m / (axes_m_ * axes_m_));
+    const double distance_m = std::max(glm::length(to_eye), 1e-9);
+    if (cell.radius_m > kLargeCell * distance_m) return std::numeric_limits<double>::infinity();
+    const double up = std::clamp(glm::dot(to_eye, normal) / distance_m, 0.05, 1.0);
+    const double cos_lat2 = std::max(normal.x * normal.x + normal.y * normal.y, 1e-18);
+    const double east = (normal.x * to_eye.y - normal.y * to_eye.x) / distance_m;
+    const double sine2 = std::min(1.0, east * east / (cos_lat2 * std::max(1e-18, 1.0 - up * up)));
+    // A pixel on the ground is `across` wide and across/up long, its length at an angle to the meridian of which sine2
+    // is the sine squared; it resolves along an axis what the ellipse of its frequencies reaches there.
+    const double north2 = (1.0 - sine2) * up * up + sine2, parallel2 = sine2 * up * up + 1.0 - sine2;
+    const double most = std::sqrt(std::max(north2, cos_lat2 * parallel2));
+    return texel0_m_ * most / (distance_m * radians_per_pixel_);
+  }
+
   struct Found {
     int levels_up = 0;
     int slot = 0;
@@ -84,22 +156,40 @@ class Coverer {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(win.w) + static_cast<std::size_t>(x);
   }
 
-  // -1 out of view, 1 wholly in view, 0 perhaps in part.
-  [[nodiscard]] int visible(const BoundingSphere& sphere) const {
-    const int in_frame = classify(planes_, view_, sphere);
-    if (in_frame < 0 || !seen_from_outside_) return in_frame;
-    // Scaled by the shortest axis the sphere still holds what it held.
-    const double over = glm::dot(sphere.center_m / axes_m_, eye_scaled_) - 1.0;
-    const double reach = eye_scaled_length_ * sphere.radius_m / axes_m_.z;
-    return over < -reach ? -1 : over < reach ? 0 : in_frame;
+  // The limits of the view, a bit each: the four side planes and the horizon.
+  static constexpr unsigned kHorizon = 16U, kAllLimits = 31U;
+
+  // Of those, the ones that all of what is within `reach_m` of a point lies beyond, or some of it (reach negative).
+  [[nodiscard]] unsigned beyond(const glm::dvec3& p_m, double reach_m, unsigned limits) const {
+    unsigned sides = 0;
+    const glm::dvec3 from_eye = p_m - view_.eye.xyz_m;
+    for (std::size_t k = 0; k < planes_.normals.size(); ++k) {
+      if ((limits & 1U << k) != 0 && glm::dot(planes_.normals[k], from_eye) < -reach_m) sides |= 1U << k;
+    }
+    // Scaled by the shortest axis what is within reach still is.
+    if ((limits & kHorizon) != 0 && glm::dot(p_m, eye_over_axes2_) < 1.0 - reach_m * horizon_per_m_) sides |= kHorizon;
+    return sides;
   }
 
   [[nodiscard]] bool in_view(const SelectedPatch& patch, int x, int y) {
     if (!patch.cut_by_view) return true;
-    const int whole = visible(patch.node->window.cells[index(patch.node->window, x, y)].whole);
-    if (whole != 0) return whole > 0;
-    return std::ranges::any_of(tree_.cell_parts(*patch.node, x, y),
-                               [this](const BoundingSphere& part) { return visible(part) >= 0; });
+    const BoundingSphere& whole = patch.node->window.cells[index(patch.node->window, x, y)].whole;
+    const unsigned cut = beyond(whole.center_m, -whole.radius_m, limits_);
+    if (cut == 0 || beyond(whole.center_m, 0.0, cut) == 0) return true;
+    return beyond(whole.center_m, whole.radius_m, cut) == 0 && part_in_view(tree_.cell_lattice(*patch.node, x, y), cut);
+  }
+
+  // A quad is out of view if one limit has all its corners beyond it.
+  [[nodiscard]] bool part_in_view(const SurfaceLattice& lattice, unsigned limits) const {
+    constexpr int kSide = kLatticeQuads + 1;
+    std::array<unsigned, static_cast<std::size_t>(kSide * kSide)> sides{};
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      sides[k] = beyond(lattice.points_m[k], lattice.bulge_m, limits);
+      if (sides[k] == 0) return true;
+      const bool ends_a_quad = k > kSide && k % kSide != 0;
+      if (ends_a_quad && (sides[k] & sides[k - 1] & sides[k - kSide] & sides[k - kSide - 1]) == 0) return true;
+    }
+    return false;
   }
 
   // A cell out of view takes what is there; nobody asks for its tile or counts it.
@@ -111,25 +201,37 @@ class Coverer {
     }
   }
 
-  Found find_seen(const SelectedPatch& patch, TileId id) {
+  Found find(const SelectedPatch& patch, const TileId& id, const Choice& choice) {
+    if (choice.entry == nullptr) return find_unseen(id);
+    TileId finer = id;
+    for (int up = 0; up < choice.spare; ++up, finer = parent(finer)) {
+      TileResidency::Entry* entry = memo_.find(finer);
+      if (entry != nullptr && entry->last_chosen == frame_) return find_seen(patch, finer, up, entry);
+    }
+    return find_seen(patch, finer, choice.spare, choice.entry);
+  }
+
+  // From a tile, `up` levels coarser than the window, upwards.
+  Found find_seen(const SelectedPatch& patch, TileId id, int up, TileResidency::Entry* entry) {
     const TileGrid& grid = tree_.grid();
     bool counted = false;
     bool asked = false;  // one tile is asked for: the finest that can still come
-    for (int up = 0;; ++up, id = parent(id)) {
-      TileResidency::Entry& entry = memo_.judged(grid, id);
-      if (!counted && entry.state != TileState::outside) {
+    for (;; entry = &memo_.judged(grid, id)) {
+      if (!counted && entry->state != TileState::outside) {
         counted = true;
-        count(entry);
+        count(*entry);
       }
-      if (entry.state == TileState::resident) {
-        if (!asked) entry.last_needed = frame_;
-        return drawn(entry, up);
+      if (entry->state == TileState::resident) {
+        if (!asked) entry->last_needed = frame_;
+        return drawn(*entry, up);
       }
-      if (!asked && entry.state == TileState::unknown) {
+      if (!asked && entry->state == TileState::unknown) {
         asked = true;
-        want(patch, id, entry);
+        want(patch, id, *entry);
       }
       if (id.level <= grid.min_level) return {up, 0, true};
+      id = parent(id);
+      ++up;
     }
   }
 
@@ -177,9 +279,12 @@ class Coverer {
   TileCoverage& out_;
   ViewPlanes planes_;
   glm::dvec3 axes_m_{1.0};
-  glm::dvec3 eye_scaled_{0.0};
-  double eye_scaled_length_ = 0.0;
-  bool seen_from_outside_ = false;
+  glm::dvec3 eye_over_axes2_{0.0};
+  double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
+  unsigned limits_ = kAllLimits;
+  std::vector<Choice> choices_;  ///< of all cells in order
+  double radians_per_pixel_ = 0.0;
+  double texel0_m_ = 0.0;
 };
 
 }  // namespace
@@ -202,7 +307,7 @@ void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<Selec
   out.wanted.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
   Coverer coverer(tree, view, residency, frame, out);
-  for (const SelectedPatch& patch : patches) coverer.cover(patch);
+  coverer.cover(patches);
 }
 
 }  // namespace terrella

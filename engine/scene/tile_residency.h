@@ -26,6 +26,7 @@ class TileResidency {
     std::uint64_t last_drawn = 0;    ///< frame number, for eviction
     std::uint64_t last_needed = 0;   ///< frame number: drawn where nothing finer can still come, so not to be evicted
     std::uint64_t last_wanted = 0;   ///< frame number, so that a frame lists a tile once
+    std::uint64_t last_chosen = 0;   ///< frame number: what a cell would take by itself
     std::uint64_t last_counted = 0;  ///< frame number, so that a frame counts a tile once
   };
 

@@ -158,7 +158,7 @@ TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
 TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
   const TileGrid grid{.max_level = 10};
   PatchTree tree(earth().ellipsoid, grid, kSegments);
-  const View view = make_view(camera_at(0, 0, 1e7), tree.ellipsoid(), {512, 512});
+  const View view = make_view(camera_at(20, 30, 1e4), tree.ellipsoid(), {512, 512});
   const PatchId id = patch_beside(20, 30, 6);
   TileResidency residency;
   std::map<int, int> level_of_slot = {{0, -1}};
@@ -245,8 +245,24 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
   }
 }
 
+/// The largest texel, in degrees of latitude and of longitude, that still shows all that the picture resolves at a
+/// pixel: a picture's frequencies reach half a cycle a pixel in every direction; what they reach along north and east
+/// is a row's length of the inverse transposed derivative of the ground by the picture.
+std::optional<glm::dvec2> resolved_deg(const View& view, glm::dvec2 px) {
+  const auto at = [&](double dx, double dy) { return pick(view, earth().ellipsoid, px + glm::dvec2(dx, dy)); };
+  const auto west = at(-0.5, 0.0), east = at(0.5, 0.0), south = at(0.0, 0.5), north = at(0.0, -0.5);
+  if (!west || !east || !south || !north) return std::nullopt;
+  const auto step = [](const Geodetic& a, const Geodetic& b) {
+    return glm::dvec2(b.lat.deg() - a.lat.deg(), std::remainder(b.lon.deg() - a.lon.deg(), 360.0));
+  };
+  const glm::dmat2 ground_by_picture(step(*west, *east), step(*north, *south));
+  const glm::dmat2 inverse = glm::inverse(ground_by_picture);
+  return glm::dvec2(1.0 / glm::length(inverse[0]), 1.0 / glm::length(inverse[1]));
+}
+
 TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
   Draw draw(44);
+  int spared = 0;
   const TileGrid grid{.max_level = 14};
   PatchTree tree(earth().ellipsoid, grid, kSegments);
   for (int k = 0; k < 60; ++k) {
@@ -262,17 +278,30 @@ TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
     for (const SelectedPatch& p : patches) levels[p.node->id] = p.tile_level;
     const PatchSet leaves = ids_of(patches);
     for (int n = 0; n < 50; ++n) {
-      const auto hit = pick(view, earth().ellipsoid, {draw.between(0, 400), draw.between(0, 300)});
+      const glm::dvec2 px(draw.between(0, 400), draw.between(0, 300));
+      const auto hit = pick(view, earth().ellipsoid, px);
       if (!hit) continue;
       const EcefDir normal = Ellipsoid::normal(hit->lat, hit->lon);
       const auto leaf = leaf_over(leaves, patch_at(normal, kMaxPatchLevel));
       ASSERT_TRUE(leaf);
       const int level = levels.at(*leaf);
       const TileXY at = tile_xy(grid, level, hit->lat.deg(), hit->lon.deg());
-      const TileId id{level, static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y)};
-      EXPECT_TRUE(wanted.contains(id)) << hit->lat.deg() << ", " << hit->lon.deg() << " level " << level;
+      TileId id{level, static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y)};
+      while (!wanted.contains(id) && id.level > 0) id = parent(id);
+      ASSERT_TRUE(wanted.contains(id)) << hit->lat.deg() << ", " << hit->lon.deg() << " level " << level;
+      if (id.level == level) continue;
+      const auto resolved = resolved_deg(view, px);
+      if (!resolved) continue;
+      // 1.5 at a pole; times 2, as the middle of a cell speaks for its near side too.
+      constexpr double kMostTexels = 3.0;
+      const double texel_deg = tile_span_deg(grid, id.level) / grid.tile_px;
+      EXPECT_LE(texel_deg / std::min(resolved->x, resolved->y), kMostTexels)
+          << hit->lat.deg() << ", " << hit->lon.deg() << " level " << id.level << " of " << level << " eye h "
+          << earth().ellipsoid.to_geodetic(view.eye).height_m;
+      spared += 1;
     }
   }
+  EXPECT_GT(spared, 10) << "no cell ever took a coarser tile";
 }
 
 TEST(RootTiles, AreTheWholeCoarsestLevelWithinTheBounds) {
