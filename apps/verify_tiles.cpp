@@ -28,6 +28,7 @@ void add(const LoadedTile& tile, VerifyReport& report) {
       return;
     case Absence::broken:
     case Absence::failed:
+    case Absence::remote:
       break;
   }
   ++report.bad;

@@ -30,13 +30,21 @@ struct LoaderOptions {
 
 struct LoaderCounts {
   std::size_t waiting = 0;   ///< asked for, not started
-  std::size_t running = 0;   ///< in a worker's hands
+  std::size_t running = 0;   ///< in a worker's hands, or arrived and waiting for one
+  std::size_t fetching = 0;  ///< asked of the network
   std::size_t finished = 0;  ///< waiting to be polled
   std::size_t read = 0;      ///< tiles read since the start
   std::size_t lacked = 0;    ///< of those, without pixels
 };
 
-/// Reads and decodes tiles on worker threads. Two calls form the border: request() and poll().
+/// Reads, fetches and decodes tiles. Workers read and decode; what the source has to fetch waits with the network, not
+/// in a worker. Two calls form the border: request() and poll(). A tile is in one state at a time:
+///   waiting   it is wanted, and no worker has looked for it yet;
+///   running   a worker reads it from the source, or decodes it;
+///   fetching  the source does not have it here, and the network has been asked;
+///   arrived   the network has answered, and no worker has decoded it yet;
+///   finished  its texels, or the reason why there are none, wait to be polled.
+/// From waiting, fetching and arrived it is dropped when it is no longer wanted.
 class TileLoader {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});
@@ -57,7 +65,7 @@ class TileLoader {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;
 };
 
 }  // namespace terrella

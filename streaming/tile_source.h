@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ enum class Absence {
   blank,   ///< it is there and says "nothing here"
   broken,  ///< it is there and cannot be decoded
   failed,  ///< it could not be asked for now; may be asked again
+  remote,  ///< not here, but TileSource::remote() can fetch it; never the end of a tile's life
 };
 struct TileFailure {
   Absence kind = Absence::failed;
@@ -40,6 +42,19 @@ struct EncodedTile {
   std::vector<std::byte> bytes;
 };
 
+/// The far side of a source behind a network: what read() does not have here is fetched without blocking.
+/// thread: any for every call
+class RemoteTiles {
+ public:
+  using Done = std::function<void(Result<EncodedTile, TileFailure>)>;
+  virtual ~RemoteTiles() = default;
+  /// Asks for one tile that is not under way already. `done` is called once, on the network's thread, and must be
+  /// quick; never after cancel() has returned, unless it runs at that moment.
+  virtual void fetch(const TileId& id, double priority, Done done) = 0;
+  virtual void set_priority(const TileId& id, double priority) = 0;  ///< larger first
+  virtual void cancel(const TileId& id) = 0;
+};
+
 /// A set of tiles that can be read one by one.
 /// thread: info() any; read() worker, several at once.
 class TileSource {
@@ -48,6 +63,9 @@ class TileSource {
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
   /// Reads one tile. Outside the grid, the levels or the bounds: absent.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
+  /// Nothing for a source that has all of its tiles at hand; else where to fetch what read() answers `remote` for.
+  /// Lives as long as the source.
+  [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }
   /// Tiles that are there at a level, if that can be counted without asking for each. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

@@ -31,6 +31,7 @@ HttpReply answer_of(Result<EncodedTile, TileFailure>&& tile, std::uint64_t numbe
       reply.outcome = HttpOutcome::refused;
       break;
     case Absence::failed:
+    case Absence::remote:
       reply.outcome = HttpOutcome::failed;
       break;
   }
