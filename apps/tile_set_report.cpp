@@ -35,6 +35,11 @@ std::string rows_text(const TileGrid& grid) {
       grid.latitude == LatitudeKind::centric ? "planetocentric" : "planetographic");
 }
 
+std::string elevation_text(const ElevationInfo& elevation) {
+  const std::string nodata = elevation.nodata ? fmt::format(", {} says that there is none", *elevation.nodata) : "";
+  return fmt::format("elevation    metres = number * {:.9g} + {:.9g}{}\n", elevation.scale, elevation.offset, nodata);
+}
+
 std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : text; }
 
 std::string verify_text(const VerifyReport& verified) {
@@ -74,6 +79,7 @@ std::string to_text(const TileSetReport& report) {
   text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", grid.bounds.west.deg(),
                       grid.bounds.south.deg(), grid.bounds.east.deg(), grid.bounds.north.deg());
   text += fmt::format("format       {}\n", format_name(report.info.format));
+  if (report.info.elevation) text += elevation_text(*report.info.elevation);
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {
     const std::string tiles = level.tiles ? fmt::format("{} of ", *level.tiles) : "";

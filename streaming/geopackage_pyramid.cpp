@@ -86,15 +86,16 @@ Error no_tiles(SqliteReader& reader, const std::string& where) {
   return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
 }
 
-/// The first tile table that can be used: any if `any_srs`, else one in EPSG:4326.
+/// The first tile table that can be used: any if `any_srs` (one of ours, which may hold heights), else pictures in
+/// EPSG:4326.
 Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
       "m.min_y, "
       "m.max_x, m.max_y FROM gpkg_contents c JOIN gpkg_tile_matrix_set m ON m.table_name = c.table_name WHERE "
-      "c.data_type = "
-      "'tiles'");
+      "c.data_type = 'tiles' OR (?1 AND c.data_type = '2d-gridded-coverage')");
   if (!query) return Error{fmt::format("{}: not a GeoPackage with tiles: {}", where, query.error().message)};
+  query->bind(1, any_srs ? 1 : 0);
   std::optional<Error> refused;
   for (int i = 0; i < kMaxTables; ++i) {
     const Result<bool, SqlError> more = query->step();

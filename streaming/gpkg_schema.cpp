@@ -28,6 +28,28 @@ constexpr const char* kTables[] = {
     "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))",
 };
 
+/// The extension's tables, OGC 17-066r1, tables 1 to 3.
+constexpr const char* kCoverageTables[] = {
+    "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
+    "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))",
+    "CREATE TABLE gpkg_2d_gridded_coverage_ancillary (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
+    "tile_matrix_set_name TEXT NOT NULL UNIQUE, datatype TEXT NOT NULL DEFAULT 'integer', scale REAL NOT NULL DEFAULT 1.0, "
+    "offset REAL NOT NULL DEFAULT 0.0, precision REAL DEFAULT 1.0, data_null REAL, "
+    "grid_cell_encoding TEXT DEFAULT 'grid-value-is-center', uom TEXT, field_name TEXT DEFAULT 'Height', "
+    "quantity_definition TEXT DEFAULT 'Height', "
+    "CONSTRAINT fk_g2dgtct_name FOREIGN KEY (tile_matrix_set_name) REFERENCES gpkg_tile_matrix_set(table_name), "
+    "CHECK (datatype IN ('integer', 'float')))",
+    "CREATE TABLE gpkg_2d_gridded_tile_ancillary (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, tpudt_name TEXT NOT NULL, "
+    "tpudt_id INTEGER NOT NULL, scale REAL NOT NULL DEFAULT 1.0, offset REAL NOT NULL DEFAULT 0.0, min REAL DEFAULT NULL, "
+    "max REAL DEFAULT NULL, mean REAL DEFAULT NULL, std_dev REAL DEFAULT NULL, "
+    "CONSTRAINT fk_g2dgtat_name FOREIGN KEY (tpudt_name) REFERENCES gpkg_contents(table_name), UNIQUE (tpudt_name, tpudt_id))",
+};
+
+constexpr const char* kCoverageExtension =
+    "INSERT INTO gpkg_extensions SELECT column1, column2, 'gpkg_2d_gridded_coverage', "
+    "'http://docs.opengeospatial.org/is/17-066r1/17-066r1.html', 'read-write' FROM (VALUES "
+    "('gpkg_2d_gridded_coverage_ancillary', NULL), ('gpkg_2d_gridded_tile_ancillary', NULL), ('tiles', 'tile_data'))";
+
 constexpr const char* kReferenceSystems =
     "INSERT INTO gpkg_spatial_ref_sys VALUES "
     "('Undefined cartesian SRS', -1, 'NONE', -1, 'undefined', 'undefined cartesian coordinate reference system'), "
@@ -53,9 +75,34 @@ SqlStatement tile_matrix(const TileGrid& grid, int level) {
                       pixel_deg}};
 }
 
+SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
+  const GeoRect& bounds = info.grid.bounds;
+  const bool crosses = bounds.east < bounds.west;
+  return {.sql =
+              "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
+              "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
+              "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, 4326)",
+          .texts = {info.elevation ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
+                    info.attribution, last_change},
+          .numbers = {crosses ? -180.0 : tidy_degrees(bounds.west), tidy_degrees(bounds.south),
+                      crosses ? 180.0 : tidy_degrees(bounds.east), tidy_degrees(bounds.north)}};
+}
+
+void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {
+  for (const char* table : kCoverageTables) all.push_back({table, {}});
+  all.push_back({kCoverageExtension, {}});
+  std::vector<double> numbers = {elevation.scale, elevation.offset};
+  if (elevation.nodata) numbers.push_back(*elevation.nodata);
+  all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
+                             "offset, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, ") +
+                     (elevation.nodata ? "?3" : "NULL") + ", 'm')",
+                 {},
+                 std::move(numbers)});
+}
+
 }  // namespace
 
-std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info) {
+std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change) {
   const TileGrid& grid = info.grid;
   std::vector<SqlStatement> all;
   // 'GPKG', and version 1.3.0.
@@ -63,12 +110,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info) {
   all.push_back({"PRAGMA user_version = 10300", {}});
   for (const char* table : kTables) all.push_back({table, {}});
   all.push_back({kReferenceSystems, {}});
-  all.push_back(
-      {"INSERT INTO gpkg_contents (table_name, data_type, identifier, description, min_x, min_y, max_x, max_y, "
-       "srs_id) VALUES ('tiles', 'tiles', ?1, ?2, ?3, ?4, ?5, ?6, 4326)",
-       {info.name.empty() ? "tiles" : info.name, info.attribution},
-       {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
-        tidy_degrees(grid.bounds.north)}});
+  all.push_back(contents(info, last_change));
   all.push_back({"INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', 4326, -180, ?1, ?2, 90)",
                  {},
                  {90.0 - static_cast<double>(rows(grid, 0)) * grid.root_span_deg,
@@ -77,6 +119,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info) {
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
   all.push_back(
       {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});
+  if (info.elevation) describe_heights(*info.elevation, all);
   return all;
 }
 

@@ -17,7 +17,8 @@ struct SqlStatement {
 /// What makes an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the set, and with
 /// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own.
 /// The tile matrix set's extent is matrix size × tile size × pixel size at every level, so it can reach beyond the
-/// planet; what there is stands in gpkg_contents.
-[[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info);
+/// planet; what there is stands in gpkg_contents, with all longitudes if it crosses ±180°, as an extent cannot.
+/// Heights make it a tiled gridded coverage (OGC 17-066r1). `last_change` goes to gpkg_contents; empty: now.
+[[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change = {});
 
 }  // namespace terrella

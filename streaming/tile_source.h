@@ -15,6 +15,14 @@
 
 namespace terrella {
 
+/// What the whole numbers of 16-bit tiles mean.
+struct ElevationInfo {
+  double scale = 1.0;         ///< metres = number · scale + offset; not 0
+  double offset = 0.0;        ///< metres
+  std::optional<int> nodata;  ///< the number that says that there is no height, [0, 65535]
+  bool operator==(const ElevationInfo&) const = default;
+};
+
 /// What a tile set says of itself; `cut` writes it, `info` prints it.
 struct TileSetInfo {
   std::string name;
@@ -22,6 +30,7 @@ struct TileSetInfo {
   std::string body;  ///< preset name or "A,F"; empty: not said
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
+  std::optional<ElevationInfo> elevation = {};  ///< the tiles are heights, 16-bit gray PNG; none: pictures
 };
 
 /// Why a tile is not there (DESIGN 11). Each kind has its own lifetime.

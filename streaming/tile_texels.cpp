@@ -10,25 +10,45 @@ namespace {
 
 constexpr std::size_t kChannels = 4;
 
-/// Sums of 4^k texels a channel. Sixteen bits hold 4^4 texels of 255, which is why kMaxMips is 5.
+/// Sums of 4^k texels a channel, of an opaque tile. Sixteen bits hold 4^4 texels of 255, which is why kMaxMips is 5.
 using Sums = std::vector<std::uint16_t>;
 static_assert((1U << (2 * (kMaxMips - 1))) * 255U <= 0xFFFFU);
+/// The same of a tile with transparency: colour times alpha, and alpha.
+using WeighedSums = std::vector<std::uint32_t>;
+static_assert((1ULL << (2 * (kMaxMips - 1))) * 255U * 255U * 2U <= 0xFFFFFFFFU);
 
-template <class T>
-Sums halve(const T* from, std::size_t from_side, std::size_t to_side) {
-  Sums to(to_side * to_side * kChannels);
+template <class Sum, class T>
+std::vector<Sum> halve(const T* from, std::size_t from_side, std::size_t to_side) {
+  std::vector<Sum> to(to_side * to_side * kChannels);
   for (std::size_t row = 0; row < to_side; ++row) {
     const T* upper = from + 2 * row * from_side * kChannels;
     const T* lower = upper + from_side * kChannels;
-    std::uint16_t* out = to.data() + row * to_side * kChannels;
+    Sum* out = to.data() + row * to_side * kChannels;
     for (std::size_t column = 0; column < to_side;
          ++column, upper += 2 * kChannels, lower += 2 * kChannels, out += kChannels) {
       for (std::size_t c = 0; c < kChannels; ++c) {
-        out[c] = static_cast<std::uint16_t>(upper[c] + upper[c + kChannels] + lower[c] + lower[c + kChannels]);
+        out[c] = static_cast<Sum>(upper[c] + upper[c + kChannels] + lower[c] + lower[c + kChannels]);
       }
     }
   }
   return to;
+}
+
+bool is_opaque(const Image& tile) {
+  for (std::size_t i = 3; i < tile.rgba.size(); i += kChannels) {
+    if (tile.rgba[i] != 255) return false;
+  }
+  return true;
+}
+
+WeighedSums weighed_by_alpha(const Image& tile) {
+  WeighedSums weighed(tile.rgba.size());
+  for (std::size_t i = 0; i < weighed.size(); i += kChannels) {
+    const std::uint32_t alpha = tile.rgba[i + 3];
+    for (std::size_t c = 0; c < 3; ++c) weighed[i + c] = tile.rgba[i + c] * alpha;
+    weighed[i + 3] = alpha;
+  }
+  return weighed;
 }
 
 void fill_side(std::uint8_t* first, const std::uint8_t* texel, std::size_t count) {
@@ -71,6 +91,31 @@ std::vector<std::uint8_t> mean_mip(const Sums& sums, std::size_t side, std::size
   });
 }
 
+std::vector<std::uint8_t> mean_mip(const WeighedSums& sums, std::size_t side, std::size_t border, int mip) {
+  const int shift = 2 * mip;
+  return with_border(side, border, [&](std::size_t row, std::uint8_t* target) {
+    const std::uint32_t* from = sums.data() + row * side * kChannels;
+    for (std::size_t i = 0; i < side * kChannels; i += kChannels) {
+      const std::uint32_t alpha = from[i + 3];
+      for (std::size_t c = 0; c < 3; ++c) {
+        target[i + c] =
+            alpha == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>((2 * from[i + c] + alpha) / (2 * alpha));
+      }
+      target[i + 3] = static_cast<std::uint8_t>((alpha + (1U << (shift - 1))) >> shift);
+    }
+  });
+}
+
+template <class AllSums, class T>
+void append_means(const T* finest, std::size_t side, int mips, TileTexels& texels) {
+  AllSums sums;
+  for (int mip = 1; mip < mips; ++mip) {
+    using Sum = typename AllSums::value_type;
+    sums = mip == 1 ? halve<Sum>(finest, side, side >> mip) : halve<Sum>(sums.data(), side >> (mip - 1), side >> mip);
+    texels.mips.push_back(mean_mip(sums, side >> mip, static_cast<std::size_t>(texels.gutter >> mip), mip));
+  }
+}
+
 }  // namespace
 
 std::size_t size_bytes(const TileTexels& texels) {
@@ -89,11 +134,10 @@ Result<TileTexels, TileFailure> make_texels(const Image& tile, int tile_px, int 
   assert(tile.rgba.size() == side * side * kChannels);
   TileTexels texels{.tile_px = tile_px, .gutter = gutter, .mips = {}};
   texels.mips.push_back(finest_mip(tile, side, static_cast<std::size_t>(gutter)));
-  Sums sums;
-  for (int mip = 1; mip < mips; ++mip) {
-    const std::size_t mip_side = side >> mip;
-    sums = mip == 1 ? halve(tile.rgba.data(), side, mip_side) : halve(sums.data(), side >> (mip - 1), mip_side);
-    texels.mips.push_back(mean_mip(sums, mip_side, static_cast<std::size_t>(gutter >> mip), mip));
+  if (is_opaque(tile)) {
+    append_means<Sums>(tile.rgba.data(), side, mips, texels);
+  } else {
+    append_means<WeighedSums>(weighed_by_alpha(tile).data(), side, mips, texels);
   }
   return texels;
 }

@@ -23,7 +23,8 @@ struct TileTexels {
 }
 [[nodiscard]] std::size_t size_bytes(const TileTexels& texels);
 
-/// Mip k is the mean of 2^k × 2^k texels of the tile, each channel as stored, rounded once to nearest (halves up).
+/// Mip k is the mean of 2^k × 2^k texels of the tile, colours weighed by alpha (what is invisible does not tint what is
+/// not; no colour where all alpha is 0), each channel rounded once to nearest (halves up).
 /// Where tile_px is no multiple of 2^k the last column and row are left out of the mean. `mips` counts mip 0 too: [1,
 /// kMaxMips]; gutter ≥ 0; tile_px ≥ 2^(mips - 1). A tile of another size than tile_px is broken, and the reason names
 /// both sizes. thread: any

@@ -21,6 +21,21 @@ double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11;
 
 const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
 
+std::optional<ElevationInfo> read_elevation(const json& object, JsonFields& fields, const std::string& where) {
+  if (!fields.has("elevation")) return {};
+  const json& value = object["elevation"];
+  if (!value.is_object()) return fields.fail<std::optional<ElevationInfo>>("elevation", "must be an object");
+  JsonFields inner(value, where);
+  ElevationInfo info{.scale = inner.number("scale"), .offset = inner.number("offset"), .nodata = {}};
+  if (inner.has("nodata")) info.nodata = inner.integer("nodata", 0);
+  if (inner.error())
+    return fields.fail<std::optional<ElevationInfo>>("elevation", "takes the numbers scale, offset, nodata");
+  if (info.scale == 0.0) return fields.fail<std::optional<ElevationInfo>>("elevation", "has a scale of 0");
+  const int nodata = info.nodata.value_or(0);
+  if (nodata < 0 || nodata > 65535) fields.fail<int>("elevation", "has a nodata beyond 0 to 65535");
+  return info;
+}
+
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   JsonFields fields(object, where);
   TileSetInfo info;
@@ -42,6 +57,10 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
   info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  info.elevation = read_elevation(object, fields, where);
+  if (info.elevation && info.format != ImageFormat::png) {
+    fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
+  }
   if (fields.error()) return *fields.error();
   if (Status grid = check_grid(info.grid, where); !grid) return grid.error();
   if (!info.body.empty()) {
@@ -69,6 +88,10 @@ std::string to_tileset_json(const TileSetInfo& info) {
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
   object["format"] = name_of(info.format);
+  if (info.elevation) {
+    object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
+    if (info.elevation->nodata) object["elevation"]["nodata"] = *info.elevation->nodata;
+  }
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -3,98 +3,147 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <new>
 #include <thread>
 
+#include "streaming/cut/bands.h"
+#include "streaming/cut/cut_input.h"
+#include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
-#include "streaming/cut/encode_pool.h"
-#include "streaming/cut/pyramid.h"
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/shards.h"
 #include "streaming/cut/tile_writer.h"
+#include "streaming/cut/work_folder.h"
 
 namespace terrella {
 namespace {
 
-/// Strips that wait for an encoder while the next ones are filled.
-constexpr std::size_t kStripsAhead = 2;
-/// Small pictures may run further ahead, bytes.
-constexpr std::size_t kAlwaysAllowedBytes = 48UL << 20;
-constexpr std::int64_t kRowsPerProgress = 16;
+namespace fs = std::filesystem;
 
 int encoder_count(int jobs) {
   if (jobs > 0) return jobs;
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
 }
 
-TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const PictureInfo& picture) {
+PixelKind pixel_kind(const CutInput& input) {
+  if (input.elevation) return PixelKind::height;
+  return input.rows->info().has_alpha ? PixelKind::alpha : PixelKind::opaque;
+}
+
+std::optional<std::uint16_t> nodata_of(const CutInput& input) {
+  if (!input.elevation || !input.elevation->nodata) return {};
+  return static_cast<std::uint16_t>(*input.elevation->nodata);
+}
+
+TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
+  const bool needs_png = input.rows->info().has_alpha || input.elevation;
   return {.name = options.name.empty() ? options.images.front().stem().string() : options.name,
           .attribution = options.attribution,
           .body = options.body,
           .grid = plan.grid,
-          .format = options.format.value_or(picture.has_alpha ? ImageFormat::png : ImageFormat::jpeg)};
+          .format = options.format.value_or(needs_png ? ImageFormat::png : ImageFormat::jpeg),
+          .elevation = input.elevation};
 }
 
-/// Reads the picture's rows into the pyramid, until the end, a failure, or a wish to stop.
-Status stream_rows(RowReader& reader, const CutPlan& plan, Pyramid& pyramid, const EncodePool& pool,
-                   const CutOptions& options) {
-  const std::int64_t total = plan.finest.y1 - plan.finest.y0;
-  std::vector<std::uint8_t> last_row;
-  for (std::int64_t y = 0; y < total; ++y) {
-    const std::span<std::uint8_t> row = pyramid.next_row();
-    if (y < plan.picture_rows) {
-      if (Status read = reader.read_row(row); !read) return read;
-      if (y + 1 == plan.picture_rows && y + 1 < total) last_row.assign(row.begin(), row.end());
-    } else {
-      std::memcpy(row.data(), last_row.data(), row.size());
-    }
-    pyramid.row_written();
-    if ((y + 1) % kRowsPerProgress != 0 && y + 1 != total) continue;
-    if (pool.failed()) return Done{};
-    if (options.progress && !options.progress(y + 1, total)) {
-      return Error{fmt::format("{}: cutting was stopped", options.images.front().string())};
-    }
+/// One call of cut(), its pictures opened and its output checked.
+struct Job {
+  const CutOptions& options;
+  fs::path output;
+  CutInput input;
+  CutPlan plan;
+  TileSetInfo info;
+  std::string key;
+
+  [[nodiscard]] BandWork work() const {
+    return {.plan = plan,
+            .pieces = pieces_of(plan),
+            .layout = bands_of(plan),
+            .pixels = pixel_kind(input),
+            .nodata = nodata_of(input),
+            .coding = {.format = info.format, .quality = options.quality, .heights = input.elevation.has_value()},
+            .jobs = encoder_count(options.jobs),
+            .output = output,
+            .progress = options.progress};
   }
-  return Done{};
-}
+};
 
-Result<CutSummary> cut_rows(RowReader& reader, const CutPlan& plan, const CutOptions& options) {
-  const TileSetInfo info = describe(options, plan, reader.info());
-  auto writer = make_tile_writer(options.output, info);
+Result<CutSummary> join(const Job& job, const std::vector<fs::path>& bands, const WorkFolder& folder) {
+  auto writer = make_tile_writer({.output = job.output,
+                                  .part = folder / "output",
+                                  .info = job.info,
+                                  .last_change = last_change_of(job.options.images)});
   if (!writer) return writer.error();
-  StripPool strips(Pyramid::strip_bytes(plan) +
-                   std::max(kAlwaysAllowedBytes, kStripsAhead * Pyramid::finest_strip_bytes(plan)));
-  TileCounts counts;
-  {
-    EncodePool pool(encoder_count(options.jobs), info.format, options.quality, **writer);
-    Pyramid pyramid(plan, reader.info().has_alpha, strips,
-                    [&](const std::shared_ptr<const Strip>& strip) { pool.submit(strip); });
-    if (Status streamed = stream_rows(reader, plan, pyramid, pool, options); !streamed) return streamed.error();
-    const auto finished = pool.finish();
-    if (!finished) return finished.error();
-    counts = *finished;
-  }
+  const auto counts = join_bands(job.work(), bands, **writer);
+  if (!counts) return counts.error();
   if (Status named = (*writer)->finish(); !named) return named.error();
-  return CutSummary{.grid = plan.grid, .tiles = counts.tiles, .bytes = counts.bytes};
+  return CutSummary{.grid = job.plan.grid, .tiles = counts->tiles, .bytes = counts->bytes};
+}
+
+Result<CutSummary> cut_whole(const Job& job) {
+  const auto folder = WorkFolder::beside(job.output, job.key);
+  if (!folder) return folder.error();
+  const BandWork work = job.work();
+  if (Status made = make_bands(work, *job.input.rows, 0, work.layout.count, *folder); !made) return made.error();
+  std::vector<fs::path> bands;
+  for (std::int64_t band = 0; band < work.layout.count; ++band) bands.push_back(*folder / band_name(band));
+  return join(job, bands, *folder);
+}
+
+Result<CutSummary> cut_shard(const Job& job) {
+  const BandWork work = job.work();
+  const BandRange mine = bands_of_shard(*job.options.shard, work.layout.count);
+  auto folder = WorkFolder::named(shard_folder(job.output, *job.options.shard), job.key);
+  if (!folder) return folder.error();
+  if (Status made = make_bands(work, *job.input.rows, mine.begin, mine.end, *folder); !made) return made.error();
+  const auto counts = count_bands(*folder, mine);
+  if (!counts) return counts.error();
+  return CutSummary{.grid = job.plan.grid, .tiles = counts->tiles, .bytes = counts->bytes};
+}
+
+Result<CutSummary> join_shards(const Job& job) {
+  const auto shards = find_shards(job.output, job.key, bands_of(job.plan).count);
+  if (!shards) return shards.error();
+  const auto folder = WorkFolder::beside(job.output, job.key);
+  if (!folder) return folder.error();
+  auto summary = join(job, shards->bands, *folder);
+  if (!summary) return summary;
+  for (const fs::path& done : shards->folders) {
+    std::error_code ignored;
+    fs::remove_all(done, ignored);
+  }
+  return summary;
+}
+
+fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
+
+Result<Job> prepare(const CutOptions& options) {
+  if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG or TIFF file"};
+  if (Status sane = check_shard(options); !sane) return sane.error();
+  const fs::path output = without_trailing_slash(options.output);
+  auto input = open_input(options);
+  if (!input) return input.error();
+  CutOptions placed = options;
+  if (!placed.bounds) placed.bounds = input->bounds;
+  const auto plan = plan_cut(input->rows->info(), placed);
+  if (!plan) return plan.error();
+  if (Status may = check_output(output); !may) return may.error();
+  const auto key = cut_key(placed);
+  if (!key) return key.error();
+  input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
+  TileSetInfo info = describe(options, *plan, *input);
+  return Job{options, output, *std::move(input), *plan, std::move(info), *key};
 }
 
 }  // namespace
 
 Result<CutSummary> cut(const CutOptions& options) {
-  if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG or TIFF file"};
-  if (options.images.size() > 1) {
-    return Error{fmt::format("{}: only one picture can be cut at a time; cut each into its own output",
-                             options.images[1].string())};
-  }
-  auto reader = open_rows(options.images.front());
-  if (!reader) return reader.error();
-  const auto plan = plan_cut((*reader)->info(), options);
-  if (!plan) return plan.error();
+  const auto job = prepare(options);
+  if (!job) return job.error();
   try {
-    return cut_rows(**reader, *plan, options);
+    if (options.shard) return cut_shard(*job);
+    return options.join ? join_shards(*job) : cut_whole(*job);
   } catch (const std::bad_alloc&) {
     return Error{fmt::format("{}: not enough memory to cut a picture {} pixels wide; give a smaller --tile-size",
-                             options.images.front().string(), (*reader)->info().width_px)};
+                             options.images.front().string(), job->input.rows->info().width_px)};
   }
 }
 

@@ -1,19 +1,15 @@
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <cerrno>
-#include <cstring>
 #include <string_view>
 
 #include "streaming/cut.h"
+#include "streaming/cut/cut_key.h"
 
 namespace terrella {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Part of every name: a change of what the cutter makes makes old files unknown.
-constexpr int kCacheVersion = 1;
 constexpr std::size_t kMaxStemBytes = 80;
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo): names need no more than to differ.
@@ -23,26 +19,14 @@ std::uint64_t hash_of(std::string_view text) {
   return hash;
 }
 
-std::string options_text(const CutOptions& options) {
-  const GeoRect bounds = options.bounds.value_or(GeoRect{});
-  return fmt::format("{}|{}|{}|{}|{:a},{:a},{:a},{:a}|{}|{}|{}|{}|{}", options.tile_px, options.quality,
-                     options.format ? static_cast<int>(*options.format) : -1, options.bounds.has_value(),
-                     bounds.west.rad(), bounds.south.rad(), bounds.east.rad(), bounds.north.rad(),
-                     static_cast<int>(options.projection), static_cast<int>(options.latitude), options.name,
-                     options.attribution, options.body);
-}
-
 Result<std::string> cache_name(const CutOptions& options) {
   const fs::path& image = options.images.front();
-  struct stat found {};
-  if (stat(image.c_str(), &found) != 0) {
-    return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
-  }
+  const auto of_picture = cut_key(options);
+  if (!of_picture) return of_picture.error();
   std::error_code failed;
   const fs::path canonical = fs::canonical(image, failed);
   if (failed) return Error{fmt::format("{}: cannot be opened: {}", image.string(), failed.message())};
-  const std::string key = fmt::format("{}|{}|{}|{}.{}|{}", kCacheVersion, canonical.string(), found.st_size,
-                                      found.st_mtim.tv_sec, found.st_mtim.tv_nsec, options_text(options));
+  const std::string key = canonical.string() + "|" + *of_picture;
   return fmt::format("{}-{:016x}.gpkg", image.stem().string().substr(0, kMaxStemBytes), hash_of(key));
 }
 

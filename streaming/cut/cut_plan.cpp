@@ -69,18 +69,20 @@ struct Degrees {
   double west, south, east, north;
 };
 
-/// Rounds away what the way through radians has left.
+/// Rounds away what the way through radians has left. East of a picture that crosses ±180° is beyond 180°.
 Degrees in_degrees(const GeoRect& rect) {
   const auto tidy = [](Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; };
-  return {.west = tidy(rect.west), .south = tidy(rect.south), .east = tidy(rect.east), .north = tidy(rect.north)};
+  const double turn = rect.east < rect.west ? 360.0 : 0.0;
+  return {
+      .west = tidy(rect.west), .south = tidy(rect.south), .east = tidy(rect.east) + turn, .north = tidy(rect.north)};
 }
 
 Status check_bounds(const Degrees& b, const std::string& name) {
-  const bool on_planet = b.west >= -180.0 && b.east <= 180.0 && b.south >= -90.0 && b.north <= 90.0;
-  if (on_planet && b.west < b.east && b.south < b.north) return Done{};
+  const bool on_planet = std::abs(b.west) <= 180.0 && b.east <= b.west + 360.0 && b.south >= -90.0 && b.north <= 90.0;
+  if (on_planet && b.west < b.east && b.south < b.north && b.east < 540.0) return Done{};
   return Error{
-      fmt::format("{}: bounds {},{},{},{}: it takes WEST < EAST in [-180, 180] and SOUTH < NORTH in [-90, 90]; cut a "
-                  "picture that crosses 180 degrees as two",
+      fmt::format("{}: bounds {},{},{},{}: it takes WEST and EAST in [-180, 180] (WEST > EAST crosses 180 degrees) and "
+                  "SOUTH < NORTH in [-90, 90]",
                   name, b.west, b.south, b.east, b.north)};
 }
 
@@ -107,6 +109,33 @@ Status check_alignment(const Degrees& b, const PixelRect& rect, double pixel_deg
                   name, x_off, y_off, nearest_bounds(rect, pixel_deg))};
 }
 
+/// A picture that crosses ±180° goes on at column 0 there, and no tile may be reached from both sides.
+Status check_crossing(CutPlan& plan, const std::string& name) {
+  const double turn = 360.0 / plan.pixel_deg;
+  plan.turn_px = std::llround(turn);
+  if (std::abs(turn - static_cast<double>(plan.turn_px)) > kAlignment_px) {
+    return Error{
+        fmt::format("{}: its pixels of {:.9g} degrees are no whole part of 360, so they do not go on beyond 180 "
+                    "degrees; resample it, or cut it as two",
+                    name, plan.pixel_deg)};
+  }
+  const auto root_column = [&](std::int64_t x) { return (x >> plan.grid.max_level) / plan.grid.tile_px; };
+  if (root_column(plan.finest.x1 - plan.turn_px - 1) < root_column(plan.finest.x0)) return Done{};
+  return Error{
+      fmt::format("{}: it crosses 180 degrees and reaches into the same tile from both sides; give a smaller "
+                  "--tile-size, or cut it as two",
+                  name)};
+}
+
+GeoRect covered_by(const CutPlan& plan) {
+  const auto lon = [&](std::int64_t x) { return -180.0 + static_cast<double>(x) * plan.pixel_deg; };
+  const auto lat = [&](std::int64_t y) { return 90.0 - static_cast<double>(y) * plan.pixel_deg; };
+  return {.west = Angle::degrees(lon(plan.finest.x0)),
+          .south = Angle::degrees(std::max(-90.0, lat(plan.finest.y1))),
+          .east = Angle::degrees(std::min(180.0, lon(plan.finest.x1 - plan.turn_px))),
+          .north = Angle::degrees(lat(plan.finest.y0))};
+}
+
 Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& options) {
   const std::string name = name_of(options);
   const Degrees b = in_degrees(*options.bounds);
@@ -131,11 +160,13 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   plan.picture_rows = picture.height_px;
   plan.wraps = plan.finest.x0 == 0 && b.east == 180.0;
   if (Status aligned = check_alignment(b, plan.finest, pixel_deg, name); !aligned) return aligned.error();
-  plan.grid.bounds = {.west = Angle::degrees(-180.0 + static_cast<double>(plan.finest.x0) * pixel_deg),
-                      .south = Angle::degrees(std::max(-90.0, 90.0 - static_cast<double>(plan.finest.y1) * pixel_deg)),
-                      .east = Angle::degrees(std::min(180.0, -180.0 + static_cast<double>(plan.finest.x1) * pixel_deg)),
-                      .north = Angle::degrees(90.0 - static_cast<double>(plan.finest.y0) * pixel_deg)};
-  return with_grid(plan, options);
+  auto made = with_grid(plan, options);
+  if (!made) return made;
+  if (b.east > 180.0) {
+    if (Status crosses = check_crossing(*made, name); !crosses) return crosses.error();
+  }
+  made->grid.bounds = covered_by(*made);
+  return made;
 }
 
 }  // namespace
@@ -143,6 +174,16 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
 Result<CutPlan> plan_cut(const PictureInfo& picture, const CutOptions& options) {
   if (Status sane = check_options(options); !sane) return sane.error();
   return options.bounds ? plan_region(picture, options) : plan_planet(picture, options);
+}
+
+std::vector<CutPiece> pieces_of(const CutPlan& plan) {
+  if (plan.turn_px == 0) return {{.plan = plan}};
+  CutPiece western{.plan = plan};
+  western.plan.finest.x1 = plan.turn_px;
+  CutPiece eastern{.plan = plan, .first_column = plan.turn_px - plan.finest.x0};
+  eastern.plan.finest.x0 = 0;
+  eastern.plan.finest.x1 = plan.finest.x1 - plan.turn_px;
+  return {western, eastern};
 }
 
 PixelRect pixels_at(const CutPlan& plan, int level) {

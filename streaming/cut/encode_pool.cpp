@@ -2,12 +2,11 @@
 
 #include <new>
 
-#include "streaming/cut/tile_encoder.h"
-
 namespace terrella {
 
-EncodePool::EncodePool(int jobs, ImageFormat format, int quality, TileWriter& writer) : writer_(writer) {
-  for (int i = 0; i < jobs; ++i) threads_.emplace_back([this, format, quality] { run_encoder(format, quality); });
+EncodePool::EncodePool(int jobs, TileCoding coding, TileWriter& writer, std::int64_t already)
+    : writer_(writer), already_(static_cast<std::uint64_t>(already)), next_to_write_(already_) {
+  for (int i = 0; i < jobs; ++i) threads_.emplace_back([this, coding] { run_encoder(coding); });
   threads_.emplace_back([this] { run_writer(); });
 }
 
@@ -21,7 +20,9 @@ void EncodePool::submit(const std::shared_ptr<const Strip>& strip) {
   {
     const std::scoped_lock lock(mutex_);
     if (error_) return;
-    for (std::int64_t i = 0; i < strip->tiles; ++i) jobs_.push_back({strip, i, submitted_++});
+    for (std::int64_t i = 0; i < strip->tiles; ++i, ++submitted_) {
+      if (submitted_ >= already_) jobs_.push_back({strip, i, submitted_});
+    }
   }
   work_.notify_all();
 }
@@ -62,8 +63,8 @@ void EncodePool::join() {
 
 // ---- encoder threads
 
-void EncodePool::run_encoder(ImageFormat format, int quality) {
-  TileEncoder encoder(format, quality);
+void EncodePool::run_encoder(const TileCoding& coding) {
+  TileEncoder encoder(coding);
   while (true) {
     std::optional<Job> job;
     {
@@ -95,7 +96,7 @@ void EncodePool::run_writer() {
     {
       std::unique_lock lock(mutex_);
       encoded_.wait(lock, [&] {
-        return error_ || finished_.contains(next_to_write_) || (closed_ && next_to_write_ == submitted_);
+        return error_ || finished_.contains(next_to_write_) || (closed_ && next_to_write_ >= submitted_);
       });
       const auto found = finished_.find(next_to_write_);
       if (error_ || found == finished_.end()) return;

@@ -12,6 +12,7 @@
 
 #include "geo/result.h"
 #include "streaming/cut/strip.h"
+#include "streaming/cut/tile_encoder.h"
 #include "streaming/cut/tile_writer.h"
 
 namespace terrella {
@@ -27,7 +28,8 @@ struct TileCounts {
 /// thread: one at a time
 class EncodePool {
  public:
-  EncodePool(int jobs, ImageFormat format, int quality, TileWriter& writer);
+  /// The first `already` tiles are written already and only counted past.
+  EncodePool(int jobs, TileCoding coding, TileWriter& writer, std::int64_t already = 0);
   ~EncodePool();  ///< drops what has not been encoded
   EncodePool(const EncodePool&) = delete;
   EncodePool& operator=(const EncodePool&) = delete;
@@ -49,7 +51,7 @@ class EncodePool {
     std::vector<std::byte> bytes;
   };
 
-  void run_encoder(ImageFormat format, int quality);
+  void run_encoder(const TileCoding& coding);
   void run_writer();
   void fail(const Error& error);
   void join();
@@ -59,6 +61,7 @@ class EncodePool {
   std::condition_variable work_, encoded_, written_;
   std::deque<Job> jobs_;
   std::map<std::uint64_t, Encoded> finished_;
+  std::uint64_t already_ = 0;
   std::uint64_t submitted_ = 0;
   std::uint64_t next_to_write_ = 0;
   bool closed_ = false;

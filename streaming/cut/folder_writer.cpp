@@ -32,8 +32,11 @@ int write_file(const fs::path& path, std::span<const std::byte> bytes) {
 
 class FolderWriter : public TileWriter {
  public:
-  FolderWriter(fs::path output, TileSetInfo info)
-      : output_(std::move(output)), part_(part_name(output_)), info_(std::move(info)) {}
+  explicit FolderWriter(const WriterSetup& setup)
+      : output_(setup.output),
+        part_(setup.part.string() + ".new"),
+        old_(setup.part.string() + ".old"),
+        info_(setup.info) {}
   ~FolderWriter() override {
     std::error_code ignored;
     fs::remove_all(part_, ignored);
@@ -43,6 +46,7 @@ class FolderWriter : public TileWriter {
 
   [[nodiscard]] Status open() {
     std::error_code failed;
+    fs::remove_all(part_, failed);
     fs::create_directory(part_, failed);
     if (failed) return cannot_write(output_, failed.value());
     return Done{};
@@ -80,42 +84,26 @@ class FolderWriter : public TileWriter {
   [[nodiscard]] Status replace_output() {
     std::error_code failed;
     if (!fs::exists(output_, failed)) return take_name(part_, output_);
-    const fs::path old = part_name(output_);
-    fs::rename(output_, old, failed);
+    fs::rename(output_, old_, failed);
     if (failed) return cannot_write(output_, failed.value());
     if (Status taken = take_name(part_, output_); !taken) {
-      fs::rename(old, output_, failed);
+      fs::rename(old_, output_, failed);
       return taken;
     }
-    fs::remove_all(old, failed);
+    fs::remove_all(old_, failed);
     return Done{};
   }
 
   fs::path output_;
   fs::path part_;
+  fs::path old_;
   TileSetInfo info_;
 };
 
-fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
-
-/// Nothing there, an empty directory, or a tile set that may be replaced.
-Status check_replaceable(const fs::path& output) {
-  std::error_code failed;
-  if (!fs::exists(output, failed)) return Done{};
-  if (!fs::is_directory(output, failed)) {
-    return Error{fmt::format("{}: is a file; name one that ends in .gpkg, or a folder", output.string())};
-  }
-  if (fs::is_empty(output, failed) || fs::exists(output / kTileSetFile, failed)) return Done{};
-  return Error{
-      fmt::format("{}: is a folder with other things in it, which would be lost; name a new one", output.string())};
-}
-
 }  // namespace
 
-Result<std::unique_ptr<TileWriter>> make_folder_writer(const fs::path& output, const TileSetInfo& info) {
-  const fs::path folder = without_trailing_slash(output);
-  if (Status may = check_replaceable(folder); !may) return may.error();
-  auto writer = std::make_unique<FolderWriter>(folder, info);
+Result<std::unique_ptr<TileWriter>> make_folder_writer(const WriterSetup& setup) {
+  auto writer = std::make_unique<FolderWriter>(setup);
   if (Status opened = writer->open(); !opened) return opened.error();
   return std::unique_ptr<TileWriter>(std::move(writer));
 }

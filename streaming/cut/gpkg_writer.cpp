@@ -25,9 +25,10 @@ using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
 
 class GpkgWriter : public TileWriter {
  public:
-  explicit GpkgWriter(fs::path output) : output_(std::move(output)), part_(part_name(output_)) {}
+  explicit GpkgWriter(const WriterSetup& setup) : output_(setup.output), part_(setup.part.string() + ".gpkg") {}
   ~GpkgWriter() override {
     insert_.reset();
+    describe_.reset();
     database_.reset();
     std::error_code ignored;
     fs::remove(part_, ignored);
@@ -35,8 +36,10 @@ class GpkgWriter : public TileWriter {
   GpkgWriter(const GpkgWriter&) = delete;
   GpkgWriter& operator=(const GpkgWriter&) = delete;
 
-  [[nodiscard]] Status open(const TileSetInfo& info) {
+  [[nodiscard]] Status open(const WriterSetup& setup) {
     // The name must be new: SQLite would go on in a file that is there.
+    std::error_code ignored;
+    fs::remove(part_, ignored);
     const int file = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) return cannot_write(output_, errno);
     close(file);
@@ -50,13 +53,17 @@ class GpkgWriter : public TileWriter {
                                "PRAGMA locking_mode = EXCLUSIVE", "PRAGMA page_size = 8192"}) {
       if (!run({pragma, {}})) return failure();
     }
-    const auto schema = geopackage_schema(info);
+    const auto schema = geopackage_schema(setup.info, setup.last_change);
     // The first two are pragmas that a transaction would hold back.
     for (std::size_t i = 0; i < schema.size(); ++i) {
       if (i == 2 && !run({"BEGIN", {}})) return failure();
       if (!run(schema[i])) return failure();
     }
     insert_ = prepare("INSERT INTO tiles (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)");
+    if (insert_ && setup.info.elevation) {
+      describe_ = prepare("INSERT INTO gpkg_2d_gridded_tile_ancillary (tpudt_name, tpudt_id) VALUES ('tiles', ?1)");
+      if (!describe_) return failure();
+    }
     return insert_ ? Status(Done{}) : Status(failure());
   }
 
@@ -68,11 +75,16 @@ class GpkgWriter : public TileWriter {
     sqlite3_bind_blob64(insert, 4, bytes.data(), bytes.size(), SQLITE_STATIC);
     if (step(insert) != SQLITE_DONE) return failure();
     sqlite3_reset(insert);
+    if (!describe_) return Done{};
+    sqlite3_bind_int64(describe_.get(), 1, sqlite3_last_insert_rowid(database_.get()));
+    if (step(describe_.get()) != SQLITE_DONE) return failure();
+    sqlite3_reset(describe_.get());
     return Done{};
   }
 
   [[nodiscard]] Status finish() override {
     insert_.reset();
+    describe_.reset();
     if (!run({"COMMIT", {}})) return failure();
     database_.reset();
     if (Status synced = sync_to_disk(part_); !synced) return synced;
@@ -118,18 +130,15 @@ class GpkgWriter : public TileWriter {
   fs::path part_;
   Database database_;
   Statement insert_;
+  Statement describe_;    ///< what a tile of heights has beside it; none for pictures
   int system_error_ = 0;  ///< errno of the last call that failed
 };
 
 }  // namespace
 
-Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const fs::path& output, const TileSetInfo& info) {
-  std::error_code failed;
-  if (fs::is_directory(output, failed)) {
-    return Error{fmt::format("{}: is a folder; name a file, or a folder that does not end in .gpkg", output.string())};
-  }
-  auto writer = std::make_unique<GpkgWriter>(output);
-  if (Status opened = writer->open(info); !opened) return opened.error();
+Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const WriterSetup& setup) {
+  auto writer = std::make_unique<GpkgWriter>(setup);
+  if (Status opened = writer->open(setup); !opened) return opened.error();
   return std::unique_ptr<TileWriter>(std::move(writer));
 }
 

@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <bit>
 #include <cstring>
 #include <vector>
 
@@ -21,7 +22,8 @@ void on_warning(png_structp, png_const_charp) {}
 
 class PngRows : public RowReader {
  public:
-  PngRows(File file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
+  PngRows(File file, std::string name, const std::optional<HeightCoding>& heights)
+      : file_(std::move(file)), name_(std::move(name)), heights_(heights) {}
   ~PngRows() override { png_destroy_read_struct(&png_, &header_, nullptr); }
   PngRows(const PngRows&) = delete;
   PngRows& operator=(const PngRows&) = delete;
@@ -30,6 +32,10 @@ class PngRows : public RowReader {
     if (!read_header()) return Error{fmt::format("{}: is not a PNG that can be read: {}", name_, message_)};
     info_.width_px = png_get_image_width(png_, header_);
     info_.height_px = png_get_image_height(png_, header_);
+    if (heights_ &&
+        (png_get_bit_depth(png_, header_) != 16 || png_get_color_type(png_, header_) != PNG_COLOR_TYPE_GRAY)) {
+      return refuse_heights(name_);
+    }
     info_.has_alpha = (png_get_color_type(png_, header_) & PNG_COLOR_MASK_ALPHA) != 0 ||
                       png_get_valid(png_, header_, PNG_INFO_tRNS) != 0;
     if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
@@ -40,12 +46,19 @@ class PngRows : public RowReader {
   [[nodiscard]] const PictureInfo& info() const override { return info_; }
 
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
-    if (passes_ > 1) {
-      std::memcpy(rgba.data(), whole_.data() + static_cast<std::size_t>(row_) * rgba.size(), rgba.size());
-    } else if (!decode_row(rgba.data())) {
-      return row_error(name_, row_, info_.height_px, message_);
+    const std::uint8_t* row = passes_ > 1 ? whole_.data() + static_cast<std::size_t>(row_) * row_bytes() : nullptr;
+    if (row == nullptr) {
+      samples_.resize(heights_ ? row_bytes() : 0);
+      std::uint8_t* to = heights_ ? samples_.data() : rgba.data();
+      if (!decode_row(to)) return row_error(name_, row_, info_.height_px, message_);
+      row = to;
     }
     ++row_;
+    if (heights_) {
+      to_numbers(*heights_, row, 2, static_cast<std::size_t>(info_.width_px), rgba.data());
+    } else if (row != rgba.data()) {
+      std::memcpy(rgba.data(), row, rgba.size());
+    }
     return Done{};
   }
 
@@ -74,10 +87,15 @@ class PngRows : public RowReader {
 
   bool start() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
-    png_set_expand(png_);
-    png_set_scale_16(png_);
-    png_set_gray_to_rgb(png_);
-    png_set_add_alpha(png_, 0xFF, PNG_FILLER_AFTER);
+    if (heights_) {
+      // PNG is big-endian.
+      if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
+    } else {
+      png_set_expand(png_);
+      png_set_scale_16(png_);
+      png_set_gray_to_rgb(png_);
+      png_set_add_alpha(png_, 0xFF, PNG_FILLER_AFTER);
+    }
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, header_);
     if (png_get_rowbytes(png_, header_) != row_bytes()) png_error(png_, "the rows are of an unexpected size");
@@ -108,7 +126,7 @@ class PngRows : public RowReader {
     return Done{};
   }
 
-  [[nodiscard]] std::size_t row_bytes() const { return static_cast<std::size_t>(info_.width_px) * 4; }
+  [[nodiscard]] std::size_t row_bytes() const { return static_cast<std::size_t>(info_.width_px) * (heights_ ? 2 : 4); }
 
   File file_;
   std::string name_;
@@ -116,6 +134,8 @@ class PngRows : public RowReader {
   std::int64_t row_ = 0;
   int passes_ = 1;
   std::vector<std::uint8_t> whole_;
+  std::vector<std::uint8_t> samples_;  ///< a row of heights
+  std::optional<HeightCoding> heights_;
   char message_[128] = "out of memory";
   png_structp png_ = nullptr;
   png_infop header_ = nullptr;
@@ -123,8 +143,9 @@ class PngRows : public RowReader {
 
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name) {
-  auto rows = std::make_unique<PngRows>(std::move(file), std::move(name));
+Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
+                                                 const std::optional<HeightCoding>& heights) {
+  auto rows = std::make_unique<PngRows>(std::move(file), std::move(name), heights);
   if (Status opened = rows->open(); !opened) return opened.error();
   return std::unique_ptr<RowReader>(std::move(rows));
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "streaming/cut/halve.h"
+#include "streaming/cut/heights.h"
 
 namespace terrella {
 namespace {
@@ -25,23 +26,38 @@ std::size_t shape_bytes(const Strip& shape) { return shape.stride_bytes() * stat
 
 }  // namespace
 
-Pyramid::Pyramid(const CutPlan& plan, bool has_alpha, StripPool& pool, TakeStrip take)
-    : plan_(plan), has_alpha_(has_alpha), pool_(pool), take_(std::move(take)) {
-  for (int level = 0; level <= plan.grid.max_level; ++level) levels_.push_back(make_level(plan, level));
-  for (Level& level : levels_) {
-    if (level.level == plan.grid.max_level && !has_alpha) continue;
-    for (auto& row : level.rows) row.resize(level.width() * 4);
+Pyramid::Pyramid(const CutPlan& plan, const PyramidPart& part, StripPool& pool, TakeStrip take_strip, TakeRow take_row)
+    : plan_(plan), part_(part), pool_(pool), take_strip_(std::move(take_strip)), take_row_(std::move(take_row)) {
+  const auto begin = [&](int level, bool rows) {
+    Level made = make_level(plan, level);
+    made.y = std::max(made.px.y0, part.first_row >> (part.finest - level));
+    for (auto& row : made.rows) row.resize(rows ? made.width() * 4 : 0);
+    return made;
+  };
+  for (int level = part.coarsest; level <= part.finest; ++level) {
+    levels_.push_back(begin(level, level != plan.grid.max_level || part.pixels != PixelKind::opaque));
   }
+  if (part.coarsest > 0) above_coarsest_ = begin(part.coarsest - 1, true);
 }
 
 std::size_t Pyramid::finest_strip_bytes(const CutPlan& plan) {
   return shape_bytes(strip_shape(plan, plan.grid.max_level));
 }
 
-std::size_t Pyramid::strip_bytes(const CutPlan& plan) {
+std::size_t Pyramid::row_floats(const CutPlan& plan, int level) {
+  const PixelRect px = pixels_at(plan, level);
+  return static_cast<std::size_t>(px.x1 - px.x0) * 4;
+}
+
+std::size_t Pyramid::strip_bytes(const CutPlan& plan, const PyramidPart& part) {
   std::size_t bytes = 0;
-  for (int level = 0; level <= plan.grid.max_level; ++level) bytes += shape_bytes(strip_shape(plan, level));
+  for (int level = part.coarsest; level <= part.finest; ++level) bytes += shape_bytes(strip_shape(plan, level));
   return bytes;
+}
+
+Pyramid::Level& Pyramid::above(const Level& level) {
+  return level.level == part_.coarsest ? above_coarsest_
+                                       : levels_[static_cast<std::size_t>(level.level - 1 - part_.coarsest)];
 }
 
 Pyramid::Level Pyramid::make_level(const CutPlan& plan, int level) {
@@ -95,22 +111,46 @@ std::span<std::uint8_t> Pyramid::next_row() {
 void Pyramid::row_written() {
   Level& finest = levels_.back();
   finest.areas[finest.y & 1] = finest_row_area(plan_, finest.y);
-  const std::uint8_t* row = strip_row(finest) + finest.lead_px * 4;
-  if (has_alpha_) {
-    premultiply({row, finest.width() * 4}, finest.rows[finest.y & 1].data());
-    halve_if_due(finest, finest.rows[0].data(), finest.rows[1].data());
-  } else {
+  std::uint8_t* row = strip_row(finest) + finest.lead_px * 4;
+  if (part_.pixels == PixelKind::opaque) {
     // Tiles have an even number of rows, so both rows of a pair stand in the same strip.
     const std::uint8_t* even = (finest.y & 1) == 0 ? row : row - finest.shape.stride_bytes();
     halve_if_due(finest, even, row);
+  } else {
+    std::vector<float>& floats = finest.rows[finest.y & 1];
+    const std::span<const std::uint8_t> pixels(row, floats.size());
+    part_.pixels == PixelKind::alpha ? premultiply(pixels, floats.data()) : heights_to_floats(pixels, floats.data());
+    if (part_.pixels == PixelKind::height) floats_to_heights(floats, part_.nodata, row);
+    halve_if_due(finest, finest.rows[0].data(), finest.rows[1].data());
   }
   close_strip_row(finest);
 }
 
+void Pyramid::put_row(double area, std::span<const float> row) {
+  Level& finest = levels_.back();
+  finest.areas[finest.y & 1] = area;
+  std::ranges::copy(row, finest.rows[finest.y & 1].begin());
+  coarse_row_done(finest);
+}
+
+void Pyramid::to_pixels(std::span<const float> row, std::uint8_t* out) const {
+  switch (part_.pixels) {
+    case PixelKind::opaque:
+      return to_bytes(row, out);
+    case PixelKind::alpha:
+      return unpremultiply(row, out);
+    case PixelKind::height:
+      return floats_to_heights(row, part_.nodata, out);
+  }
+}
+
 void Pyramid::coarse_row_done(Level& level) {
-  std::uint8_t* bytes = strip_row(level) + level.lead_px * 4;
-  const std::vector<float>& row = level.rows[level.y & 1];
-  has_alpha_ ? unpremultiply(row, bytes) : to_bytes(row, bytes);
+  if (level.level < part_.coarsest) {
+    take_row_(level.areas[level.y & 1], level.rows[level.y & 1]);
+    ++level.y;
+    return;
+  }
+  to_pixels(level.rows[level.y & 1], strip_row(level) + level.lead_px * 4);
   halve_if_due(level, level.rows[0].data(), level.rows[1].data());
   close_strip_row(level);
 }
@@ -128,7 +168,7 @@ void Pyramid::halve_if_due(Level& from, const T* even, const T* odd) {
     even = odd;
     from.areas[0] = 0.0;
   }
-  Level& to = levels_[static_cast<std::size_t>(from.level - 1)];
+  Level& to = above(from);
   halve_into(from, even, odd, to);
   coarse_row_done(to);
 }
@@ -187,6 +227,10 @@ void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
     const WrappedColumn& beyond = level.beyond[static_cast<std::size_t>(x - width)];
     const std::uint8_t* a = row + beyond.column * 4;
     const std::uint8_t* b = row + (beyond.column + 1) % width * 4;
+    if (part_.pixels == PixelKind::height) {
+      mix_heights(a, b, beyond.share, part_.nodata, row + x * 4);
+      continue;
+    }
     for (int c = 0; c < 4; ++c) {
       const float mixed = (1.0F - beyond.share) * static_cast<float>(a[c]) + beyond.share * static_cast<float>(b[c]);
       row[x * 4 + c] = static_cast<std::uint8_t>(static_cast<int>(mixed + 0.5F));
@@ -207,7 +251,7 @@ void Pyramid::close_strip_row(Level& level) {
   const bool last = level.y == level.px.y1;
   if (!last && level.y % plan_.grid.tile_px != 0) return;
   for (std::int64_t y = in_strip + 1; y < plan_.grid.tile_px; ++y) std::memcpy(level.strip->row(y), row, stride);
-  take_(std::move(level.strip));
+  take_strip_(std::move(level.strip));
   level.strip.reset();
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,26 @@
 
 namespace terrella {
 
-/// Takes a picture's rows from the top and gives the strips of all levels, each as soon as its last row is known. Holds
-/// one strip and two rows of each level.
+/// What the four bytes of a pixel in a strip are.
+enum class PixelKind {
+  opaque,  ///< RGBA8, every alpha 255
+  alpha,   ///< RGBA8, not premultiplied
+  height,  ///< as read: a 32-bit float, NaN where there is none; in a finished row: 16 bits (streaming/cut/heights.h)
+};
+
+/// The part of a pyramid that one Pyramid makes.
+struct PyramidPart {
+  int coarsest = 0;
+  int finest = 0;
+  std::int64_t first_row = 0;  ///< at the finest of these levels; a multiple of tile_px · 2^(finest - coarsest), or
+                               ///< above the picture
+  PixelKind pixels = PixelKind::opaque;
+  std::optional<std::uint16_t> nodata = {};  ///< of heights
+};
+
+/// Takes rows from the top and gives the strips of a part's levels, each as soon as its last row is known, and the rows
+/// of the level above, from which another Pyramid goes on to the same bytes. Holds one strip and two rows of each
+/// level.
 ///
 /// A coarse pixel is the mean of the 2×2 finer ones weighted by their area on the sphere (streaming/cut/README.md).
 /// Where a level's width is odd the last column's partner lies beyond +180°, which is the first column, or between the
@@ -23,15 +42,22 @@ namespace terrella {
 class Pyramid {
  public:
   using TakeStrip = std::function<void(std::shared_ptr<const Strip>)>;
-  Pyramid(const CutPlan& plan, bool has_alpha, StripPool& pool, TakeStrip take);
+  /// A row of the level above the coarsest as floats, premultiplied, with its area.
+  using TakeRow = std::function<void(double area, std::span<const float> row)>;
+  Pyramid(const CutPlan& plan, const PyramidPart& part, StripPool& pool, TakeStrip take_strip, TakeRow take_row);
 
   /// The most that the strips under construction take together, and a finest strip alone.
-  [[nodiscard]] static std::size_t strip_bytes(const CutPlan& plan);
+  [[nodiscard]] static std::size_t strip_bytes(const CutPlan& plan, const PyramidPart& part);
   [[nodiscard]] static std::size_t finest_strip_bytes(const CutPlan& plan);
+  /// Floats in a row that another part gives for this level.
+  [[nodiscard]] static std::size_t row_floats(const CutPlan& plan, int level);
 
-  /// Where the next row of the picture is to be written, 4 · width bytes; then row_written().
+  /// Where the next row of the picture is to be written, 4 · width bytes; then row_written(). For a part that has the
+  /// picture's finest level.
   [[nodiscard]] std::span<std::uint8_t> next_row();
   void row_written();
+  /// The next row of the finest of these levels, from the part below.
+  void put_row(double area, std::span<const float> row);
 
  private:
   /// What stands at a column beyond the last: (1 - share) of `column` and `share` of the one after it.
@@ -58,6 +84,8 @@ class Pyramid {
   [[nodiscard]] static float cover(const CutPlan& plan, int level, std::int64_t x);
   [[nodiscard]] static WrappedColumn wrapped(const CutPlan& plan, int level, std::int64_t x);
 
+  [[nodiscard]] Level& above(const Level& level);
+  void to_pixels(std::span<const float> row, std::uint8_t* out) const;
   [[nodiscard]] std::uint8_t* strip_row(Level& level);
   void coarse_row_done(Level& level);
   void close_strip_row(Level& level);
@@ -71,10 +99,12 @@ class Pyramid {
   void halve_if_due(Level& from, const T* even, const T* odd);
 
   const CutPlan& plan_;
-  bool has_alpha_;
+  PyramidPart part_;
   StripPool& pool_;
-  TakeStrip take_;
-  std::vector<Level> levels_;  ///< by level
+  TakeStrip take_strip_;
+  TakeRow take_row_;
+  std::vector<Level> levels_;  ///< from the coarsest
+  Level above_coarsest_;       ///< rows alone
 };
 
 }  // namespace terrella

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "streaming/cut/height_samples.h"
 #include "streaming/cut/row_reader.h"
 
 /// What the readers of each format share. `name` is the file's path, for messages.
@@ -19,11 +20,16 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// The file stands at its first byte and has been seen to begin as the format does.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name);
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
+                                                               const std::optional<HeightCoding>& heights);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
+                                                                const std::optional<HeightCoding>& heights);
 
 /// Refuses a picture of no size or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);
+
+/// "PATH: heights are read from …"
+[[nodiscard]] Error refuse_heights(const std::string& name);
 
 /// "PATH: row 12 of 400 cannot be read: WHY; …"
 [[nodiscard]] Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, std::string_view why);

@@ -1,8 +1,10 @@
 #include "streaming/cut/row_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include "streaming/cut/row_formats.h"
 
@@ -19,7 +21,59 @@ bool begins_as_tiff(std::string_view head) {
   return false;
 }
 
+/// A half row that an odd planet lacks at its south pole.
+class PaddedRows : public RowReader {
+ public:
+  PaddedRows(std::unique_ptr<RowReader> reader, std::int64_t rows)
+      : reader_(std::move(reader)), info_(reader_->info()) {
+    info_.height_px = rows;
+  }
+  [[nodiscard]] const PictureInfo& info() const override { return info_; }
+
+  [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
+    if (row_ + 1 < reader_->info().height_px) {
+      ++row_;
+      return reader_->read_row(rgba);
+    }
+    if (Status read = read_last(); !read) return read;
+    ++row_;
+    std::memcpy(rgba.data(), last_.data(), last_.size());
+    return Done{};
+  }
+
+  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
+    const std::int64_t before_last = std::max<std::int64_t>(0, reader_->info().height_px - 1 - row_);
+    row_ += rows;
+    return reader_->skip_rows(std::min(rows, before_last));
+  }
+
+ private:
+  Status read_last() {
+    if (!last_.empty()) return Done{};
+    last_.resize(static_cast<std::size_t>(info_.width_px) * 4);
+    return reader_->read_row(last_);
+  }
+
+  std::unique_ptr<RowReader> reader_;
+  PictureInfo info_;
+  std::int64_t row_ = 0;
+  std::vector<std::uint8_t> last_;
+};
+
 }  // namespace
+
+Status RowReader::skip_rows(std::int64_t rows) {
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(info().width_px) * 4);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    if (Status read = read_row(row); !read) return read;
+  }
+  return Done{};
+}
+
+std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {
+  if (reader->info().height_px == rows) return reader;
+  return std::make_unique<PaddedRows>(std::move(reader), rows);
+}
 
 Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px) {
   if (width_px < 1 || height_px < 1) return Error{fmt::format("{}: the picture has no pixels", name)};
@@ -35,7 +89,17 @@ Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, st
                            row + 1, rows, why)};
 }
 
-Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path) {
+Error refuse_heights(const std::string& name) {
+  return Error{
+      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF of one sample a pixel, Int16, "
+                  "UInt16 or Float32; convert it (gdal_translate -ot Int16)",
+                  name)};
+}
+
+namespace {
+
+Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
+                                            const std::optional<HeightCoding>& heights) {
   const std::string name = path.string();
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return Error{fmt::format("{}: is a folder, not a picture", name)};
@@ -46,10 +110,20 @@ Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path) 
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (head.empty()) return Error{fmt::format("{}: is empty", name)};
   std::rewind(file.get());
-  if (head.starts_with("\xff\xd8\xff")) return open_jpeg_rows(std::move(file), name);
-  if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name);
-  if (begins_as_tiff(head)) return open_tiff_rows(name);
+  const bool jpeg = head.starts_with("\xff\xd8\xff");
+  if (jpeg && heights) return refuse_heights(name);
+  if (jpeg) return open_jpeg_rows(std::move(file), name);
+  if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name, heights);
+  if (begins_as_tiff(head)) return open_tiff_rows(name, heights);
   return Error{fmt::format("{}: is not a picture that can be cut; it takes JPEG, PNG, TIFF and BigTIFF", name)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path) { return open_any(path, {}); }
+
+Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path, const HeightCoding& coding) {
+  return open_any(path, coding);
 }
 
 }  // namespace terrella

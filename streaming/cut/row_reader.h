@@ -31,10 +31,21 @@ class RowReader {
   /// Reads the next row into `rgba`, 4 · width bytes; called at most `height` times. The error names the file and the
   /// row. After an error no more rows can be read.
   [[nodiscard]] virtual Status read_row(std::span<std::uint8_t> rgba) = 0;
+  /// Passes over `rows` rows, at most as many as are left. Readers that cannot jump decode them.
+  [[nodiscard]] virtual Status skip_rows(std::int64_t rows);
 };
+
+/// The same rows, the last one repeated until there are `rows` of them.
+[[nodiscard]] std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows);
 
 /// Opens a JPEG, PNG, TIFF or BigTIFF, known by its first bytes. The error names the file, what is wrong and what to
 /// do.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path);
+
+struct HeightCoding;
+/// The same for heights: rows of 32-bit floats instead of RGBA8 (streaming/cut/heights.h), from a PNG of one channel of
+/// 16 bits, or a TIFF of the coding's kind.
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path,
+                                                                  const HeightCoding& coding);
 
 }  // namespace terrella

@@ -1,34 +1,15 @@
 #include <tiffio.h>
 
 #include <algorithm>
-#include <cstdarg>
 #include <optional>
 #include <vector>
 
 #include "streaming/cut/row_formats.h"
+#include "streaming/cut/tiff_open.h"
 #include "streaming/cut/tiff_samples.h"
 
 namespace terrella {
 namespace {
-
-/// What libtiff may allocate for one strip, tile or table of the file's own sizes.
-constexpr tmsize_t kMaxSingleAllocation = 256L << 20;
-
-struct CloseTiff {
-  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
-};
-struct FreeOptions {
-  void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
-};
-
-int keep_error(TIFF*, void* text, const char*, const char* format, std::va_list arguments) {
-  char line[256];
-  std::vsnprintf(line, sizeof(line), format, arguments);
-  *static_cast<std::string*>(text) = line;
-  return 1;
-}
-/// Unknown tags and the like: what does not keep pixels from being read.
-int pass_over(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
 
 template <class T>
 T tag_or(TIFF* tiff, ttag_t tag, T otherwise) {
@@ -38,21 +19,15 @@ T tag_or(TIFF* tiff, ttag_t tag, T otherwise) {
 
 class TiffRows : public RowReader {
  public:
-  explicit TiffRows(std::string name) : name_(std::move(name)) {}
+  TiffRows(std::string name, const std::optional<HeightCoding>& heights) : name_(std::move(name)), heights_(heights) {}
 
   [[nodiscard]] Status open() {
-    const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
-    if (!options) return Error{name_ + ": out of memory"};
-    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &message_);
-    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), pass_over, nullptr);
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxSingleAllocation);
-    // m: no memory map, whose size would count as memory held.
-    tiff_.reset(TIFFOpenExt(name_.c_str(), "rm", options.get()));
+    tiff_ = open_tiff(name_, message_);
     if (!tiff_) return Error{fmt::format("{}: is not a TIFF that can be read: {}", name_, message_)};
     info_.width_px = tag_or<std::uint32_t>(tiff_.get(), TIFFTAG_IMAGEWIDTH, 0);
     info_.height_px = tag_or<std::uint32_t>(tiff_.get(), TIFFTAG_IMAGELENGTH, 0);
     if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
-    if (Status can = read_samples(); !can) return can;
+    if (Status can = heights_ ? read_height_samples() : read_samples(); !can) return can;
     info_.has_alpha = samples_.alpha != TiffAlpha::none;
     return TIFFIsTiled(tiff_.get()) != 0 ? open_tiles() : open_strips();
   }
@@ -62,8 +37,18 @@ class TiffRows : public RowReader {
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
     const std::uint8_t* row = tile_height_ > 0 ? row_of_tiles() : row_of_strip();
     if (row == nullptr) return row_error(name_, row_, info_.height_px, message_);
-    to_rgba(samples_, row, static_cast<std::size_t>(info_.width_px), rgba.data());
+    const auto pixels = static_cast<std::size_t>(info_.width_px);
+    if (heights_) {
+      to_numbers(*heights_, row, samples_.pixel_bytes(), pixels, rgba.data());
+    } else {
+      to_rgba(samples_, row, pixels, rgba.data());
+    }
     ++row_;
+    return Done{};
+  }
+
+  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
+    row_ += rows;
     return Done{};
   }
 
@@ -73,6 +58,15 @@ class TiffRows : public RowReader {
         fmt::format("{}: {}; save it as 8-bit or 16-bit RGB, gray or palette, samples of a pixel together "
                     "(gdal_translate -of GTiff -co INTERLEAVE=PIXEL)",
                     name_, what)};
+  }
+
+  /// The kind has been looked at before (probe_heights()).
+  [[nodiscard]] Status read_height_samples() {
+    samples_.bits = heights_->kind == HeightKind::float32 ? 32 : 16;
+    samples_.per_pixel = tag_or<std::uint16_t>(tiff_.get(), TIFFTAG_SAMPLESPERPIXEL, 1);
+    const auto bits = tag_or<std::uint16_t>(tiff_.get(), TIFFTAG_BITSPERSAMPLE, 1);
+    if (samples_.bits == bits && samples_.per_pixel == 1) return Done{};
+    return refuse_heights(name_);
   }
 
   [[nodiscard]] Status read_samples() {
@@ -177,13 +171,15 @@ class TiffRows : public RowReader {
 
   const std::uint8_t* row_of_tiles() {
     const auto in_tile = static_cast<std::size_t>(row_ % tile_height_);
-    if (in_tile == 0 && !read_tiles()) return nullptr;
+    const std::int64_t first = row_ - static_cast<std::int64_t>(in_tile);
+    if (first != held_first_ && !read_tiles(first)) return nullptr;
+    held_first_ = first;
     return held_.data() + in_tile * row_bytes();
   }
 
-  bool read_tiles() {
-    const auto y = static_cast<std::uint32_t>(row_);
-    const std::int64_t rows = std::min(tile_height_, info_.height_px - row_);
+  bool read_tiles(std::int64_t first_row) {
+    const auto y = static_cast<std::uint32_t>(first_row);
+    const std::int64_t rows = std::min(tile_height_, info_.height_px - first_row);
     for (std::int64_t x = 0; x < info_.width_px; x += tile_width_) {
       if (TIFFReadTile(tiff_.get(), tile_.data(), static_cast<std::uint32_t>(x), y, 0, 0) <= 0) return false;
       const auto columns = static_cast<std::size_t>(std::min(tile_width_, info_.width_px - x));
@@ -202,17 +198,19 @@ class TiffRows : public RowReader {
   PictureInfo info_;
   TiffSamples samples_;
   std::int64_t row_ = 0;
+  std::int64_t held_first_ = -1;  ///< the first row of the tiles that are held
   std::int64_t tile_width_ = 0;
   std::int64_t tile_height_ = 0;  ///< 0: strips
   std::vector<std::uint8_t> tile_;
   std::vector<std::uint8_t> held_;  ///< a row, or a row of tiles, as samples
-  std::unique_ptr<TIFF, CloseTiff> tiff_;
+  std::optional<HeightCoding> heights_;
+  TiffHandle tiff_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name) {
-  auto rows = std::make_unique<TiffRows>(name);
+Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name, const std::optional<HeightCoding>& heights) {
+  auto rows = std::make_unique<TiffRows>(name, heights);
   if (Status opened = rows->open(); !opened) return opened.error();
   return std::unique_ptr<RowReader>(std::move(rows));
 }

@@ -5,6 +5,9 @@
 
 #include <cstring>
 
+#include "streaming/cut/gray16_png.h"
+#include "streaming/cut/heights.h"
+
 namespace terrella {
 namespace {
 
@@ -18,16 +21,28 @@ Image copy_of_tile(const Strip& strip, std::int64_t index) {
   return image;
 }
 
+std::vector<std::uint16_t> heights_of_tile(const Strip& strip, std::int64_t index) {
+  const auto side = static_cast<std::size_t>(strip.tile_px);
+  std::vector<std::uint16_t> heights;
+  heights.reserve(side * side);
+  for (std::size_t y = 0; y < side; ++y) {
+    const std::uint8_t* row = strip.tile(index) + y * strip.stride_bytes();
+    for (std::size_t x = 0; x < side; ++x) heights.push_back(height_at(row + x * 4));
+  }
+  return heights;
+}
+
 }  // namespace
 
 void TileEncoder::DestroyHandle::operator()(void* handle) const { tjDestroy(handle); }
 
-TileEncoder::TileEncoder(ImageFormat format, int quality) : format_(format), quality_(quality) {
-  if (format == ImageFormat::jpeg) jpeg_.reset(tjInitCompress());
+TileEncoder::TileEncoder(const TileCoding& coding) : coding_(coding) {
+  if (coding.format == ImageFormat::jpeg) jpeg_.reset(tjInitCompress());
 }
 
 Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int64_t index) {
-  return format_ == ImageFormat::jpeg ? encode_jpeg_tile(strip, index) : encode_png(copy_of_tile(strip, index));
+  if (coding_.heights) return encode_gray16_png(heights_of_tile(strip, index), strip.tile_px);
+  return coding_.format == ImageFormat::jpeg ? encode_jpeg_tile(strip, index) : encode_png(copy_of_tile(strip, index));
 }
 
 Result<std::vector<std::byte>> TileEncoder::encode_jpeg_tile(const Strip& strip, std::int64_t index) {
@@ -36,8 +51,9 @@ Result<std::vector<std::byte>> TileEncoder::encode_jpeg_tile(const Strip& strip,
   buffer_.resize(tjBufSize(side, side, TJSAMP_420));
   unsigned char* bytes = buffer_.data();
   unsigned long size = buffer_.size();
-  const int failed = tjCompress2(jpeg_.get(), strip.tile(index), side, static_cast<int>(strip.stride_bytes()), side,
-                                 TJPF_RGBX, &bytes, &size, TJSAMP_420, quality_, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
+  const int failed =
+      tjCompress2(jpeg_.get(), strip.tile(index), side, static_cast<int>(strip.stride_bytes()), side, TJPF_RGBX, &bytes,
+                  &size, TJSAMP_420, coding_.quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
   if (failed != 0) return Error{fmt::format("JPEG: {}", tjGetErrorStr2(jpeg_.get()))};
   const auto* first = reinterpret_cast<const std::byte*>(bytes);
   return std::vector<std::byte>(first, first + size);

@@ -11,11 +11,18 @@
 
 namespace terrella {
 
+/// How tiles are written.
+struct TileCoding {
+  ImageFormat format = ImageFormat::jpeg;
+  int quality = 85;
+  bool heights = false;  ///< PNG of 16 bits, gray
+};
+
 /// Encodes tiles out of strips; keeps its codec from tile to tile. JPEG: 4:2:0, the accurate DCT, Huffman tables as
 /// they come. PNG: as encode_png(). thread: one at a time
 class TileEncoder {
  public:
-  TileEncoder(ImageFormat format, int quality);
+  explicit TileEncoder(const TileCoding& coding);
   [[nodiscard]] Result<std::vector<std::byte>> encode(const Strip& strip, std::int64_t index);
 
  private:
@@ -24,8 +31,7 @@ class TileEncoder {
   };
   [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg_tile(const Strip& strip, std::int64_t index);
 
-  ImageFormat format_;
-  int quality_;
+  TileCoding coding_;
   std::unique_ptr<void, DestroyHandle> jpeg_;
   std::vector<unsigned char> buffer_;
 };

@@ -5,11 +5,35 @@
 #include <cerrno>
 #include <cstring>
 
+#include "streaming/tileset_json.h"
+
 namespace terrella {
 
-Result<std::unique_ptr<TileWriter>> make_tile_writer(const std::filesystem::path& output, const TileSetInfo& info) {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_gpkg(const fs::path& output) { return output.extension() == ".gpkg"; }
+
+}  // namespace
+
+Status check_output(const fs::path& output) {
   if (output.empty()) return Error{"no output is named; give a file that ends in .gpkg, or a folder"};
-  return output.extension() == ".gpkg" ? make_gpkg_writer(output, info) : make_folder_writer(output, info);
+  std::error_code failed;
+  if (!fs::exists(output, failed)) return Done{};
+  const std::string name = output.string();
+  const bool folder = fs::is_directory(output, failed);
+  if (is_gpkg(output) && !folder) return Done{};
+  if (is_gpkg(output)) {
+    return Error{fmt::format("{}: is a folder; name a file, or a folder that does not end in .gpkg", name)};
+  }
+  if (!folder) return Error{fmt::format("{}: is a file; name one that ends in .gpkg, or a folder", name)};
+  if (fs::is_empty(output, failed) || fs::exists(output / kTileSetFile, failed)) return Done{};
+  return Error{fmt::format("{}: is a folder with other things in it, which would be lost; name a new one", name)};
+}
+
+Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup) {
+  return is_gpkg(setup.output) ? make_gpkg_writer(setup) : make_folder_writer(setup);
 }
 
 Error cannot_write(const std::filesystem::path& output, int error_number) {

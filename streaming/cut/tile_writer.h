@@ -4,14 +4,15 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "geo/result.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
 
-/// Writes a tile set under a temporary name beside its own, which it takes with finish(). Destroyed before that, it
-/// leaves nothing behind. Errors name the output. thread: one at a time
+/// Writes a tile set under a temporary name, and takes its own with finish(). Destroyed before that, it leaves nothing
+/// under its own. Errors name the output. thread: one at a time
 class TileWriter {
  public:
   virtual ~TileWriter() = default;
@@ -20,15 +21,23 @@ class TileWriter {
   [[nodiscard]] virtual Status finish() = 0;
 };
 
-/// A GeoPackage if the name ends in .gpkg, else a directory {z}/{x}/{y}.jpg|png with tileset.json. Refuses to replace
-/// what is neither a file that was a GeoPackage by name nor a directory that is empty or a tile set.
-[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_tile_writer(const std::filesystem::path& output,
-                                                                   const TileSetInfo& info);
+/// Refuses to replace what is neither a file that was a GeoPackage by name nor a directory that is empty or a tile set.
+[[nodiscard]] Status check_output(const std::filesystem::path& output);
 
-[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const std::filesystem::path& output,
-                                                                   const TileSetInfo& info);
-[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_folder_writer(const std::filesystem::path& output,
-                                                                     const TileSetInfo& info);
+/// What a writer is told beside the tiles.
+struct WriterSetup {
+  std::filesystem::path output;
+  std::filesystem::path part;  ///< temporary names begin with it; on the output's file system; what is there is removed
+  TileSetInfo info;
+  std::string last_change;  ///< "2026-01-31T12:00:00.000Z"
+};
+
+/// A GeoPackage if the name ends in .gpkg, else a directory {z}/{x}/{y}.jpg|png with tileset.json. The same tiles in
+/// the same order give the same bytes.
+[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup);
+
+[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const WriterSetup& setup);
+[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_folder_writer(const WriterSetup& setup);
 
 /// "OUTPUT: cannot be written: No space left on device; …" thread: any
 [[nodiscard]] Error cannot_write(const std::filesystem::path& output, int error_number);

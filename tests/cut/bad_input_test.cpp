@@ -198,12 +198,6 @@ TEST_F(Output, StoppingLeavesNothing) {
   }
 }
 
-TEST_F(Output, SeveralPicturesAreRefused) {
-  const auto made = cut({.images = {picture_, folder_ / "other.png"}, .output = folder_ / "out.gpkg"});
-  ASSERT_FALSE(made);
-  EXPECT_NE(made.error().message.find("other.png"), std::string::npos);
-}
-
 TEST_F(Output, ProgressGoesFromTheStartToTheEnd) {
   std::int64_t last = 0;
   ASSERT_TRUE(cut(

@@ -89,10 +89,30 @@ TEST(CutPlanTest, BoundsWithFewDecimalsFit) {
 }
 
 TEST(CutPlanTest, BoundsOffThePlanetOrInsideOutAreRefused) {
-  for (const GeoRect& bounds : {degrees(170, 0, -170, 10), degrees(0, 10, 20, 0), degrees(-190, 0, -170, 10),
-                                degrees(0, 85, 20, 95), degrees(0, 0, 0, 0)}) {
+  for (const GeoRect& bounds :
+       {degrees(0, 10, 20, 0), degrees(-190, 0, -170, 10), degrees(0, 85, 20, 95), degrees(0, 0, 0, 0)}) {
     EXPECT_FALSE(plan(200, 100, bounds));
   }
+}
+
+TEST(CutPlanTest, PicturesThatCross180LieOnBothSidesOfIt) {
+  const auto made = plan(200, 100, degrees(170, 0, -170, 10));
+  ASSERT_TRUE(made) << made.error().message;
+  const auto pieces = pieces_of(*made);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].plan.finest.x0, 3500);
+  EXPECT_EQ(pieces[0].plan.finest.x1, 3600);
+  EXPECT_EQ(pieces[1].plan.finest.x0, 0);
+  EXPECT_EQ(pieces[1].plan.finest.x1, 100);
+  EXPECT_EQ(pieces[1].first_column, 100);
+  EXPECT_NEAR(made->grid.bounds.east.deg(), -170.0, 1e-9);
+  EXPECT_GT(made->grid.bounds.west, made->grid.bounds.east);
+}
+
+TEST(CutPlanTest, CrossingFromBothSidesIntoOneTileIsRefused) {
+  const auto made = plan(3400, 100, degrees(10, 0, -10, 10));
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("same tile"), std::string::npos);
 }
 
 TEST(CutPlanTest, TileSizesAreEvenAndInRange) {

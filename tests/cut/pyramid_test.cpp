@@ -162,6 +162,50 @@ TEST(PyramidTest, ZoneOfAllLongitudesWraps) {
   expect_right_means(picture, {.x0 = 0, .y0 = 10, .pixel_deg = 2.4}, *made);
 }
 
+TEST(PyramidTest, RegionsThatCross180AreTheSameTilesAsTheirTwoHalves) {
+  const Image picture = noise(60, 40);
+  const auto half = [&](int x0, int width) {
+    return painted(width, 40, [&](int x, int y, int c) {
+      return picture.rgba[static_cast<std::size_t>((y * 60 + x0 + x) * 4 + c)];
+    });
+  };
+  const auto bounds = [](double west, double east) {
+    return GeoRect{.west = Angle::degrees(west),
+                   .south = Angle::degrees(-20.0),
+                   .east = Angle::degrees(east),
+                   .north = Angle::degrees(20.0)};
+  };
+  const auto whole = cut_to_png(picture, {.tile_px = 16, .bounds = bounds(143.0, -157.0)});
+  const auto west = cut_to_png(half(0, 37), {.tile_px = 16, .bounds = bounds(143.0, 180.0)});
+  const auto east = cut_to_png(half(37, 23), {.tile_px = 16, .bounds = bounds(-180.0, -157.0)});
+  ASSERT_TRUE(whole && west && east);
+  EXPECT_EQ(whole->summary.tiles, west->summary.tiles + east->summary.tiles);
+  const TileGrid& grid = whole->tiles->info().grid;
+  EXPECT_LT(grid.bounds.east.deg(), grid.bounds.west.deg());
+  std::int64_t seen = 0;
+  for (int level = 0; level <= grid.max_level; ++level) {
+    for (std::int64_t y = 0; y < rows(grid, level); ++y) {
+      for (std::int64_t x = 0; x < columns(grid, level); ++x) {
+        const TileId id{level, x, y};
+        if (!exists(grid, id)) continue;
+        const bool in_west = exists(west->tiles->info().grid, id);
+        EXPECT_EQ(read_tile(*whole->tiles, id).rgba, read_tile(in_west ? *west->tiles : *east->tiles, id).rgba);
+        ++seen;
+      }
+    }
+  }
+  EXPECT_EQ(seen, whole->summary.tiles);
+}
+
+TEST(PyramidTest, TransparentPicturesBecomePngsByThemselves) {
+  const TestFolder folder;
+  for (const bool alpha : {false, true}) {
+    write_png(folder / "in.png", noise(64, 32, alpha));
+    ASSERT_TRUE(cut({.images = {folder / "in.png"}, .output = folder / "out", .tile_px = 16}));
+    EXPECT_EQ((*open_tile_set(folder / "out"))->info().format, alpha ? ImageFormat::png : ImageFormat::jpeg);
+  }
+}
+
 /// Where columns no longer lie on the finest level's, a smooth picture still goes on smoothly over ±180°.
 TEST(PyramidTest, OddWidthsAtEveryLevelLeaveNoSeam) {
   constexpr double kSmooth =

@@ -11,11 +11,13 @@
 namespace terrella {
 namespace {
 
-Image noise(int side_px) {
+Image noise(int side_px, bool opaque = false) {
   Image image{side_px, side_px, {}};
   std::mt19937 random(7);
   image.rgba.resize(static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px) * 4);
   for (auto& channel : image.rgba) channel = static_cast<std::uint8_t>(random());
+  if (!opaque) return image;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }
 
@@ -27,12 +29,17 @@ int expected(const Image& tile, int mip, int x, int y, int channel) {
   const int left = std::clamp(x, 0, side - 1) * box;
   const int top = std::clamp(y, 0, side - 1) * box;
   double sum = 0.0;
+  double weights = 0.0;
   for (int row = top; row < top + box; ++row) {
     for (int column = left; column < left + box; ++column) {
-      sum += tile.rgba[static_cast<std::size_t>((row * tile.width_px + column) * 4 + channel)];
+      const std::uint8_t* texel = tile.rgba.data() + static_cast<std::size_t>((row * tile.width_px + column) * 4);
+      const double weight = channel == 3 ? 1.0 : texel[3];
+      sum += weight * texel[channel];
+      weights += weight;
     }
   }
-  return static_cast<int>(std::floor(sum / (box * box) + 0.5));
+  if (mip == 0) return tile.rgba[static_cast<std::size_t>((top * tile.width_px + left) * 4 + channel)];
+  return weights == 0.0 ? 0 : static_cast<int>(std::floor(sum / weights + 0.5));
 }
 
 void expect_as_defined(const Image& tile, int gutter, int mips) {
@@ -60,16 +67,32 @@ TEST(TileTexels, AreTheTileWithABorderAndItsMeans) {
   expect_as_defined(noise(32), 16, kMaxMips);
   expect_as_defined(noise(50), 4, 3);
   expect_as_defined(noise(16), 0, kMaxMips);
+  expect_as_defined(noise(64, true), 4, 3);
+  expect_as_defined(noise(32, true), 16, kMaxMips);
+}
+
+TEST(TileTexels, WhatIsInvisibleDoesNotTintWhatIsNot) {
+  Image tile{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 0)};
+  for (std::size_t i = 0; i < tile.rgba.size(); i += 8) {
+    for (const std::size_t c : {0, 1, 2}) tile.rgba[i + c] = 200;
+    tile.rgba[i + 3] = 255;
+  }
+  const auto texels = make_texels(tile, 16, 0, 2);
+  ASSERT_TRUE(texels);
+  EXPECT_EQ(texels->mips[1][0], 200);
+  EXPECT_EQ(texels->mips[1][3], 128);  // 127.5, halves up
 }
 
 TEST(TileTexels, RoundingDoesNotBuildUp) {
   // Three eighths of the texels are 1: their mean rounds to 0. Boxes of 2×2 have the means 0.5 and 0.25, and halves
   // that were rounded up at every level would grow to 1.
   Image tile{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, 0)};
-  for (std::size_t i = 0; i < tile.rgba.size(); ++i) tile.rgba[i] = (i / 4) % 2 == 0 && (i / 64) % 4 < 3 ? 1 : 0;
+  for (std::size_t i = 0; i < tile.rgba.size(); ++i) {
+    tile.rgba[i] = i % 4 == 3 ? 255 : (i / 4) % 2 == 0 && (i / 64) % 4 < 3 ? 1 : 0;
+  }
   const auto texels = make_texels(tile, 16, 0, 4);
   ASSERT_TRUE(texels);
-  for (const std::uint8_t channel : texels->mips[3]) EXPECT_EQ(channel, 0);
+  for (std::size_t i = 0; i < texels->mips[3].size(); ++i) EXPECT_EQ(texels->mips[3][i], i % 4 == 3 ? 255 : 0);
 }
 
 TEST(TileTexels, WhiteStaysWhite) {

@@ -1,0 +1,60 @@
+#include "streaming/cut/cut_key.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace terrella {
+namespace {
+
+/// A change of what the cutter makes makes old files unknown.
+constexpr int kKeyVersion = 2;
+
+std::string number_text(const std::optional<double>& number) { return number ? fmt::format("{:a}", *number) : "-"; }
+
+std::string elevation_text(const std::optional<CutElevation>& elevation) {
+  if (!elevation) return "-";
+  return fmt::format("{},{},{}", number_text(elevation->scale), number_text(elevation->offset),
+                     number_text(elevation->nodata));
+}
+
+}  // namespace
+
+std::string options_text(const CutOptions& options) {
+  const GeoRect bounds = options.bounds.value_or(GeoRect{});
+  const MosaicGrid mosaic = options.mosaic.value_or(MosaicGrid{0, 0});
+  return fmt::format("{}|{}|{}|{}|{}|{:a},{:a},{:a},{:a}|{}|{}|{}|{}|{}|{}x{}|{}", kKeyVersion, options.tile_px,
+                     options.quality, options.format ? static_cast<int>(*options.format) : -1,
+                     options.bounds.has_value(), bounds.west.rad(), bounds.south.rad(), bounds.east.rad(),
+                     bounds.north.rad(), static_cast<int>(options.projection), static_cast<int>(options.latitude),
+                     options.name, options.attribution, options.body, mosaic.columns, mosaic.rows,
+                     elevation_text(options.elevation));
+}
+
+Result<std::string> cut_key(const CutOptions& options) {
+  std::string key = options_text(options);
+  for (const auto& image : options.images) {
+    struct stat found {};
+    if (stat(image.c_str(), &found) != 0) {
+      return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
+    }
+    key += fmt::format("\n{}|{}|{}.{}", image.filename().string(), found.st_size, found.st_mtim.tv_sec,
+                       found.st_mtim.tv_nsec);
+  }
+  return key;
+}
+
+std::string last_change_of(const std::vector<std::filesystem::path>& images) {
+  std::time_t newest = 0;
+  for (const auto& image : images) {
+    struct stat found {};
+    if (stat(image.c_str(), &found) == 0) newest = std::max(newest, found.st_mtim.tv_sec);
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.000Z", fmt::gmtime(newest));
+}
+
+}  // namespace terrella
