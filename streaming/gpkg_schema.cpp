@@ -92,9 +92,10 @@ void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>&
   for (const char* table : kCoverageTables) all.push_back({table, {}});
   all.push_back({kCoverageExtension, {}});
   std::vector<double> numbers = {elevation.scale, elevation.offset};
+  // GDAL rounds to the precision, which the schema's default would make a metre.
   if (elevation.nodata) numbers.push_back(*elevation.nodata);
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
-                             "offset, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, ") +
+                             "offset, precision, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, abs(?1), ") +
                      (elevation.nodata ? "?3" : "NULL") + ", 'm')",
                  {},
                  std::move(numbers)});

@@ -89,7 +89,10 @@ Result<FoundShards> find_shards(const fs::path& output, const std::string& key, 
   for (int index = 1; index <= count; ++index) {
     const fs::path folder = shard_folder(output, {index, count});
     const BandRange range = bands_of_shard({index, count}, bands);
-    if (range.begin == range.end) continue;
+    if (range.begin == range.end) {
+      if (key_of_folder(folder) == key) found.folders.push_back(folder);
+      continue;
+    }
     if (key_of_folder(folder) != key || !has_all(folder, range)) {
       missing.push_back(index);
       continue;
