@@ -73,10 +73,9 @@ Result<std::pair<int, int>> parse_pair(const std::string& text, char between, co
   const std::size_t at = text.find(between);
   const auto first = read_number(std::string_view(text).substr(0, at));
   const auto second = at == std::string::npos ? std::nullopt : read_number(std::string_view(text).substr(at + 1));
-  const auto is_count = [](const std::optional<double>& n) {
-    return n && *n >= 1.0 && *n <= 100000.0 && *n == std::floor(*n);
-  };
-  if (is_count(first) && is_count(second)) return std::pair(static_cast<int>(*first), static_cast<int>(*second));
+  const auto is_count = [](double n) { return n >= 1.0 && n <= 100000.0 && n == std::floor(n); };
+  const double a = first.value_or(0.0), b = second.value_or(0.0);
+  if (is_count(a) && is_count(b)) return std::pair(static_cast<int>(a), static_cast<int>(b));
   return Error{fmt::format("{} is not {}", in_quotes(text), wanted)};
 }
 

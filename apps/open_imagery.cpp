@@ -11,8 +11,10 @@
 #include <string_view>
 
 #include "apps/data_dir.h"
+#include "apps/open_remote.h"
 #include "apps/progress.h"
 #include "streaming/cut.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
@@ -22,14 +24,15 @@ namespace fs = std::filesystem;
 /// A tile set of which the command line knows better than its own description.
 class DescribedSource : public TileSource {
  public:
-  DescribedSource(std::unique_ptr<TileSource> tiles, TileSetInfo info)
+  DescribedSource(std::shared_ptr<TileSource> tiles, TileSetInfo info)
       : tiles_(std::move(tiles)), info_(std::move(info)) {}
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
 
  private:
-  std::unique_ptr<TileSource> tiles_;
+  std::shared_ptr<TileSource> tiles_;
   TileSetInfo info_;
 };
 
@@ -100,11 +103,13 @@ Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const 
   return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
 }
 
-Result<std::unique_ptr<TileSource>> open_named(const SceneOptions& options) {
-  if (options.tile_set.empty()) return open_tile_set(data_file("earth.gpkg"));
+Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options) {
+  if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
-  const fs::path path = options.tile_set;
-  return is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path);
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  auto tiles = is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
 bool starts_like_a_picture(const fs::path& path) {
@@ -145,6 +150,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 }
 
 Status find_imagery(const SceneOptions& options) {
+  if (is_remote(options.tile_set)) return Done{};
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
@@ -157,7 +163,7 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   TileSetInfo info = (*tiles)->info();
   info.grid.projection = options.projection.value_or(info.grid.projection);
   info.grid.latitude = options.latitude.value_or(info.grid.latitude);
-  if (info.grid == (*tiles)->info().grid) return std::shared_ptr<TileSource>(*std::move(tiles));
+  if (info.grid == (*tiles)->info().grid) return tiles;
   return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
 }
 

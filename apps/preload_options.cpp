@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/option_checks.h"
+#include "apps/remote_set_options.h"
 #include "geo/number.h"
 #include "geo/tile_grid.h"
 
@@ -93,23 +94,6 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
       ->type_name("I/N");
 }
 
-void add_source_options(CLI::App& app, RemoteOptions& remote) {
-  app.add_option("--layer", remote.layer, "Of a WMTS");
-  app.add_option("--matrix-set", remote.matrix_set, "Of a WMTS layer that has several");
-  app.add_option("--style", remote.style, "Of a WMTS layer");
-  app.add_option("--time", remote.time, "Of a WMTS layer that has several times, ISO 8601");
-  app.add_option("--root-span", remote.root_span_deg, "Of a URL template: degrees that a level-0 tile spans (180)")
-      ->check(number_in(0.001, 1e4));
-  app.add_option("--tile-size", remote.tile_px, "Of a URL template: pixels a side (256)")
-      ->check(whole_number_in(16, 4096));
-  app.add_option("--max-level", remote.max_level,
-                 "Of a URL template: the finest that the server has (default: the last of --levels)")
-      ->check(whole_number_in(0, kMaxTileLevel));
-  app.add_option("--header", remote.headers, "Sent with each request, to the source's host alone; never stored or told")
-      ->type_name("'K: V'")
-      ->allow_extra_args(false);
-}
-
 void add_network_options(CLI::App& app, PreloadCommand& command) {
   app.add_option("--jobs", command.http.connections_per_host, "Connections to a host")
       ->check(whole_number_in(1, 64))
@@ -138,7 +122,7 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
       ->required()
       ->type_name("CACHE.gpkg");
   add_area_options(app, command);
-  add_source_options(app, command.remote);
+  add_remote_set_options(app, command.remote);
   add_network_options(app, command);
   app.add_option("--cache-size", command.cache_size_mb, "Of the cache in MB; the least recently used tiles go first")
       ->type_name("MB")

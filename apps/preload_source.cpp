@@ -38,7 +38,8 @@ Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
 
 Result<PreloadSource> open_preload_source(const std::string& source, const RemoteOptions& remote,
                                           const HttpOptions& http) {
-  return source.find("://") != std::string::npos ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
+  return source.find("://") != std::string::npos ? open_remote(source, remote, http)
+                                                 : open_on_disk(source, http.connections_per_host);
 }
 
 Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const std::string& url,

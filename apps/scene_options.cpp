@@ -3,6 +3,7 @@
 #include <map>
 
 #include "apps/option_checks.h"
+#include "apps/remote_set_options.h"
 #include "scene/view_limits.h"
 
 namespace terrella {
@@ -64,13 +65,20 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "--cache", options.cache,
-          "Where a picture given as TILESET is cut into, to be found there the next time; off: cut it every time "
-          "(default: $XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
+          "Where tiles from a server are kept, and what a picture given as TILESET is cut into, to be found there the "
+          "next time; off: nowhere (default: $XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
       ->type_name("FILE|off");
-  command.add_option("--cache-size", options.cache_size_mb, "Memory for tiles, megabytes")
+  command
+      .add_option("--cache-size", options.cache_size_mb,
+                  "Largest size of the file that tiles from a server are kept in, megabytes")
+      ->check(whole_number_in(64, 1 << 24))
+      ->type_name("MB")
+      ->capture_default_str();
+  command.add_option("--memory", options.memory_mb, "Memory for decoded tiles, megabytes")
       ->check(whole_number_in(64, 65536))
       ->type_name("MB")
       ->capture_default_str();
+  command.add_flag("--offline", options.offline, "The cache alone: not one request leaves the machine");
 }
 
 }  // namespace
@@ -78,13 +86,15 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("tileset", options.tile_set,
-                  "A GeoPackage, a folder of tiles, or a picture of the whole planet (JPEG, PNG, TIFF); "
+                  "A GeoPackage, a folder of tiles, a picture of the whole planet (JPEG, PNG, TIFF), a URL template "
+                  "with {z}, {x} and {y}, the address of a WMTS's capabilities, or a JSON source description; "
                   "the Earth that the program carries unless given")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_drawing_options(command, options);
   add_cache_options(command, options);
+  add_remote_set_options(command, options.remote);
 }
 
 Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
@@ -111,7 +121,7 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.paper_band = options.band;
   globe.depth = options.depth;
   globe.unlit = options.unlit;
-  globe.gpu_bytes = options.cache_size_mb << 20;
+  globe.gpu_bytes = options.memory_mb << 20;
   return globe;
 }
 

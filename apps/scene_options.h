@@ -9,6 +9,7 @@
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "geo/tile_grid.h"
+#include "streaming/remote/remote_options.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -26,8 +27,11 @@ struct SceneOptions {
   double paper_a = 4.0;
   double band = 0.05;
   DepthMode depth = DepthMode::reversed;
-  std::string cache;                ///< --cache as given; empty: the default place; "off": none
-  std::size_t cache_size_mb = 512;  ///< memory for tiles, 2^20 bytes each
+  std::string cache;                 ///< --cache as given; empty: the default place; "off": none
+  std::size_t cache_size_mb = 4096;  ///< of the cache's file, 10^6 bytes each
+  std::size_t memory_mb = 512;       ///< memory for tiles, 2^20 bytes each
+  bool offline = false;              ///< the cache alone
+  RemoteOptions remote;              ///< what is said about a remote TILESET
 };
 
 /// The largest side of a picture or window, pixels.

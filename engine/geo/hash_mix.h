@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace terrella {
 
@@ -10,6 +11,13 @@ namespace terrella {
   v = (v ^ (v >> 30)) * 0xBF58476D1CE4E5B9U;
   v = (v ^ (v >> 27)) * 0x94D049BB133111EBU;
   return v ^ (v >> 31);
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo): the same on every machine, for names of files that need no more than to differ.
+[[nodiscard]] constexpr std::uint64_t name_hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
 }
 
 }  // namespace terrella

@@ -63,9 +63,8 @@ class TileCache {
   [[nodiscard]] virtual Result<std::optional<CacheRecord>> peek(const TileId& id) = 0;
   /// peek() for tiles below one another: calls for each row in [first_y, last_y] of which anything is known, from the
   /// north, records without bytes. One look for all of them where the cache can. thread: any, several at once
-  [[nodiscard]] virtual Status peek_column(
-      int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y,
-      const std::function<void(std::int64_t y, const CacheRecord& record)>& call) {
+  [[nodiscard]] virtual Status peek_column(int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y,
+                                           const std::function<void(std::int64_t y, const CacheRecord& record)>& call) {
     for (std::int64_t y = first_y; y <= last_y; ++y) {
       const auto record = peek({level, x, y});
       if (!record) return record.error();

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <string_view>
-
+#include "geo/hash_mix.h"
 #include "streaming/cut.h"
 #include "streaming/cut/cut_key.h"
 
@@ -12,13 +11,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxStemBytes = 80;
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): names need no more than to differ.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3U;
-  return hash;
-}
-
 Result<std::string> cache_name(const CutOptions& options) {
   const fs::path& image = options.images.front();
   const auto of_picture = cut_key(options);
@@ -27,7 +19,7 @@ Result<std::string> cache_name(const CutOptions& options) {
   const fs::path canonical = fs::canonical(image, failed);
   if (failed) return Error{fmt::format("{}: cannot be opened: {}", image.string(), failed.message())};
   const std::string key = canonical.string() + "|" + *of_picture;
-  return fmt::format("{}-{:016x}.gpkg", image.stem().string().substr(0, kMaxStemBytes), hash_of(key));
+  return fmt::format("{}-{:016x}.gpkg", image.stem().string().substr(0, kMaxStemBytes), name_hash(key));
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include "apps/open_remote.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "apps/open_imagery.h"
+#include "apps/preload_source.h"
+#include "geo/hash_mix.h"
+#include "streaming/cache/tile_cache.h"
+#include "streaming/remote/describe_remote.h"
+#include "streaming/remote/remote_source.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a URL template that nobody said more about: finer than most servers; where they end, ancestors stand in.
+constexpr int kTemplateMaxLevel = 18;
+constexpr std::size_t kMaxNameBytes = 60;
+constexpr std::uint64_t kMegabyte = 1'000'000;
+
+/// The address without what follows a question mark, which may be secret, as a file's name; and a number for the rest.
+std::string cache_name(const SceneOptions& options) {
+  const std::string& address = options.tile_set;
+  std::string name;
+  for (const char c : address.substr(0, address.find('?')).substr(0, kMaxNameBytes)) {
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  }
+  const RemoteOptions& r = options.remote;
+  const std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", address, r.layer, r.matrix_set, r.style, r.time,
+                                        r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
+}
+
+Result<fs::path> cache_file(const SceneOptions& options) {
+  if (!options.cache.empty()) return fs::path(options.cache);
+  const auto folder = picture_cache_folder({});
+  if (!folder) return folder.error();
+  std::error_code failed;
+  fs::create_directories(*folder, failed);
+  if (failed) return Error{fmt::format("{}: cannot be made: {}", folder->string(), failed.message())};
+  return *folder / cache_name(options);
+}
+
+Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
+  if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
+  const auto file = cache_file(options);
+  if (!file) return file.error();
+  std::error_code failed;
+  if (!fs::exists(*file, failed)) {
+    return Error{
+        fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
+                    "--offline",
+                    options.tile_set, file->string())};
+  }
+  auto tiles = open_tile_set(*file);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+HttpOptions network_options() {
+  HttpOptions http;
+  http.attempts = 3;
+  // As a person turns the globe: no server should take it for an attack.
+  http.rate_per_host = 200.0;
+  http.burst = 100.0;
+  return http;
+}
+
+Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const RemoteTileSet& set) {
+  if (options.cache == "off") return std::shared_ptr<TileCache>();
+  const auto file = cache_file(options);
+  if (!file) return file.error();
+  auto cache = TileCache::open(*file, set.info, source_key(set), {.max_bytes = options.cache_size_mb * kMegabyte});
+  if (cache && !(*cache)->set_aside().empty()) {
+    fmt::print(stderr, "terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
+               (*cache)->set_aside().string());
+  }
+  return cache;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
+  if (options.offline) return open_offline(options);
+  const HttpOptions http = network_options();
+  RemoteOptions remote = options.remote;
+  if (!remote.max_level && options.tile_set.find("{z}") != std::string::npos) remote.max_level = kTemplateMaxLevel;
+  auto set = describe_remote(options.tile_set, remote,
+                             [&http](const std::string& url, const std::vector<std::string>& headers) {
+                               return fetch_document(http, url, headers);
+                             });
+  if (!set) return set.error();
+  auto cache = open_cache(options, *set);
+  if (!cache) return cache.error();
+  return make_remote_source(*std::move(set), *std::move(cache), http);
+}
+
+}  // namespace terrella

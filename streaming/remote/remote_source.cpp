@@ -1,0 +1,193 @@
+#include "streaming/remote/remote_source.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include "streaming/preload/tile_check.h"
+
+namespace terrella {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr seconds kTileLife{7 * 24 * 3600};
+constexpr seconds kAbsenceLife{24 * 3600};
+// What a server sent by mistake is worth asking for again soon.
+constexpr seconds kBrokenLife{3600};
+
+std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr)); }
+
+using Encoded = Result<EncodedTile, TileFailure>;
+
+Encoded tile_of(CacheRecord&& record) {
+  if (record.absence) return TileFailure{*record.absence, std::move(record.why)};
+  return EncodedTile{std::move(record.bytes)};
+}
+
+class RemoteSource : public TileSource, public RemoteTiles {
+ public:
+  RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
+      : set_(std::move(set)),
+        cache_(std::move(cache)),
+        fetcher_(options, [this](HttpReply&& reply) { settle(std::move(reply)); }) {}
+
+  [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
+
+  [[nodiscard]] Encoded read(const TileId& id) override {
+    if (!exists(set_.info.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    std::optional<CacheRecord> record = cached(id);
+    if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
+    return TileFailure{Absence::remote, {}};
+  }
+
+  [[nodiscard]] RemoteTiles* remote() override { return this; }
+
+  void fetch(const TileId& id, double priority, Done done) override {
+    HttpRequest request;
+    request.url = tile_url(set_, id);
+    request.headers = set_.headers;
+    request.priority = priority;
+    if (cache_ != nullptr) {
+      if (const auto known = cache_->peek(id); known && *known) {
+        request.etag = (*known)->etag;
+        request.last_modified = (*known)->last_modified;
+      }
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      request.id = ++last_number_;
+      numbers_.insert_or_assign(id, request.id);
+      asked_.emplace(request.id, Asked{id, std::move(done)});
+    }
+    fetcher_.submit(std::move(request));
+  }
+
+  void set_priority(const TileId& id, double priority) override {
+    if (const std::uint64_t number = number_of(id); number != 0) fetcher_.set_priority(number, priority);
+  }
+
+  void cancel(const TileId& id) override {
+    const std::uint64_t number = number_of(id);
+    if (number == 0) return;
+    forget(number);
+    fetcher_.cancel(number);
+  }
+
+ private:
+  struct Asked {
+    TileId id;
+    Done done;
+  };
+
+  [[nodiscard]] std::optional<CacheRecord> cached(const TileId& id) {
+    if (cache_ == nullptr) return std::nullopt;
+    auto found = cache_->find(id);
+    return found ? *std::move(found) : std::nullopt;
+  }
+
+  [[nodiscard]] std::uint64_t number_of(const TileId& id) {
+    const std::lock_guard lock(mutex_);
+    const auto number = numbers_.find(id);
+    return number == numbers_.end() ? 0 : number->second;
+  }
+
+  std::optional<Asked> forget(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    auto asked = asked_.extract(number);
+    if (asked.empty()) return std::nullopt;
+    // The same tile may have been asked for anew.
+    const auto latest = numbers_.find(asked.mapped().id);
+    if (latest != numbers_.end() && latest->second == number) numbers_.erase(latest);
+    return std::move(asked.mapped());
+  }
+
+  // thread: network
+  void settle(HttpReply&& reply) {
+    std::optional<Asked> asked = forget(reply.id);
+    if (asked) asked->done(answer(asked->id, std::move(reply)));
+  }
+
+  Encoded answer(const TileId& id, HttpReply&& reply) {
+    switch (reply.outcome) {
+      case HttpOutcome::content:
+        return content(id, std::move(reply));
+      case HttpOutcome::not_modified:
+        if (auto record = cached(id)) {
+          cache_->renew(id, unix_now_s(), expiry(reply, record->absence ? absence_life() : tile_life()));
+          return tile_of(*std::move(record));
+        }
+        break;
+      case HttpOutcome::nothing:
+        return absence(id, Absence::absent, std::move(reply), absence_life());
+      case HttpOutcome::refused:
+      case HttpOutcome::failed:
+        // An old tile is better than none (stale-if-error, RFC 5861).
+        if (auto record = cached(id)) return tile_of(*std::move(record));
+        break;
+    }
+    return TileFailure{Absence::failed, std::move(reply.why)};
+  }
+
+  Encoded content(const TileId& id, HttpReply&& reply) {
+    if (reply.body.empty()) return absence(id, Absence::blank, std::move(reply), absence_life());
+    if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
+      reply.why = good.error().message;
+      // What was good before is not given up for what is not.
+      if (auto record = cached(id); record && !record->absence) return tile_of(*std::move(record));
+      reply.expires_unix_s.reset();
+      return absence(id, Absence::broken, std::move(reply), kBrokenLife);
+    }
+    EncodedTile tile{reply.body};
+    if (cache_ != nullptr && !reply.no_store) cache_->store(id, record_of(std::move(reply), tile_life()));
+    return tile;
+  }
+
+  Encoded absence(const TileId& id, Absence kind, HttpReply&& reply, seconds life) {
+    TileFailure failure{kind, reply.why};
+    if (cache_ == nullptr || reply.no_store) return failure;
+    reply.body.clear();
+    CacheRecord record = record_of(std::move(reply), life);
+    record.absence = kind;
+    record.why = failure.why;
+    cache_->store(id, std::move(record));
+    return failure;
+  }
+
+  static std::optional<std::int64_t> expiry(const HttpReply& reply, seconds life) {
+    return reply.expires_unix_s ? *reply.expires_unix_s : unix_now_s() + life.count();
+  }
+
+  static CacheRecord record_of(HttpReply&& reply, seconds life) {
+    CacheRecord record;
+    record.expires_unix_s = expiry(reply, life);
+    record.bytes = std::move(reply.body);
+    record.etag = std::move(reply.etag);
+    record.last_modified = std::move(reply.last_modified);
+    record.stored_unix_s = unix_now_s();
+    return record;
+  }
+
+  [[nodiscard]] seconds tile_life() const { return set_.tile_life.value_or(kTileLife); }
+  [[nodiscard]] seconds absence_life() const { return set_.absence_life.value_or(kAbsenceLife); }
+
+  const RemoteTileSet set_;
+  const std::shared_ptr<TileCache> cache_;
+  std::mutex mutex_;  ///< guards what follows
+  std::uint64_t last_number_ = 0;
+  std::unordered_map<std::uint64_t, Asked> asked_;
+  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< of the latest request for a tile
+  HttpFetcher fetcher_;                                            ///< last: its thread uses the rest
+};
+
+}  // namespace
+
+std::shared_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
+                                               const HttpOptions& options) {
+  return std::make_shared<RemoteSource>(std::move(set), std::move(cache), options);
+}
+
+}  // namespace terrella

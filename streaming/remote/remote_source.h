@@ -1,0 +1,23 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "streaming/cache/tile_cache.h"
+#include "streaming/http/http_fetcher.h"
+#include "streaming/remote/remote_tile_set.h"
+#include "streaming/tile_source.h"
+
+namespace terrella {
+
+/// Tiles behind a network, with the cache before them (DESIGN 8 to 11). What becomes of a tile:
+///   cached and fresh: read() gives it, or its absence, without a request;
+///   cached and expired: fetch() asks with its validators; unchanged (304) or unreachable, the cached one serves;
+///   not cached: fetch() asks, and what comes is stored: a tile, or that it is absent, blank or broken, each with its
+///   own life; what failed for now is not stored.
+/// Without a cache (nullptr) everything is fetched. A cache that cannot be read counts as empty for that tile: the
+/// network still serves.
+[[nodiscard]] std::shared_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
+                                                             const HttpOptions& options);
+
+}  // namespace terrella
