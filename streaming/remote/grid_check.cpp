@@ -1,0 +1,168 @@
+#include "streaming/remote/grid_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "streaming/remote/thumbnail.h"
+#include "streaming/tile_range.h"
+
+namespace terrella {
+namespace {
+
+using Verdict = GridCheck::Verdict;
+
+// JPEG at quality 50 moves a mean over a cell by a level or two; another sharpening of the coarse level by three or so.
+constexpr double kLeastContrast = 8.0;
+/// A picture looks like one of two if it is this much nearer to it than to the other.
+constexpr double kClearly = 0.5;
+
+struct Fault {
+  Verdict verdict;
+  std::string advice;
+};
+
+class Checking {
+ public:
+  Checking(const FetchTileImage& fetch, const TileGrid& grid) : fetch_(fetch), grid_(grid) {}
+
+  Result<GridCheck> check() {
+    if (const auto roots = check_roots()) return GridCheck{roots->verdict, roots->advice};
+    if (error_) return *error_;
+    const GridCheck rows = check_rows();
+    if (error_) return *error_;
+    return rows;
+  }
+
+ private:
+  std::optional<Image> fetch(const TileId& id) {
+    if (error_) return std::nullopt;
+    Result<std::optional<Image>> tile = fetch_(id);
+    if (!tile) error_ = tile.error();
+    if (!tile || !*tile || (*tile)->width_px < 1 || (*tile)->height_px < 1) return std::nullopt;
+    return **std::move(tile);
+  }
+
+  bool has_picture(const TileId& id) {
+    const auto tile = fetch(id);
+    return tile && contrast(thumbnail_of(*tile)) >= kLeastContrast;
+  }
+
+  /// A tile that spans 360° goes on at its west side where it ends at its east side; one that spans 180° does not.
+  static bool goes_round(const Image& tile) {
+    constexpr double kEdge = 1.0 / 64.0;
+    const Thumbnail west = thumbnail_of(tile, {.left = 0.0, .right = kEdge});
+    const Thumbnail east = thumbnail_of(tile, {.left = 1.0 - kEdge, .right = 1.0});
+    const Thumbnail middle = thumbnail_of(tile, {.left = 0.5 - kEdge, .right = 0.5});
+    const double across = difference(west, east);
+    return difference(west, middle) >= kLeastContrast && across < kClearly * difference(west, middle);
+  }
+
+  /// Which root tiles there are. Only sets of the whole planet that begin at their root can be told apart.
+  std::optional<Fault> check_roots() {
+    const GeoRect& bounds = grid_.bounds;
+    const bool planet = bounds.west.deg() < -179.0 && bounds.east.deg() > 179.0 && bounds.south.deg() < -85.0 &&
+                        bounds.north.deg() > 85.0;
+    if (!planet || grid_.min_level > 1 || grid_.max_level <= grid_.min_level) return std::nullopt;
+    if (grid_.root_span_deg == 360.0) return check_one_root();
+    return grid_.root_span_deg == 180.0 && grid_.min_level == 0 ? check_two_roots() : std::nullopt;
+  }
+
+  std::optional<Fault> check_two_roots() {
+    const auto root = fetch({0, 0, 0});
+    if (!root || contrast(thumbnail_of(*root)) < kLeastContrast || fetch({0, 1, 0})) return std::nullopt;
+    if (!goes_round(*root)) return std::nullopt;
+    const bool north = has_picture({1, 0, 0}) || has_picture({1, 1, 0});
+    const bool south = has_picture({1, 0, 1}) || has_picture({1, 1, 1});
+    if (north && south) return mercator();
+    if (!north && !south) return std::nullopt;
+    return Fault{Verdict::one_root,
+                 "there is one root tile, 360° wide, where the grid says two of 180°; say --root-span 360"};
+  }
+
+  std::optional<Fault> check_one_root() {
+    if (fetch({1, 2, 0})) {
+      return Fault{
+          Verdict::two_roots,
+          "there are tiles east of the last column: the set has two root tiles of 180°, where the grid says one "
+          "of 360°; say --root-span 180"};
+    }
+    if (has_picture({1, 0, 0}) && (has_picture({1, 0, 1}) || has_picture({1, 1, 1}))) return mercator();
+    return std::nullopt;
+  }
+
+  static Fault mercator() {
+    return {Verdict::web_mercator,
+            "one root tile shows the whole planet and four tiles lie under it: the set is most likely in Web Mercator, "
+            "which cannot be drawn; use one in EPSG:4326 (geodetic)"};
+  }
+
+  /// The first tiles with two tiles under each half.
+  std::vector<TileId> parents() const {
+    constexpr std::size_t kMost = 3;
+    std::vector<TileId> found;
+    for (int level = grid_.min_level; level < grid_.max_level && found.size() < kMost; ++level) {
+      for_each_place(grid_, level, [&](const TileId& id) {
+        const TileId lower{level + 1, 2 * id.x, 2 * id.y + 1};
+        const bool whole = exists(grid_, lower) && exists(grid_, {level + 1, lower.x + 1, lower.y}) &&
+                           exists(grid_, {level + 1, lower.x, 2 * id.y});
+        if (whole) found.push_back(id);
+        return found.size() < kMost;
+      });
+    }
+    return found;
+  }
+
+  GridCheck check_rows() {
+    for (const TileId& id : parents()) {
+      const auto parent = fetch(id);
+      if (!parent) continue;
+      const int side = clearer_half(*parent);
+      const Thumbnail upper = quadrant(*parent, side, 0);
+      const Thumbnail lower = quadrant(*parent, side, 1);
+      if (difference(upper, lower) < kLeastContrast) continue;
+      const auto first = fetch({id.level + 1, 2 * id.x + side, 2 * id.y});
+      const auto second = fetch({id.level + 1, 2 * id.x + side, 2 * id.y + 1});
+      if (!first || !second) continue;
+      return judge(upper, lower, thumbnail_of(*first), thumbnail_of(*second));
+    }
+    return {Verdict::cannot_tell, "its tiles are too flat, or too few, to tell whether they are in the right place"};
+  }
+
+  static Thumbnail quadrant(const Image& parent, int column, int row) {
+    const double left = 0.5 * column;
+    const double top = 0.5 * row;
+    return thumbnail_of(parent, {.left = left, .top = top, .right = left + 0.5, .bottom = top + 0.5});
+  }
+
+  static int clearer_half(const Image& parent) {
+    const auto step = [&](int column) { return difference(quadrant(parent, column, 0), quadrant(parent, column, 1)); };
+    return step(1) > step(0) ? 1 : 0;
+  }
+
+  static GridCheck judge(const Thumbnail& upper, const Thumbnail& lower, const Thumbnail& first,
+                         const Thumbnail& second) {
+    const double straight = std::hypot(difference(upper, first), difference(lower, second));
+    const double crossed = std::hypot(difference(upper, second), difference(lower, first));
+    if (straight < kClearly * crossed) return {Verdict::fits, {}};
+    if (crossed < kClearly * straight) {
+      return {
+          Verdict::flipped_rows,
+          "its rows count from the other end: write {-y} instead of {y} in its URL template, or the other way round"};
+    }
+    return {Verdict::cannot_tell, "its tiles look like neither order of rows; compare its levels by eye"};
+  }
+
+  const FetchTileImage& fetch_;
+  const TileGrid& grid_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<GridCheck> check_grid(const FetchTileImage& fetch, const TileGrid& grid) {
+  return Checking(fetch, grid).check();
+}
+
+}  // namespace terrella

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "streaming/image.h"
+
+namespace terrella {
+
+/// Part of a picture as 16 × 16 means, red, green and blue, of the levels of 8 bits: fine detail, JPEG's noise and what
+/// a coarser level was smoothed with fall away.
+inline constexpr int kThumbnailSide = 16;
+using Thumbnail = std::array<float, 3 * kThumbnailSide * kThumbnailSide>;
+
+/// A part of a picture, as fractions of its sides.
+struct PicturePart {
+  double left = 0.0, top = 0.0, right = 1.0, bottom = 1.0;
+};
+
+[[nodiscard]] Thumbnail thumbnail_of(const Image& image, const PicturePart& part = {});
+
+/// Root mean square difference, levels. Transparent pixels count as black.
+[[nodiscard]] double difference(const Thumbnail& a, const Thumbnail& b);
+/// Standard deviation from the mean colour, levels.
+[[nodiscard]] double contrast(const Thumbnail& picture);
+
+}  // namespace terrella
