@@ -58,7 +58,8 @@ double contrast(const Thumbnail& picture) {
   for (std::size_t c = 0; c < 3; ++c) {
     double sum = 0.0;
     for (std::size_t i = c; i < picture.size(); i += 3) sum += picture[i];
-    for (std::size_t i = c; i < picture.size(); i += 3) mean[i] = static_cast<float>(3.0 * sum / picture.size());
+    for (std::size_t i = c; i < picture.size(); i += 3)
+      mean[i] = static_cast<float>(3.0 * sum / static_cast<double>(picture.size()));
   }
   return difference(picture, mean);
 }
