@@ -7,7 +7,7 @@
 
 namespace terrella {
 
-Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path) {
+Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -15,13 +15,13 @@ Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& p
   }
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
-  if (is_sqlite_file(path)) return open_geopackage(path);
+  if (is_sqlite_file(path)) return open_geopackage(path, geodetic_mbtiles);
   const auto head = read_head(path, 1);
   if (!head) return Error{head.error().message};
   if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
   return Error{
       fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
-                  "and a GeoPackage in EPSG:4326",
+                  "a GeoPackage in EPSG:4326, and MBTiles with a geodetic profile",
                   path.string())};
 }
 

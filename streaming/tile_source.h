@@ -83,7 +83,9 @@ class TileSource {
 };
 
 /// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 (ours,
-/// GDAL's). The error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
-[[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path);
+/// GDAL's), or MBTiles with a geodetic profile; `geodetic_mbtiles` says that the latter's is, whatever it says. The
+/// error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
+[[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,
+                                                                bool geodetic_mbtiles = false);
 
 }  // namespace terrella

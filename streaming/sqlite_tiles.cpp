@@ -1,0 +1,89 @@
+#include "streaming/sqlite_tiles.h"
+
+#include <utility>
+
+#include "streaming/directory_source.h"
+
+namespace terrella {
+namespace {
+
+/// The tile in the query's row. Copied, since it is gone once the query is reset.
+Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
+  if (!row) return TileFailure{Absence::absent, "the file has no such tile"};
+  const auto blob = query.blob(0);
+  if (!blob) return TileFailure{Absence::broken, "tile_data is not a blob"};
+  if (blob->empty()) return TileFailure{Absence::blank, "tile_data is empty"};
+  return EncodedTile{{blob->begin(), blob->end()}};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SqliteTiles>, SqlError> SqliteTiles::open(std::filesystem::path path, std::string table) {
+  std::unique_ptr<SqliteTiles> tiles(new SqliteTiles(std::move(path), std::move(table)));
+  Result<Connection, SqlError> first = tiles->connect();
+  if (!first) return first.error();
+  tiles->give_back(*std::move(first));
+  return tiles;
+}
+
+Result<SqliteTiles::Connection, SqlError> SqliteTiles::connect() const {
+  Result<SqliteReader, SqlError> reader = SqliteReader::open(path_, kMaxTileBytes);
+  if (!reader) return reader.error();
+  const std::string name = quote_identifier(table_);
+  Result<SqliteQuery, SqlError> tile = reader->prepare("SELECT tile_data FROM " + name +
+                                                       " WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3");
+  if (!tile) return tile.error();
+  Result<SqliteQuery, SqlError> count = reader->prepare("SELECT count(*) FROM " + name + " WHERE zoom_level = ?1");
+  if (!count) return count.error();
+  return Connection{*std::move(reader), *std::move(tile), *std::move(count)};
+}
+
+Result<EncodedTile, TileFailure> SqliteTiles::read(const SqlitePlace& place) {
+  if (given_up_) return TileFailure{Absence::broken, "given up: reading another tile took too long"};
+  Result<Connection, SqlError> connection = take();
+  if (!connection) return TileFailure{Absence::failed, connection.error().message};
+  connection->tile.bind(1, place.zoom);
+  connection->tile.bind(2, place.column);
+  connection->tile.bind(3, place.row);
+  const Result<bool, SqlError> row = connection->tile.step(kMaxTileSteps);
+  Result<EncodedTile, TileFailure> tile = row ? tile_of(connection->tile, *row) : failure_of(row.error());
+  connection->tile.reset();
+  give_back(*std::move(connection));
+  return tile;
+}
+
+std::optional<std::int64_t> SqliteTiles::count(std::int64_t zoom) {
+  Result<Connection, SqlError> connection = take();
+  if (!connection) return std::nullopt;
+  connection->count.bind(1, zoom);
+  const Result<bool, SqlError> row = connection->count.step();
+  const std::optional<std::int64_t> count = row && *row ? connection->count.integer(0) : std::nullopt;
+  connection->count.reset();
+  give_back(*std::move(connection));
+  return count;
+}
+
+/// What never ends for one tile does not end for the next: a file is given one such chance.
+TileFailure SqliteTiles::failure_of(const SqlError& error) {
+  if (error.problem == SqlProblem::too_long) given_up_ = true;
+  return TileFailure{error.problem == SqlProblem::busy ? Absence::failed : Absence::broken, error.message};
+}
+
+Result<SqliteTiles::Connection, SqlError> SqliteTiles::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      Connection connection = std::move(idle_.back());
+      idle_.pop_back();
+      return connection;
+    }
+  }
+  return connect();
+}
+
+void SqliteTiles::give_back(Connection connection) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(connection));
+}
+
+}  // namespace terrella
