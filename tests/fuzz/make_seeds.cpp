@@ -72,6 +72,44 @@ constexpr const char* kTables =
     "CREATE TABLE t (zoom_level, tile_column, tile_row, tile_data);"
     "INSERT INTO t VALUES (0, 0, 0, x'FFD8FF'), (1, 3, 1, x'89'), (1, 0, 0, NULL);";
 
+constexpr const char* kCapabilities =
+    "<Capabilities><Contents><Layer><Title>t</Title><Identifier>l</Identifier><Style isDefault=\"true\"><Identifier>d"
+    "</Identifier></Style><Format>image/png</Format><WGS84BoundingBox><LowerCorner>-180 -90</LowerCorner><UpperCorner>"
+    "180 "
+    "90</UpperCorner></WGS84BoundingBox><Dimension><Identifier>Time</Identifier><Default>2004-08-01</Default><Value>"
+    "2000-01-01/2004-08-01/P1D</Value></Dimension><TileMatrixSetLink><TileMatrixSet>s</TileMatrixSet>"
+    "<TileMatrixSetLimits><TileMatrixLimits><TileMatrix>0</TileMatrix><MinTileRow>0</MinTileRow><MaxTileRow>0"
+    "</MaxTileRow><MinTileCol>0</MinTileCol><MaxTileCol>1</MaxTileCol></TileMatrixLimits></TileMatrixSetLimits>"
+    "</TileMatrixSetLink><ResourceURL format=\"image/png\" resourceType=\"tile\" template=\"http://a/{Style}/{Time}/"
+    "{TileMatrixSet}/{TileMatrix}/{TileRow}/{TileCol}\"/></Layer><TileMatrixSet><Identifier>s</Identifier>"
+    "<SupportedCRS>urn:ogc:def:crs:OGC:1.3:CRS84</SupportedCRS><TileMatrix><Identifier>0</Identifier><ScaleDenominator>"
+    "223632905.6114871</ScaleDenominator><TopLeftCorner>-180 "
+    "90</TopLeftCorner><TileWidth>512</TileWidth><TileHeight>512"
+    "</TileHeight><MatrixWidth>2</MatrixWidth><MatrixHeight>1</MatrixHeight></TileMatrix></TileMatrixSet></Contents>"
+    "</Capabilities>";
+
+constexpr const char* kSource =
+    "{\"url\": \"http://{s}.a/{z}/{x}/{-y}.png?key=1\", \"subdomains\": [\"a\"], \"headers\": [\"A: b\"], "
+    "\"root_span_deg\": 360, \"tile_px\": 512, \"max_level\": 4, \"bounds\": [-180, -90, 180, 90], \"body\": \"mars\", "
+    "\"tile_life_s\": 5, \"format\": \"png\"}";
+
+constexpr const char* kMbtiles =
+    "PRAGMA page_size = 512;"
+    "CREATE TABLE metadata (name, value); INSERT INTO metadata VALUES ('profile', 'geodetic'), ('bounds', "
+    "'-180,-90,180,90');"
+    "CREATE TABLE tiles (zoom_level, tile_column, tile_row, tile_data);";
+
+/// A tile as SQL writes a blob.
+std::string blob_of(const std::vector<std::byte>& bytes) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text = "x'";
+  for (const std::byte byte : bytes) {
+    text += kDigits[std::to_integer<int>(byte) >> 4];
+    text += kDigits[std::to_integer<int>(byte) & 15];
+  }
+  return text + "'";
+}
+
 bool write_database(const fs::path& path, const std::string& sql) {
   fs::create_directories(path.parent_path());
   fs::remove(path);
@@ -99,11 +137,16 @@ int main(int argc, char** argv) {
   write(folder / "http_headers/address", "https://user:word@tiles.example:8443/1/2/3.jpg?key=value#a");
   write(folder / "tileset_json/a.json", to_tileset_json(info()));
   write(folder / "tms_xml/a.xml", kTms);
+  write(folder / "capabilities/a.xml", kCapabilities);
+  write(folder / "source_json/a.json", kSource);
+  const std::string mbtiles =
+      std::string(kMbtiles) + "INSERT INTO tiles VALUES (1, 3, 1, " + blob_of(*encode_jpeg(picture(255), 50)) + ");";
   const std::string ours =
       std::string(kTables) +
       "CREATE TABLE terrella_tileset (key, value); INSERT INTO terrella_tileset VALUES "
       "('tileset', '{\"root_span_deg\": 180, \"tile_px\": 16, \"max_level\": 1, \"format\": \"png\"}');";
   const bool written = write_database(folder / "geopackage/foreign.gpkg", kTables) &&
-                       write_database(folder / "geopackage/ours.gpkg", ours);
+                       write_database(folder / "geopackage/ours.gpkg", ours) &&
+                       write_database(folder / "mbtiles/a.mbtiles", mbtiles);
   return written ? 0 : 1;
 }
