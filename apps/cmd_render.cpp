@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -29,25 +30,38 @@ Status write_png(const std::filesystem::path& path, Viewport size, std::vector<s
   return write_file(path, *png);
 }
 
-void report(const RenderCommand& command, const FrameStats& stats) {
+struct Rendered {
+  FrameStats stats;
+  std::vector<LackingTile> lacking;
+};
+
+constexpr std::size_t kMostNamed = 16;
+
+std::string name_of(const LackingTile& tile) {
+  return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, tile.failure.why);
+}
+
+void report(const RenderCommand& command, const Rendered& rendered) {
+  const FrameStats& stats = rendered.stats;
   const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
   if (command.json) {
-    const nlohmann::json result = {{"output", command.output},
-                                   {"tiles_asked", stats.tiles_wanted},
-                                   {"tiles_got", got},
-                                   {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
-                                   {"patches", stats.patches},
-                                   {"band_patches", stats.band_patches},
-                                   {"draw_calls", stats.draw_calls},
-                                   {"triangles", stats.triangles}};
-    fmt::print("{}\n", result.dump());
+    nlohmann::json result = {{"output", command.output},
+                             {"tiles_asked", stats.tiles_wanted},
+                             {"tiles_got", got},
+                             {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
+                             {"patches", stats.patches},
+                             {"band_patches", stats.band_patches},
+                             {"draw_calls", stats.draw_calls},
+                             {"triangles", stats.triangles}};
+    for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
+    fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
   fmt::print("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
              stats.tiles_lacked + stats.tiles_missing);
 }
 
-Result<FrameStats> render_picture(const RenderCommand& command) {
+Result<Rendered> render_picture(const RenderCommand& command) {
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
   const Result<Body> body = scene_body(command.scene, (*imagery)->info());
@@ -68,17 +82,22 @@ Result<FrameStats> render_picture(const RenderCommand& command) {
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
-  return stats;
+  return Rendered{stats, {(*globe)->lacking().begin(), (*globe)->lacking().end()}};
 }
 
 int run(const RenderCommand& command) {
-  const Result<FrameStats> stats = render_picture(command);
-  if (!stats) {
-    fmt::print(stderr, "terrella render: {}\n", stats.error().message);
+  const Result<Rendered> rendered = render_picture(command);
+  if (!rendered) {
+    fmt::print(stderr, "terrella render: {}\n", rendered.error().message);
     return kFailed;
   }
-  report(command, *stats);
-  return stats->tiles_lacked + stats->tiles_missing > 0 ? kDoneInPart : kDone;
+  report(command, *rendered);
+  const FrameStats& stats = rendered->stats;
+  if (stats.tiles_lacked + stats.tiles_missing == 0) return kDone;
+  for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
+    fmt::print(stderr, "terrella render: lacks {}\n", name_of(rendered->lacking[k]));
+  }
+  return kDoneInPart;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ constexpr int kSegments = 24;
 constexpr int kMips = 4;
 constexpr int kGutter_px = 8;
 constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::size_t kMostLacking = 64;
+constexpr std::chrono::seconds kRetryFailed{30};
 // Steps by a quarter in which detail gives way to the budget: six tile levels.
 constexpr int kMostCoarser = 16;
 
@@ -43,6 +45,8 @@ struct Globe::Impl {
   void select(Viewport viewport);
   void ask();
   std::size_t take_finished();
+  void note_lacking(const TileId& id, TileFailure failure);
+  void retry_failed();
   FrameStats draw(unsigned framebuffer, Viewport viewport);
   bool roots_decided();
 
@@ -61,6 +65,8 @@ struct Globe::Impl {
   std::uint64_t frame = 0;
   double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
   FrameStats stats;
+  std::deque<LackingTile> lacking;
+  std::deque<std::pair<Clock::time_point, TileId>> failed;  ///< to be asked for again, the earliest first
 };
 
 void Globe::Impl::select(Viewport viewport) {
@@ -90,7 +96,7 @@ std::size_t Globe::Impl::take_finished() {
     if (batch.empty()) break;
     for (LoadedTile& tile : batch) {
       if (!tile.pixels) {
-        tiles.set_state(tile.id, TileState::lacking);
+        note_lacking(tile.id, std::move(tile.pixels.error()));
       } else if (tiles.upload(tile.id, tile.pixels->mips, frame)) {
         bytes += tiles.slot_bytes();
       }
@@ -100,9 +106,24 @@ std::size_t Globe::Impl::take_finished() {
   return bytes;
 }
 
+void Globe::Impl::note_lacking(const TileId& id, TileFailure failure) {
+  tiles.set_state(id, TileState::lacking);
+  if (failure.kind == Absence::failed) failed.emplace_back(Clock::now() + kRetryFailed, id);
+  lacking.push_back({id, std::move(failure)});
+  if (lacking.size() > kMostLacking) lacking.pop_front();
+}
+
+void Globe::Impl::retry_failed() {
+  for (const auto now = Clock::now(); !failed.empty() && failed.front().first <= now; failed.pop_front()) {
+    TileResidency::Entry* entry = tiles.residency().find(failed.front().second);
+    if (entry != nullptr && entry->state == TileState::lacking) entry->state = TileState::unknown;
+  }
+}
+
 FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats = {};
   ++frame;
+  retry_failed();
   stats.uploaded_bytes = take_finished();
   const auto start = Clock::now();
   select(viewport);
@@ -177,6 +198,8 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
     impl_->loader.wait(std::min(deadline, Clock::now() + kPoll));
   }
 }
+
+const std::deque<LackingTile>& Globe::lacking() const { return impl_->lacking; }
 
 LoaderCounts Globe::loading() const { return impl_->loader.counts(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -40,6 +41,12 @@ struct FrameStats {
   double selection_ms = 0.0;
 };
 
+/// A tile that the source could not give, and why.
+struct LackingTile {
+  TileId id;
+  TileFailure failure;
+};
+
 /// The globe: give it a current OpenGL 4.5 context, a tile source and a camera; it draws into a framebuffer.
 /// thread: main (the thread of the context) for every call.
 class Globe {
@@ -65,6 +72,9 @@ class Globe {
   /// Renders until settled or the deadline; false at the deadline.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;
+  /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)
+  /// are asked for again after half a minute, if they are still wanted.
+  [[nodiscard]] const std::deque<LackingTile>& lacking() const;
 
   /// View of the camera at a picture size: picks and projections (geo/camera.h) take it.
   [[nodiscard]] View view(Viewport viewport) const;

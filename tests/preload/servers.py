@@ -46,8 +46,8 @@ def running(*command):
 
 
 @contextlib.contextmanager
-def nginx(root):
-    with running(HTTP / "nginx.py", root) as told:
+def nginx(root, *options):
+    with running(HTTP / "nginx.py", root, *options) as told:
         yield Nginx(told)
 
 
