@@ -5,13 +5,16 @@
 #include <future>
 #include <utility>
 
-#include "streaming/remote/url_template.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
 
 Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions& remote, const HttpOptions& http) {
-  auto set = template_tile_set(source, remote, true, source);
+  const auto fetch = [&](const std::string& url, const std::vector<std::string>& headers) {
+    return fetch_document(http, url, headers);
+  };
+  auto set = describe_remote(source, remote, fetch);
   if (!set) return set.error();
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
   opened.make_origin = [set = *std::move(set), http](TileOrigin::OnAnswer on_answer) {
@@ -38,8 +41,7 @@ Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
 
 Result<PreloadSource> open_preload_source(const std::string& source, const RemoteOptions& remote,
                                           const HttpOptions& http) {
-  return source.find("://") != std::string::npos ? open_remote(source, remote, http)
-                                                 : open_on_disk(source, http.connections_per_host);
+  return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
 }
 
 Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const std::string& url,

@@ -20,6 +20,15 @@ std::string find_sql(const char* data) {
       data);
 }
 
+/// The same for rows below one another, which stand side by side in the index that the table of tiles has anyway.
+constexpr const char* kColumnSql =
+    "SELECT NULL, t.id, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used, t.tile_row FROM tiles t "
+    "LEFT JOIN terrella_cache_tiles s ON s.id = t.id WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row BETWEEN "
+    "?3 "
+    "AND ?4 UNION ALL SELECT NULL, NULL, kind, why, etag, last_modified, stored, expires, NULL, tile_row "
+    "FROM terrella_cache_absences WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row BETWEEN ?3 AND ?4 "
+    "ORDER BY tile_row";
+
 FoundRecord record_of(const SqliteQuery& query) {
   FoundRecord found;
   CacheRecord& record = found.record;
@@ -56,6 +65,29 @@ Result<std::optional<FoundRecord>> CacheReaders::find(const TileId& id, bool byt
   return found;
 }
 
+Result<std::vector<std::pair<std::int64_t, FoundRecord>>> CacheReaders::find_column(int level, std::int64_t x,
+                                                                                    std::int64_t first_y,
+                                                                                    std::int64_t last_y) {
+  const auto failed = [&](const SqlError& error) {
+    return Error{fmt::format("{}: the cache cannot be read: {}", path_.string(), error.message)};
+  };
+  Result<Connection, SqlError> connection = take();
+  if (!connection) return failed(connection.error());
+  SqliteQuery& query = connection->column;
+  query.bind(1, level);
+  query.bind(2, x);
+  query.bind(3, first_y);
+  query.bind(4, last_y);
+  constexpr int kRowColumn = 9;
+  std::vector<std::pair<std::int64_t, FoundRecord>> found;
+  Result<bool, SqlError> row = query.step();
+  for (; row && *row; row = query.step()) found.emplace_back(query.integer(kRowColumn).value_or(0), record_of(query));
+  query.reset();
+  give_back(*std::move(connection));
+  if (!row) return failed(row.error());
+  return found;
+}
+
 Result<CacheReaders::Connection, SqlError> CacheReaders::take() {
   {
     const std::lock_guard lock(mutex_);
@@ -71,7 +103,9 @@ Result<CacheReaders::Connection, SqlError> CacheReaders::take() {
   if (!whole) return whole.error();
   Result<SqliteQuery, SqlError> brief = reader->prepare(find_sql("NULL"));
   if (!brief) return brief.error();
-  return Connection{*std::move(reader), *std::move(whole), *std::move(brief)};
+  Result<SqliteQuery, SqlError> column = reader->prepare(kColumnSql);
+  if (!column) return column.error();
+  return Connection{*std::move(reader), *std::move(whole), *std::move(brief), *std::move(column)};
 }
 
 void CacheReaders::give_back(Connection connection) {

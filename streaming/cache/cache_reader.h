@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "streaming/cache/tile_cache.h"
@@ -25,6 +26,10 @@ class CacheReaders {
 
   /// Without `bytes` the record's bytes stay empty.
   [[nodiscard]] Result<std::optional<FoundRecord>> find(const TileId& id, bool bytes);
+  /// Records without bytes of the rows [first_y, last_y] of a column, from the north.
+  [[nodiscard]] Result<std::vector<std::pair<std::int64_t, FoundRecord>>> find_column(int level, std::int64_t x,
+                                                                                      std::int64_t first_y,
+                                                                                      std::int64_t last_y);
   void close();  ///< ends idle connections
 
  private:
@@ -32,6 +37,7 @@ class CacheReaders {
     SqliteReader reader;
     SqliteQuery whole;  ///< with the tile's bytes
     SqliteQuery brief;
+    SqliteQuery column;
   };
   [[nodiscard]] Result<Connection, SqlError> take();
   void give_back(Connection connection);

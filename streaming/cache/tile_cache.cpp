@@ -70,6 +70,18 @@ class SqliteTileCache : public TileCache {
 
   [[nodiscard]] Result<std::optional<CacheRecord>> find(const TileId& id) override { return look_up(id, true); }
   [[nodiscard]] Result<std::optional<CacheRecord>> peek(const TileId& id) override { return look_up(id, false); }
+  [[nodiscard]] Status peek_column(
+      int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y,
+      const std::function<void(std::int64_t y, const CacheRecord& record)>& call) override {
+    // Before the file, as in look_up().
+    if (queue_.has_pending_in(level, x, first_y, last_y)) {
+      return TileCache::peek_column(level, x, first_y, last_y, call);
+    }
+    const auto found = readers_.find_column(level, x, first_y, last_y);
+    if (!found) return found.error();
+    for (const auto& [y, row] : *found) call(y, row.record);
+    return Done{};
+  }
 
   void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable) override {
     queue_.push({.id = id,

@@ -53,6 +53,20 @@ void WriteQueue::note_use(std::int64_t row, std::int64_t used_unix_s) {
   if (uses_.size() == kMaxUses) work_.notify_one();
 }
 
+bool WriteQueue::has_pending_in(int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y) const {
+  const std::lock_guard lock(mutex_);
+  if (pending_.size() <= static_cast<std::size_t>(last_y - first_y)) {
+    for (const auto& [id, record] : pending_) {
+      if (id.level == level && id.x == x && id.y >= first_y && id.y <= last_y) return true;
+    }
+    return false;
+  }
+  for (std::int64_t y = first_y; y <= last_y; ++y) {
+    if (pending_.contains({level, x, y})) return true;
+  }
+  return false;
+}
+
 std::optional<PendingRecord> WriteQueue::pending(const TileId& id) const {
   const std::lock_guard lock(mutex_);
   const auto found = pending_.find(id);

@@ -59,6 +59,8 @@ class WriteQueue {
   /// thread: any
   void note_use(std::int64_t row, std::int64_t used_unix_s);
   [[nodiscard]] std::optional<PendingRecord> pending(const TileId& id) const;  ///< thread: any
+  /// Whether pending() knows anything of these rows of a column. thread: any
+  [[nodiscard]] bool has_pending_in(int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y) const;
 
   /// Waits for changes, then a moment for more of them; also returns, perhaps empty, at `until`. thread: the writer
   [[nodiscard]] CacheBatch take(std::chrono::steady_clock::time_point until);

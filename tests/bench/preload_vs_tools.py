@@ -150,7 +150,7 @@ def commands(program, address, work, http2, ca_file, places):
                   "--http2" if http2 else "--no-http2", "-i", work / "urls.txt"],
         "aria2c": ["aria2c", "-q", "-j16", "--dir", work / "aria2", f"--ca-certificate={ca_file}",
                    "--console-log-level=error", "--file-allocation=none", "-i", work / "aria2.txt"],
-        "mapproxy-seed": ["mapproxy-seed", "-q", "-f", work / "mapproxy.yaml", "-s", work / "seed.yaml", "-c", JOBS],
+        "mapproxy-seed": ["mapproxy-seed", "-q", "-f", work / "mapproxy.yaml", "-s", work / "seed.yaml", "-c", 4],
     }
 
 

@@ -141,6 +141,9 @@ int main(int argc, char** argv) {
   write(folder / "source_json/a.json", kSource);
   const std::string mbtiles =
       std::string(kMbtiles) + "INSERT INTO tiles VALUES (1, 3, 1, " + blob_of(*encode_jpeg(picture(255), 50)) + ");";
+  write(folder / "geojson/a.geojson",
+        R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"Polygon","coordinates":[[[170,10],)"
+        R"([-170,10],[-170,80],[170,10]]]}})");
   const std::string ours =
       std::string(kTables) +
       "CREATE TABLE terrella_tileset (key, value); INSERT INTO terrella_tileset VALUES "
