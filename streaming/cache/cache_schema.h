@@ -15,7 +15,7 @@ inline constexpr const char* kCacheTable = "terrella_cache";                   /
 inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";        ///< one row for each tile, by its id
 inline constexpr const char* kCacheAbsencesTable = "terrella_cache_absences";  ///< places without a tile, and why
 inline constexpr int kCacheVersion = 1;
-inline constexpr std::int64_t kCachePageBytes = 8192;
+inline constexpr std::int64_t kCachePageBytes = 4096;
 
 /// How an absence is named in the file; never change one.
 [[nodiscard]] const char* absence_name(Absence kind);

@@ -30,7 +30,7 @@ TileSetInfo planet() {
 std::vector<std::byte> tile_bytes(const TileId& id, std::size_t size, unsigned version) {
   std::mt19937 random(static_cast<unsigned>(TileIdHash{}(id)) * 31 + version);
   std::vector<std::byte> bytes(size);
-  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(i % 8 == 0 ? random() : i);
   return bytes;
 }
 
@@ -72,7 +72,8 @@ std::optional<CacheRecord> found(TileCache& cache, const TileId& id) {
 
 std::string sql(const fs::path& path, const std::string& statement) {
   sqlite3* database = nullptr;
-  EXPECT_EQ(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr), SQLITE_OK) << path;
+  EXPECT_EQ(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr), SQLITE_OK)
+      << path;
   sqlite3_busy_timeout(database, 5000);
   std::string first;
   const auto take = [](void* text, int, char** values, char**) {

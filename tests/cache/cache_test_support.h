@@ -44,7 +44,7 @@ inline constexpr const char* kSource = "https://tiles.example/{z}/{x}/{y}.jpg";
 [[nodiscard]] std::optional<CacheRecord> found(TileCache& cache, const TileId& id);
 
 /// The first column of the first row, by a connection of its own.
-[[nodiscard]] std::string sql(const std::filesystem::path& path, const std::string& statement);
+std::string sql(const std::filesystem::path& path, const std::string& statement);
 /// PRAGMA integrity_check's words.
 [[nodiscard]] std::string integrity(const std::filesystem::path& path);
 /// Main file and write-ahead log.
