@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,6 +13,7 @@
 #include "apps/open_imagery.h"
 #include "apps/tile_set_report.h"
 #include "apps/verify_tiles.h"
+#include "streaming/cache/cache_report.h"
 #include "streaming/tile_range.h"
 
 namespace terrella {
@@ -64,21 +66,38 @@ auto progress_lines() {
   };
 }
 
+int fail(const Error& error) {
+  fmt::print(stderr, "terrella info: {}\n", error.message);
+  return kFailed;
+}
+
 int run_info(const InfoOptions& options) {
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   const Result<std::shared_ptr<TileSource>> source = open_imagery(scene);
-  if (!source) {
-    fmt::print(stderr, "terrella info: {}\n", source.error().message);
-    return kFailed;
-  }
+  if (!source) return fail(source.error());
   TileSetReport report{
-      .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .verified = {}};
+      .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(options.tile_set);
   report.levels = count_levels(**source);
-  if (options.verify) report.verified = verify_tiles(*source, progress_lines());
+  if (is_cache(options.tile_set)) {
+    const std::int64_t now_unix_s = std::time(nullptr);
+    Result<CacheReport> cache =
+        options.verify ? verify_cache(options.tile_set, now_unix_s) : read_cache_report(options.tile_set, now_unix_s);
+    if (!cache) return fail(cache.error());
+    report.cache = *std::move(cache);
+  }
+  if (options.verify) {
+    // A cache's grid may have a million times more places than it has tiles: what is there is what is checked.
+    Result<VerifyReport> verified =
+        report.cache ? verify_cached_tiles(*source, options.tile_set, report.cache->tiles, progress_lines())
+                     : verify_tiles(*source, progress_lines());
+    if (!verified) return fail(verified.error());
+    report.verified = *std::move(verified);
+  }
   fmt::print("{}", options.json ? to_json(report) : to_text(report));
-  return report.verified && report.verified->bad > 0 ? kFailed : kDone;
+  const bool damaged = report.cache && report.cache->problems && !report.cache->problems->empty();
+  return damaged || (report.verified && report.verified->bad > 0) ? kFailed : kDone;
 }
 
 }  // namespace
@@ -88,8 +107,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->footer(kExamples);
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
-  command->add_flag("--verify", options->verify,
-                    "decode every tile, name the broken ones; exit code 1 if there are any");
+  command->add_flag(
+      "--verify", options->verify,
+      "decode every tile, name the broken ones, and check a cache's database; exit code 1 if there are any");
   command->add_flag("--json", options->json, "one JSON object");
   command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }

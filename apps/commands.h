@@ -12,6 +12,7 @@ enum ExitCode : int { kDone = 0, kFailed = 1, kWrongUsage = 2, kDoneInPart = 3 }
 /// thread: main
 void add_cut_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
+void add_merge_command(CLI::App& app, int& exit_code);
 void add_preload_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "streaming/tileset_json.h"
@@ -41,6 +42,32 @@ std::string elevation_text(const ElevationInfo& elevation) {
 }
 
 std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : text; }
+
+constexpr std::array kAbsenceNames = {"absent", "blank", "broken", "failed"};
+
+std::string cache_text(const CacheReport& cache) {
+  std::string text = fmt::format("cache of     {}\n", cache.source_key);
+  text += fmt::format("tiles        {}, {} of them expired\n", cache.tiles, cache.expired_tiles);
+  for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
+    text += fmt::format("{:<12} {}, {} of them expired\n", kAbsenceNames.at(kind), cache.absences.at(kind),
+                        cache.expired_absences.at(kind));
+  }
+  if (!cache.problems) return text;
+  text += fmt::format("database     {}\n", cache.problems->empty() ? "sound" : "damaged");
+  for (const std::string& problem : *cache.problems) text += fmt::format("damage       {}\n", problem);
+  return text;
+}
+
+nlohmann::ordered_json cache_json(const CacheReport& cache) {
+  nlohmann::ordered_json object{
+      {"source", cache.source_key}, {"tiles", cache.tiles}, {"expired_tiles", cache.expired_tiles}};
+  for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
+    object["absences"][kAbsenceNames.at(kind)] = {{"count", cache.absences.at(kind)},
+                                                  {"expired", cache.expired_absences.at(kind)}};
+  }
+  if (cache.problems) object["problems"] = *cache.problems;
+  return object;
+}
 
 std::string verify_text(const VerifyReport& verified) {
   std::string text = fmt::format("verified     {} tiles are good, {} absent, {} blank, {} broken\n", verified.good,
@@ -85,6 +112,7 @@ std::string to_text(const TileSetReport& report) {
     const std::string tiles = level.tiles ? fmt::format("{} of ", *level.tiles) : "";
     text += fmt::format("level {:<6} {}{} tiles of {:.6g}°\n", level.level, tiles, level.places, level.span_deg);
   }
+  if (report.cache) text += cache_text(*report.cache);
   return report.verified ? text + verify_text(*report.verified) : text;
 }
 
@@ -99,6 +127,7 @@ std::string to_json(const TileSetReport& report) {
     if (level.tiles) entry["tiles"] = *level.tiles;
     levels.push_back(std::move(entry));
   }
+  if (report.cache) object["cache"] = cache_json(*report.cache);
   if (report.verified) object["verified"] = verify_json(*report.verified);
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "streaming/cache/cache_report.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -35,11 +36,12 @@ struct TileSetReport {
   std::optional<std::uintmax_t> size_bytes;  ///< of the file or of all files in the directory
   TileSetInfo info;
   std::vector<LevelReport> levels;
+  std::optional<CacheReport> cache;  ///< if it is one
   std::optional<VerifyReport> verified;
 };
 
 /// For people: lines of text. For programs: one JSON object, the fields of tileset.json and `path`, `size_bytes`,
-/// `levels`, `verified`.
+/// `levels`, `cache`, `verified`.
 [[nodiscard]] std::string to_text(const TileSetReport& report);
 [[nodiscard]] std::string to_json(const TileSetReport& report);
 

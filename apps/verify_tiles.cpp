@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "streaming/cache/cache_report.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_range.h"
 
@@ -53,36 +54,67 @@ std::int64_t count_all(const TileGrid& grid) {
   return total;
 }
 
+using VerifyProgress = std::function<void(std::int64_t done, std::int64_t total)>;
+
+/// Takes tiles one by one and loads them in batches.
+class Verifier {
+ public:
+  Verifier(const std::shared_ptr<TileSource>& source, std::int64_t total, const VerifyProgress& progress)
+      : loader_(source, options()), total_(total), progress_(progress) {}
+
+  bool take(const TileId& id) {
+    batch_.push_back({id, 0.0});
+    if (batch_.size() == kBatch) flush();
+    return true;
+  }
+
+  VerifyReport finish() {
+    flush();
+    const auto before = [](const BadTile& a, const BadTile& b) { return a.id < b.id; };
+    std::sort(report_.first_bad.begin(), report_.first_bad.end(), before);
+    return std::move(report_);
+  }
+
+ private:
+  static LoaderOptions options() {
+    LoaderOptions options{.workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16)};
+    options.gutter = 0;
+    options.mips = 1;
+    return options;
+  }
+
+  void flush() {
+    load(loader_, batch_, report_);
+    done_ += static_cast<std::int64_t>(batch_.size());
+    batch_.clear();
+    progress_(done_, std::max(done_, total_));
+  }
+
+  TileLoader loader_;
+  const std::int64_t total_;
+  const VerifyProgress& progress_;
+  std::int64_t done_ = 0;
+  std::vector<TileRequest> batch_;
+  VerifyReport report_;
+};
+
 }  // namespace
 
-VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source,
-                          const std::function<void(std::int64_t done, std::int64_t total)>& progress) {
+VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source, const VerifyProgress& progress) {
   const TileGrid& grid = source->info().grid;
-  const std::int64_t total = count_all(grid);
-  std::int64_t done = 0;
-  VerifyReport report;
-  LoaderOptions options{.workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16)};
-  options.gutter = 0;
-  options.mips = 1;
-  TileLoader loader(source, options);
-  std::vector<TileRequest> batch;
-  const auto flush = [&] {
-    load(loader, batch, report);
-    done += static_cast<std::int64_t>(batch.size());
-    batch.clear();
-    progress(done, total);
-  };
+  Verifier verifier(source, count_all(grid), progress);
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
-    for_each_place(grid, level, [&](const TileId& id) {
-      batch.push_back({id, 0.0});
-      if (batch.size() == kBatch) flush();
-      return true;
-    });
+    for_each_place(grid, level, [&](const TileId& id) { return verifier.take(id); });
   }
-  flush();
-  const auto before = [](const BadTile& a, const BadTile& b) { return a.id < b.id; };
-  std::sort(report.first_bad.begin(), report.first_bad.end(), before);
-  return report;
+  return verifier.finish();
+}
+
+Result<VerifyReport> verify_cached_tiles(const std::shared_ptr<TileSource>& source, const std::filesystem::path& cache,
+                                         std::int64_t total, const VerifyProgress& progress) {
+  Verifier verifier(source, total, progress);
+  const Status listed = for_each_cached_tile(cache, [&](const TileId& id) { return verifier.take(id); });
+  if (!listed) return listed.error();
+  return verifier.finish();
 }
 
 }  // namespace terrella

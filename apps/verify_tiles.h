@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -11,5 +12,9 @@ namespace terrella {
 /// tiles asked for so far and in all. thread: main
 [[nodiscard]] VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source,
                                         const std::function<void(std::int64_t done, std::int64_t total)>& progress);
+/// The same for the tiles that a cache holds, which are `total` or so: what it lacks is not counted as absent.
+[[nodiscard]] Result<VerifyReport> verify_cached_tiles(
+    const std::shared_ptr<TileSource>& source, const std::filesystem::path& cache, std::int64_t total,
+    const std::function<void(std::int64_t done, std::int64_t total)>& progress);
 
 }  // namespace terrella

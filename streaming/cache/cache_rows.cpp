@@ -28,9 +28,9 @@ constexpr std::array kSql = {
     "SELECT id, used FROM terrella_cache_tiles WHERE used IS NOT NULL ORDER BY used LIMIT ?1",
     "DELETE FROM terrella_cache_absences WHERE (zoom_level, tile_column, tile_row) IN "
     "(SELECT zoom_level, tile_column, tile_row FROM terrella_cache_absences WHERE stored <= ?1 ORDER BY stored LIMIT ?2)",
-    "SELECT s.stored FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id "
+    "SELECT s.stored, 0 FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id "
     "WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
-    "SELECT stored FROM terrella_cache_absences WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
+    "SELECT stored, kind = 'failed' FROM terrella_cache_absences WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
 };
 // clang-format on
 
@@ -163,7 +163,10 @@ WriteResult<CacheRows::Known> CacheRows::known(const TileId& id) {
     SqliteStatement& look = statements_[which];
     bind_place(look, id);
     const WriteResult<bool> row = look.step();
-    if (row && *row) *stored = look.integer(0);
+    if (row && *row) {
+      *stored = look.integer(0);
+      known.failed = look.integer(1) != 0;
+    }
     look.reset();
     if (!row) return row.error();
   }

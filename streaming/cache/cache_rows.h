@@ -26,6 +26,7 @@ class CacheRows {
   struct Known {
     std::optional<std::int64_t> tile_stored;
     std::optional<std::int64_t> absence_stored;
+    bool failed = false;  ///< the absence is of that kind
   };
   [[nodiscard]] WriteResult<Known> known(const TileId& id);
 

@@ -119,8 +119,8 @@ std::string SqliteStatement::text(int column) const {
 WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, Mode mode) {
   SqliteWriter writer;
   sqlite3* database = nullptr;
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE |
-                    (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
+  const int flags = (mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE) | SQLITE_OPEN_NOMUTEX |
+                    SQLITE_OPEN_PRIVATECACHE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   errno = 0;
   const int opened = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
   writer.database_.reset(database);

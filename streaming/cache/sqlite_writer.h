@@ -68,7 +68,7 @@ struct LockPatience {
 /// Statements must not outlive it. thread: one at a time
 class SqliteWriter {
  public:
-  enum class Mode { existing, create };
+  enum class Mode { read, existing, create };  ///< read: for checks that have no bounds; writes fail
   [[nodiscard]] static WriteResult<SqliteWriter> open(const std::filesystem::path& path, Mode mode);
 
   [[nodiscard]] WriteResult<SqliteStatement> prepare(std::string_view sql);

@@ -72,8 +72,9 @@ class TileCache {
     }
     return Done{};
   }
-  /// Queues a record to be written. `on_durable` is called on the writer's thread once it would survive kill -9, or
-  /// with the reason why it could not be written (disk full); later records are still tried. thread: any
+  /// Queues a record to be written in the place of what is known; but `failed` never takes the place of a tile.
+  /// `on_durable` is called on the writer's thread once it would survive kill -9, or with the reason why it could not
+  /// be written (disk full); later records are still tried. thread: any
   virtual void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable = {}) = 0;
   /// Notes that a tile was found unchanged (304): new expiry, same bytes. thread: any
   virtual void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,

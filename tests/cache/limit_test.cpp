@@ -40,7 +40,7 @@ class CacheLimit : public testing::Test {
 TEST_F(CacheLimit, FileAndLogStayAtTheLimitWhileMoreComesIn) {
   const auto cache = open_cache(file_, {.max_bytes = kLimit});
   fill(*cache, kLimit);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 12; ++round) {
     fill(*cache, kLimit / 8, 9 + round % 3);
     const auto size = static_cast<double>(test::size_on_disk(file_));
     EXPECT_LE(size, (1.0 + kLimitSlack) * static_cast<double>(kLimit)) << round;

@@ -1,0 +1,144 @@
+#include "streaming/cache/cache_report.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "streaming/cache/cache_schema.h"
+#include "streaming/directory_source.h"
+#include "streaming/geopackage_source.h"
+#include "streaming/sqlite_reader.h"
+#include "streaming/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxProblems = 100;
+/// Counting goes over all rows of a table, which may be hundreds of millions.
+constexpr std::int64_t kCountSteps = std::numeric_limits<std::int64_t>::max();
+
+/// The first error of a chain of questions is kept; those after it are not asked.
+class Questions {
+ public:
+  explicit Questions(const fs::path& path) : path_(path) {
+    Result<SqliteReader, SqlError> reader = SqliteReader::open(path, kMaxTileBytes);
+    if (reader) {
+      reader_ = *std::move(reader);
+    } else {
+      fail(reader.error());
+    }
+  }
+
+  /// Calls for each row until the call returns false.
+  template <class Row>
+  void ask(const std::string& sql, const Row& row, std::optional<std::int64_t> parameter = {}) {
+    if (error_) return;
+    Result<SqliteQuery, SqlError> query = reader_->prepare(sql);
+    if (!query) return fail(query.error());
+    if (parameter) query->bind(1, *parameter);
+    Result<bool, SqlError> more = query->step(kCountSteps);
+    while (more && *more && row(*query)) more = query->step(kCountSteps);
+    if (!more) fail(more.error());
+  }
+
+  std::string text(const std::string& sql) {
+    std::string value;
+    ask(sql, [&](const SqliteQuery& query) {
+      value = query.text(0).value_or("");
+      return false;
+    });
+    return value;
+  }
+
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  void fail(const SqlError& error) {
+    error_ = Error{fmt::format("{}: the cache cannot be read: {}", path_.string(), error.message)};
+  }
+
+  const fs::path path_;
+  std::optional<SqliteReader> reader_;
+  std::optional<Error> error_;
+};
+
+void count(Questions& questions, CacheReport& report, std::int64_t now_unix_s) {
+  questions.ask(
+      "SELECT count(*), count(CASE WHEN s.expires <= ?1 THEN 1 END) FROM tiles t "
+      "LEFT JOIN terrella_cache_tiles s ON s.id = t.id",
+      [&](const SqliteQuery& query) {
+        report.tiles = query.integer(0).value_or(0);
+        report.expired_tiles = query.integer(1).value_or(0);
+        return false;
+      },
+      now_unix_s);
+  questions.ask(
+      "SELECT kind, count(*), count(CASE WHEN expires <= ?1 THEN 1 END) FROM terrella_cache_absences GROUP BY kind",
+      [&](const SqliteQuery& query) {
+        const auto kind = static_cast<std::size_t>(absence_named(query.text(0).value_or("")));
+        report.absences.at(kind) += query.integer(1).value_or(0);
+        report.expired_absences.at(kind) += query.integer(2).value_or(0);
+        return true;
+      },
+      now_unix_s);
+}
+
+}  // namespace
+
+bool is_cache(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || !is_sqlite_file(path)) return false;
+  Result<SqliteReader, SqlError> reader = SqliteReader::open(path, kMaxTileBytes);
+  if (!reader) return false;
+  const Result<bool, SqlError> has = reader->has_table(kCacheTable);
+  return has && *has;
+}
+
+Result<CacheReport> read_cache_report(const fs::path& path, std::int64_t now_unix_s) {
+  if (!is_cache(path)) {
+    return Error{path.string() + ": is not a cache; caches are what `preload` and `view` fill from a source"};
+  }
+  Questions questions(path);
+  CacheReport report;
+  report.source_key = questions.text("SELECT value FROM terrella_cache WHERE key = 'source'");
+  const std::string text =
+      questions.text(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
+  count(questions, report, now_unix_s);
+  if (questions.error()) return *questions.error();
+  Result<TileSetInfo> info = parse_tileset_json(text, path.string());
+  if (!info) return info.error();
+  report.info = *std::move(info);
+  return report;
+}
+
+Result<CacheReport> verify_cache(const fs::path& path, std::int64_t now_unix_s) {
+  Result<CacheReport> report = read_cache_report(path, now_unix_s);
+  if (!report) return report;
+  // The check is one step of SQLite's machine that takes as long as it takes: no limit on a row's time applies.
+  WriteResult<SqliteWriter> database = SqliteWriter::open(path, SqliteWriter::Mode::read);
+  if (!database) return Error{fmt::format("{}: cannot be read: {}", path.string(), database.error().message)};
+  std::vector<std::string>& problems = report->problems.emplace();
+  WriteResult<SqliteStatement> check = database->prepare(fmt::format("PRAGMA integrity_check({})", kMaxProblems));
+  WriteResult<bool> more = check ? check->step() : WriteResult<bool>(check.error());
+  for (; more && *more; more = check->step()) {
+    if (check->text(0) != "ok") problems.push_back(check->text(0));
+  }
+  if (!more) problems.push_back(more.error().message);
+  return report;
+}
+
+Status for_each_cached_tile(const fs::path& path, const std::function<bool(const TileId&)>& call) {
+  Questions questions(path);
+  questions.ask("SELECT zoom_level, tile_column, tile_row FROM tiles ORDER BY zoom_level, tile_column, tile_row",
+                [&](const SqliteQuery& query) {
+                  return call({static_cast<int>(query.integer(0).value_or(0)), query.integer(1).value_or(0),
+                               query.integer(2).value_or(0)});
+                });
+  if (questions.error()) return *questions.error();
+  return Done{};
+}
+
+}  // namespace terrella

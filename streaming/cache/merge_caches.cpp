@@ -1,0 +1,229 @@
+#include "streaming/cache/merge_caches.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <optional>
+#include <string>
+
+#include "streaming/cache/cache_report.h"
+#include "streaming/cache/cache_rows.h"
+#include "streaming/cache/cache_schema.h"
+#include "streaming/cache/open_cache.h"
+#include "streaming/directory_source.h"
+#include "streaming/sqlite_reader.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kRowsPerReport = 256;
+
+// clang-format off
+/// Tiles in the order of the file, so that they are read in one go.
+constexpr const char* kTilesSql =
+    "SELECT zoom_level, tile_column, tile_row, tile_data, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used "
+    "FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id ORDER BY t.id";
+constexpr const char* kAbsencesSql =
+    "SELECT zoom_level, tile_column, tile_row, NULL, kind, why, etag, last_modified, stored, expires, NULL "
+    "FROM terrella_cache_absences";
+// clang-format on
+
+/// Whether a record takes the place of what is known of it.
+bool wins(const CacheRecord& record, const CacheRows::Known& known) {
+  if (record.absence == Absence::failed && known.tile_stored) return false;
+  if (!record.absence && known.failed) return true;
+  if (known.tile_stored && record.stored_unix_s < *known.tile_stored) return false;
+  if (known.tile_stored && record.absence && record.stored_unix_s == *known.tile_stored) return false;
+  return !known.absence_stored || record.stored_unix_s >= *known.absence_stored;
+}
+
+struct Row {
+  TileId id;
+  CacheRecord record;
+  std::int64_t used = 0;
+};
+
+Row row_of(const SqliteQuery& query) {
+  Row row{.id = {static_cast<int>(query.integer(0).value_or(0)), query.integer(1).value_or(0),
+                 query.integer(2).value_or(0)},
+          .record = {},
+          .used = query.integer(10).value_or(0)};
+  CacheRecord& record = row.record;
+  if (const auto bytes = query.blob(3)) record.bytes.assign(bytes->begin(), bytes->end());
+  if (const auto kind = query.text(4)) record.absence = absence_named(*kind);
+  record.why = query.text(5).value_or("");
+  record.etag = query.text(6).value_or("");
+  record.last_modified = query.text(7).value_or("");
+  record.stored_unix_s = query.integer(8).value_or(0);
+  record.expires_unix_s = query.integer(9);
+  return row;
+}
+
+/// The file that is being made; it goes with its owner unless it got its name.
+class MergedFile {
+ public:
+  explicit MergedFile(const fs::path& output) : output_(output) {
+    const fs::path folder = output.parent_path().empty() ? fs::path(".") : output.parent_path();
+    part_ = folder / fmt::format(".{}.{}.part", output.filename().string(), getpid());
+    std::error_code ignored;
+    fs::create_directories(folder, ignored);
+  }
+  ~MergedFile() {
+    rows_.reset();
+    database_.reset();
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+  }
+  MergedFile(const MergedFile&) = delete;
+  MergedFile& operator=(const MergedFile&) = delete;
+
+  [[nodiscard]] Status begin(const CacheReport& first) {
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+    const int file = open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) return Error{fmt::format("{}: cannot be written: {}", output_.string(), std::strerror(errno))};
+    close(file);
+    return status(write_head(first));
+  }
+
+  [[nodiscard]] WriteStatus add(const Row& row, MergeSummary& summary) {
+    const WriteResult<CacheRows::Known> known = rows_->known(row.id);
+    if (!known) return known.error();
+    const bool better = wins(row.record, *known);
+    const bool had = known->tile_stored || known->absence_stored;
+    summary.dropped += had ? 1 : 0;
+    if (!better) return Done{};
+    summary.tiles += (row.record.absence ? 0 : 1) - (known->tile_stored ? 1 : 0);
+    summary.absences += (row.record.absence ? 1 : 0) - (known->absence_stored ? 1 : 0);
+    return rows_->put(row.id, row.record, row.used);
+  }
+
+  [[nodiscard]] Status finish() {
+    rows_.reset();
+    if (Status done = status(database_->run("COMMIT")); !done) return done;
+    database_.reset();
+    const int file = open(part_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file >= 0) {
+      fsync(file);
+      close(file);
+    }
+    std::error_code failed;
+    fs::rename(part_, output_, failed);
+    if (failed) return Error{fmt::format("{}: cannot be written: {}", output_.string(), failed.message())};
+    return Done{};
+  }
+
+  [[nodiscard]] Status status(const WriteStatus& done) const {
+    if (done) return Done{};
+    return Error{fmt::format("{}: cannot be written: {}{}", output_.string(), done.error().message,
+                             done.error().problem == WriteProblem::full ? "; make space and run it again" : "")};
+  }
+
+ private:
+  /// Nobody else knows the file, and a broken one is thrown away: no journal.
+  WriteStatus write_head(const CacheReport& first) {
+    WriteResult<SqliteWriter> database = SqliteWriter::open(part_, SqliteWriter::Mode::existing);
+    if (!database) return database.error();
+    database_ = *std::move(database);
+    if (WriteStatus done = write_cache_schema(*database_, first.info, first.source_key); !done) return done;
+    for (const char* pragma : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "BEGIN"}) {
+      if (WriteStatus done = database_->run(pragma); !done) return done;
+    }
+    WriteResult<CacheRows> rows = CacheRows::prepare(*database_, first.info.grid.min_level);
+    if (!rows) return rows.error();
+    rows_ = *std::move(rows);
+    return Done{};
+  }
+
+  const fs::path output_;
+  fs::path part_;
+  std::optional<SqliteWriter> database_;
+  std::optional<CacheRows> rows_;
+};
+
+struct Progress {
+  const MergeProgress& call;
+  std::int64_t done = 0;
+  std::int64_t total = 0;
+  [[nodiscard]] bool goes_on() { return ++done % kRowsPerReport != 0 || !call || call(done, total); }
+};
+
+Status copy_rows(const fs::path& cache, const char* sql, MergedFile& merged, MergeSummary& summary,
+                 Progress& progress) {
+  const auto unreadable = [&](const SqlError& error) {
+    return Error{fmt::format("{}: the cache cannot be read: {}; `terrella info --verify` says more", cache.string(),
+                             error.message)};
+  };
+  Result<SqliteReader, SqlError> reader = SqliteReader::open(cache, kMaxTileBytes);
+  if (!reader) return unreadable(reader.error());
+  Result<SqliteQuery, SqlError> query = reader->prepare(sql);
+  if (!query) return unreadable(query.error());
+  Result<bool, SqlError> more = query->step();
+  for (; more && *more; more = query->step()) {
+    if (Status added = merged.status(merged.add(row_of(*query), summary)); !added) return added;
+    if (!progress.goes_on()) return Error{"interrupted; nothing was written, it can be run again"};
+  }
+  if (!more) return unreadable(more.error());
+  return Done{};
+}
+
+/// All must be of one source; the total of their rows is added up.
+Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64_t& rows) {
+  std::optional<CacheReport> first;
+  for (const fs::path& cache : caches) {
+    Result<CacheReport> report = read_cache_report(cache, std::time(nullptr));
+    if (!report) return report.error();
+    rows += report->tiles;
+    for (const std::int64_t absences : report->absences) rows += absences;
+    if (!first) {
+      first = *std::move(report);
+    } else if (report->source_key != first->source_key) {
+      return Error{fmt::format("{}: holds tiles of {}, and {} of {}; only caches of one source can be joined",
+                               cache.string(), report->source_key, caches.front().string(), first->source_key)};
+    } else if (!same_tiles(report->info, first->info)) {
+      return Error{
+          fmt::format("{}: has another grid, extent or format than {}; only caches of one source can be joined",
+                      cache.string(), caches.front().string())};
+    }
+  }
+  if (!first) return Error{"no cache to join; name one or more"};
+  return *std::move(first);
+}
+
+Status check_output(const std::vector<fs::path>& caches, const fs::path& output) {
+  std::error_code error;
+  if (!fs::exists(output, error)) return Done{};
+  for (const fs::path& cache : caches) {
+    if (fs::equivalent(cache, output, error)) return Done{};
+  }
+  return Error{output.string() + ": is there already; name it among the caches too, or name another output"};
+}
+
+}  // namespace
+
+Result<MergeSummary> merge_caches(const std::vector<fs::path>& caches, const fs::path& output,
+                                  const MergeProgress& progress) {
+  Progress rows{progress};
+  const Result<CacheReport> first = check_inputs(caches, rows.total);
+  if (!first) return first.error();
+  if (Status free = check_output(caches, output); !free) return free.error();
+  MergedFile merged(output);
+  if (Status begun = merged.begin(*first); !begun) return begun.error();
+  MergeSummary summary;
+  for (const fs::path& cache : caches) {
+    for (const char* sql : {kTilesSql, kAbsencesSql}) {
+      if (Status copied = copy_rows(cache, sql, merged, summary, rows); !copied) return copied.error();
+    }
+  }
+  if (Status finished = merged.finish(); !finished) return finished.error();
+  if (progress) progress(rows.total, rows.total);
+  return summary;
+}
+
+}  // namespace terrella

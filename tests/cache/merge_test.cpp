@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cache/cache_test_support.h"
+#include "streaming/cache/cache_report.h"
+#include "streaming/cache/merge_caches.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+using test::absence_record;
+using test::found;
+using test::nth_tile;
+using test::open_cache;
+using test::tile_record;
+
+class Merge : public testing::Test {
+ protected:
+  void put(const fs::path& file, const TileId& id, const CacheRecord& record) const {
+    const auto cache = open_cache(file);
+    cache->store(id, record);
+    ASSERT_TRUE(cache->flush());
+  }
+  [[nodiscard]] MergeSummary merge() const {
+    const auto summary = merge_caches({a_, b_}, out_);
+    EXPECT_TRUE(summary) << summary.error().message;
+    return summary ? *summary : MergeSummary{};
+  }
+  [[nodiscard]] std::string refusal(const std::vector<fs::path>& caches) const {
+    const auto summary = merge_caches(caches, out_);
+    EXPECT_FALSE(summary);
+    EXPECT_FALSE(fs::exists(out_));
+    return summary ? "" : summary.error().message;
+  }
+
+  test::CacheFolder folder_;
+  const fs::path a_ = folder_ / "a.gpkg", b_ = folder_ / "b.gpkg", out_ = folder_ / "out.gpkg";
+};
+
+TEST_F(Merge, LosesNothing) {
+  {
+    const auto a = open_cache(a_);
+    const auto b = open_cache(b_);
+    for (int n = 0; n < 300; ++n) {
+      (n % 3 == 0 ? a : b)->store(nth_tile(6, n), tile_record(nth_tile(6, n), 500, static_cast<unsigned>(n % 7)));
+    }
+  }
+  put(a_, nth_tile(7, 1), absence_record(Absence::blank, "the sea"));
+  put(b_, nth_tile(7, 2), absence_record(Absence::failed, "time-out"));
+  const MergeSummary summary = merge();
+  EXPECT_EQ(summary.tiles, 300);
+  EXPECT_EQ(summary.absences, 2);
+  EXPECT_EQ(summary.dropped, 0);
+  EXPECT_EQ(test::integrity(out_), "ok");
+  const auto merged = open_cache(out_);
+  ASSERT_TRUE(merged->set_aside().empty());
+  for (int n = 0; n < 300; ++n) {
+    const auto got = found(*merged, nth_tile(6, n));
+    const CacheRecord expected = tile_record(nth_tile(6, n), 500, static_cast<unsigned>(n % 7));
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->bytes, expected.bytes);
+    EXPECT_EQ(got->etag, expected.etag);
+    EXPECT_EQ(got->last_modified, expected.last_modified);
+    EXPECT_EQ(got->stored_unix_s, expected.stored_unix_s);
+    EXPECT_EQ(got->expires_unix_s, expected.expires_unix_s);
+  }
+  EXPECT_EQ(found(*merged, nth_tile(7, 1))->absence, Absence::blank);
+  EXPECT_EQ(found(*merged, nth_tile(7, 1))->why, "the sea");
+  EXPECT_EQ(found(*merged, nth_tile(7, 2))->absence, Absence::failed);
+}
+
+TEST_F(Merge, TheNewestOfAPlaceWinsInEitherOrder) {
+  struct Case {
+    CacheRecord loser, winner;
+  };
+  const TileId id = nth_tile(6, 5);
+  const Case cases[] = {
+      {tile_record(id, 100, 1), tile_record(id, 200, 2)},
+      {absence_record(Absence::absent, "", 1000), tile_record(id, 100, 1)},
+      {tile_record(id, 100, 1), absence_record(Absence::absent, "gone", 5000)},
+      {absence_record(Absence::blank, "", 1001), tile_record(id, 100, 1)},  // the same second: the tile
+      {absence_record(Absence::failed, "", 9000), tile_record(id, 100, 1)},
+      {absence_record(Absence::absent, "", 1000), absence_record(Absence::blank, "", 2000)},
+  };
+  for (const Case& one : cases) {
+    for (const bool swapped : {false, true}) {
+      put(a_, id, swapped ? one.winner : one.loser);
+      put(b_, id, swapped ? one.loser : one.winner);
+      EXPECT_EQ(merge().dropped, 1);
+      const auto got = found(*open_cache(out_), id);
+      ASSERT_TRUE(got);
+      EXPECT_EQ(got->absence, one.winner.absence);
+      EXPECT_EQ(got->bytes, one.winner.bytes);
+      EXPECT_EQ(got->stored_unix_s, one.winner.stored_unix_s);
+      for (const fs::path& file : {a_, b_, out_}) fs::remove(file);
+    }
+  }
+}
+
+TEST_F(Merge, OtherSourcesGridsAndFilesAreRefusedByName) {
+  put(a_, nth_tile(6, 1), tile_record(nth_tile(6, 1)));
+  static_cast<void>(TileCache::open(b_, test::planet(), "https://other.example/{z}"));
+  EXPECT_NE(refusal({a_, b_}).find("https://other.example/{z}"), std::string::npos);
+  EXPECT_NE(refusal({a_, b_}).find(b_.string()), std::string::npos);
+  TileSetInfo finer = test::planet();
+  finer.grid.max_level = 13;
+  fs::remove(b_);
+  static_cast<void>(TileCache::open(b_, finer, test::kSource));
+  EXPECT_NE(refusal({a_, b_}).find("grid"), std::string::npos);
+  std::ofstream(folder_ / "text") << "text";
+  EXPECT_NE(refusal({a_, folder_ / "text"}).find("not a cache"), std::string::npos);
+  EXPECT_NE(refusal({folder_ / "nothing"}).find("nothing"), std::string::npos);
+}
+
+TEST_F(Merge, AnOutputThatIsThereIsReplacedOnlyIfItIsOneOfTheCaches) {
+  put(a_, nth_tile(6, 1), tile_record(nth_tile(6, 1)));
+  put(b_, nth_tile(6, 2), tile_record(nth_tile(6, 2)));
+  EXPECT_FALSE(merge_caches({a_}, b_));
+  const auto into = merge_caches({a_, b_}, b_);
+  ASSERT_TRUE(into) << into.error().message;
+  EXPECT_EQ(into->tiles, 2);
+  EXPECT_TRUE(found(*open_cache(b_), nth_tile(6, 1)));
+}
+
+TEST_F(Merge, InterruptedItLeavesNothingAndCanBeRunAgain) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 2000; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 100));
+  }
+  EXPECT_FALSE(merge_caches({a_}, out_, [](std::int64_t, std::int64_t) { return false; }));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
+  const auto again = merge_caches({a_}, out_);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->tiles, 2000);
+}
+
+TEST_F(Merge, ReportsCountAndFindDamage) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 200; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 3000, n % 2));
+    cache->store(nth_tile(9, 0), absence_record(Absence::absent, "", 1000));
+    cache->store(nth_tile(9, 1), absence_record(Absence::absent, "", 5000));
+    cache->store(nth_tile(9, 2), absence_record(Absence::broken, "", 5000));
+    ASSERT_TRUE(cache->flush());
+    const auto report = verify_cache(a_, 2000);  // in use
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->source_key, test::kSource);
+    EXPECT_EQ(report->tiles, 200);
+    EXPECT_EQ(report->expired_tiles, 100);
+    EXPECT_EQ(report->absences, (std::array<std::int64_t, 4>{2, 0, 1, 0}));
+    EXPECT_EQ(report->expired_absences, (std::array<std::int64_t, 4>{1, 0, 0, 0}));
+    EXPECT_TRUE(report->problems->empty());
+  }
+  int listed = 0;
+  ASSERT_TRUE(for_each_cached_tile(a_, [&](const TileId& id) { return id.level == 8 && ++listed < 150; }));
+  EXPECT_EQ(listed, 150);
+  std::fstream file(a_, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(static_cast<std::streamoff>(fs::file_size(a_) / 4096 * 3 / 4 * 4096));
+  file << std::string(8 * 4096, static_cast<char>(0xa5));
+  file.close();
+  const auto damaged = verify_cache(a_, 2000);
+  EXPECT_TRUE(!damaged || !damaged->problems->empty());
+  EXPECT_FALSE(read_cache_report(folder_ / "none", 0));
+}
+
+}  // namespace
+}  // namespace terrella
