@@ -72,7 +72,7 @@ OUT_OF_RANGE = [
     ("--band", "nan", "0.5"),
     ("--depth", "w", "reversed|log|standard"),
     ("--cache-size", "0", "64"),
-    ("--cache-size", "1e9", "65536"),
+    ("--cache-size", "1e9", "16777216"),
     ("--cache-size", "-1", "64"),
 ]
 
