@@ -11,7 +11,9 @@
 #include "apps/preload_source.h"
 #include "geo/hash_mix.h"
 #include "streaming/cache/tile_cache.h"
+#include "streaming/image.h"
 #include "streaming/remote/describe_remote.h"
+#include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
 
 namespace terrella {
@@ -84,13 +86,36 @@ Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const
   return cache;
 }
 
+bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid) {
+  if (cache == nullptr) return false;
+  const auto root = cache->peek({grid.min_level, 0, 0});
+  return root && *root;
+}
+
+bool is_template(const SceneOptions& options) { return options.tile_set.find("{z}") != std::string::npos; }
+
+/// A URL template says nothing of its grid: before the first picture a few tiles are compared, so that a mistaken one
+/// is named rather than drawn. Not for a set that was drawn before: its cache has tiles.
+Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
+  const auto fetch = [&](const TileId& id) -> Result<std::optional<Image>> {
+    const auto bytes = fetch_document(http, tile_url(set, id), set.headers);
+    if (!bytes) return std::optional<Image>();
+    auto image = decode_image(*bytes, DecodeLimits{});
+    return image ? std::optional<Image>(*std::move(image)) : std::nullopt;
+  };
+  const auto check = check_grid(fetch, set.info.grid);
+  if (!check) return Done{};  // what cannot be fetched now tells nothing
+  if (check->verdict == GridCheck::Verdict::fits || check->verdict == GridCheck::Verdict::cannot_tell) return Done{};
+  return Error{fmt::format("{}: {}", set.info.name, check->advice)};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (options.offline) return open_offline(options);
   const HttpOptions http = network_options();
   RemoteOptions remote = options.remote;
-  if (!remote.max_level && options.tile_set.find("{z}") != std::string::npos) remote.max_level = kTemplateMaxLevel;
+  if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   auto set = describe_remote(options.tile_set, remote,
                              [&http](const std::string& url, const std::vector<std::string>& headers) {
                                return fetch_document(http, url, headers);
@@ -98,6 +123,9 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (!set) return set.error();
   auto cache = open_cache(options, *set);
   if (!cache) return cache.error();
+  if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
+    if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
+  }
   return make_remote_source(*std::move(set), *std::move(cache), http);
 }
 

@@ -3,7 +3,7 @@
 import json
 import sys
 
-from program import DONE, DONE_IN_PART, SOURCE, ProgramTest
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, SOURCE, ProgramTest
 
 sys.path.insert(0, str(SOURCE / "tests/preload"))
 sys.path.insert(0, str(SOURCE / "tests/window"))
@@ -85,6 +85,17 @@ class RemoteTest(ProgramTest):
         self.assert_under_the_rate(log)
         # The parents are there, so no pixel of the planet is background.
         self.assert_as_covered(picture)
+
+    def test_a_mistaken_grid_is_named_and_not_drawn(self):
+        cut = self.folder / "marble"
+        self.assert_done("cut", BLUE_MARBLE, "-o", cut)
+        with servers.nginx(cut) as server:
+            source = server.template.replace("{y}", "{-y}")
+            for _ in range(2):
+                self.assert_fails(1, "render", source, "--max-level", "3", "-o", "x.png", *VIEW, says=["{-y}", "other end"])
+            self.assert_fails(1, "render", server.template, "--root-span", "360", "--max-level", "3", "-o", "x.png",
+                              *VIEW, says=["root"])
+            self.assert_done("render", server.template, "--max-level", "3", "-o", "x.png", *VIEW)
 
     def test_a_server_that_asks_for_patience_gets_it(self):
         path = f"{LEVELS - 1}/4/1.jpg"

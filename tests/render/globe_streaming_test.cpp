@@ -86,6 +86,27 @@ TEST_F(GlobeStreaming, SettlesAndThenStandsStill) {
   }
 }
 
+TEST_F(GlobeStreaming, SettlesInThreeFramesAfterTheLastTileHasArrived) {
+  for (const Camera& camera : ground_cameras()) {
+    const auto tiles = source();
+    tiles->hold();
+    GlobeOptions options = unlit_options();
+    // Bounded in bytes alone: what four milliseconds upload is for the machine to say.
+    options.upload_time_per_frame = std::chrono::seconds(1);
+    const auto globe = make_globe(options, tiles);
+    globe->set_camera(camera);
+    draw(*globe, kSmall);
+    tiles->release(1000);
+    for (LoaderCounts left = globe->loading(); left.waiting + left.running > 0; left = globe->loading()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_GT(globe->loading().finished, 4U);
+    int frames = 0;
+    for (; !globe->settled() && frames < 10; ++frames) draw(*globe, kSmall);
+    EXPECT_LE(frames, 3);
+  }
+}
+
 TEST_F(GlobeStreaming, APictureDoesNotDependOnWhatWasSeenBefore) {
   const auto traveller = make_globe(unlit_options(), source());
   for (const Camera& camera : ground_cameras()) {
