@@ -45,7 +45,7 @@ struct Globe::Impl {
   void select(Viewport viewport);
   void ask();
   std::size_t take_finished();
-  void note_lacking(const TileId& id, TileFailure failure);
+  void note_lacking(const TileId& id, const TileFailure& failure);
   void retry_failed();
   FrameStats draw(unsigned framebuffer, Viewport viewport);
   bool roots_decided();
@@ -96,7 +96,7 @@ std::size_t Globe::Impl::take_finished() {
     if (batch.empty()) break;
     for (LoadedTile& tile : batch) {
       if (!tile.pixels) {
-        note_lacking(tile.id, std::move(tile.pixels.error()));
+        note_lacking(tile.id, tile.pixels.error());
       } else if (tiles.upload(tile.id, tile.pixels->mips, frame)) {
         bytes += tiles.slot_bytes();
       }
@@ -106,10 +106,10 @@ std::size_t Globe::Impl::take_finished() {
   return bytes;
 }
 
-void Globe::Impl::note_lacking(const TileId& id, TileFailure failure) {
+void Globe::Impl::note_lacking(const TileId& id, const TileFailure& failure) {
   tiles.set_state(id, TileState::lacking);
   if (failure.kind == Absence::failed) failed.emplace_back(Clock::now() + kRetryFailed, id);
-  lacking.push_back({id, std::move(failure)});
+  lacking.push_back({id, failure});
   if (lacking.size() > kMostLacking) lacking.pop_front();
 }
 

@@ -56,7 +56,7 @@ struct TileLoader::Impl : std::enable_shared_from_this<TileLoader::Impl> {
   // thread: worker --------------------------------------------------------------------------------------------------
   void work();
   void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
-  void decode(std::unique_lock<std::mutex>& lock, Arrived tile);
+  void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
   void finish(const TileId& id, Result<TileTexels, TileFailure> pixels);
   [[nodiscard]] Result<TileTexels, TileFailure> texels_of(const Encoded& encoded) const;
   [[nodiscard]] bool may_start() const {
@@ -171,7 +171,7 @@ void TileLoader::Impl::work() {
       Arrived tile = std::move(arrived.front());
       arrived.pop_front();
       running.insert(tile.id);
-      decode(lock, std::move(tile));
+      decode(lock, tile);
     } else {
       const TileRequest wish = waiting.back();
       waiting.pop_back();
@@ -208,7 +208,7 @@ void TileLoader::Impl::arrive(const TileId& id, Encoded encoded) {
   work_changed.notify_one();
 }
 
-void TileLoader::Impl::decode(std::unique_lock<std::mutex>& lock, Arrived tile) {
+void TileLoader::Impl::decode(std::unique_lock<std::mutex>& lock, const Arrived& tile) {
   lock.unlock();
   Result<TileTexels, TileFailure> pixels = texels_of(tile.encoded);
   lock.lock();

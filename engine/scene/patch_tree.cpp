@@ -87,7 +87,8 @@ Extent cell_extent(const PatchTree& tree, const PatchNode& node, int x, int y) {
 BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
   BoundingSphere sphere{extent_point(tree, node, cell.lon_deg(0.5), cell.row_deg(0.5)), 0.0};
   for (int k = 0; k < 9; ++k) {
-    const glm::dvec3 p = extent_point(tree, node, cell.lon_deg(0.5 * (k % 3)), cell.row_deg(0.5 * (k / 3)));
+    const int column = k % 3, row = k / 3;
+    const glm::dvec3 p = extent_point(tree, node, cell.lon_deg(0.5 * column), cell.row_deg(0.5 * row));
     sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
   }
   return sphere;
@@ -189,7 +190,9 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
 }
 
 const SurfaceLattice& PatchTree::cell_lattice(PatchNode& node, int x, int y) {
-  CellExtent& cell = node.window.cells[static_cast<std::size_t>(y * node.window.w + x)];
+  CellExtent& cell =
+      node.window
+          .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(node.window.w) + static_cast<std::size_t>(x)];
   if (cell.lattice.points_m.empty()) cell.lattice = lattice_over(*this, node, cell_extent(*this, node, x, y));
   return cell.lattice;
 }

@@ -41,7 +41,7 @@ std::string geojson_type(const json& object) {
 }
 
 std::string feature_name(const json& feature, std::size_t index) {
-  const std::string number = fmt::format("feature {}", index + 1);
+  std::string number = fmt::format("feature {}", index + 1);
   if (!feature.is_object()) return number;
   const auto properties = feature.find("properties");
   if (properties == feature.end() || !properties->is_object()) return number;

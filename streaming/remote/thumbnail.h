@@ -9,7 +9,7 @@ namespace terrella {
 /// Part of a picture as 16 × 16 means, red, green and blue, of the levels of 8 bits: fine detail, JPEG's noise and what
 /// a coarser level was smoothed with fall away.
 inline constexpr int kThumbnailSide = 16;
-using Thumbnail = std::array<float, 3 * kThumbnailSide * kThumbnailSide>;
+using Thumbnail = std::array<float, std::size_t{3} * kThumbnailSide * kThumbnailSide>;
 
 /// A part of a picture, as fractions of its sides.
 struct PicturePart {

@@ -39,7 +39,7 @@ std::optional<Span> clock_span(std::string_view text, std::int64_t day_s) {
   const auto hour = digits(text, 2);
   const auto minute = take(text, ':') ? digits(text, 2) : std::nullopt;
   if (!hour || !minute || *hour > 24 || *minute > 59) return std::nullopt;
-  const std::int64_t from = day_s + 3600 * *hour + 60 * *minute;
+  const std::int64_t from = day_s + std::int64_t{3600} * *hour + std::int64_t{60} * *minute;
   std::optional<int> second;
   if (take(text, ':') && !(second = digits(text, 2))) return std::nullopt;
   if (second && take(text, '.')) text.remove_prefix(std::min(text.find_first_not_of("0123456789"), text.size()));
