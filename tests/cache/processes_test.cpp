@@ -54,6 +54,15 @@ class Worker {
   pid_t pid_ = -1;
 };
 
+/// Until the worker has said something, however slow the machine is; at most a minute.
+void wait_for_words(const fs::path& words) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  std::error_code error;
+  while ((!fs::exists(words, error) || fs::file_size(words, error) == 0) && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 class Processes : public testing::Test {
  protected:
   test::CacheFolder folder_;
@@ -92,7 +101,9 @@ TEST_F(Processes, AllThatWasReportedSurvivesKillAtAnyMoment) {
     SCOPED_TRACE(n);
     const fs::path words = folder_ / "said.txt";
     Worker worker({"write", file_.string(), std::to_string(n)}, words);
-    std::this_thread::sleep_for(std::chrono::milliseconds(30 + random() % 150));
+    // Every other one may be killed before it has stored anything: while it makes or opens the file.
+    if (n % 2 == 0) wait_for_words(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
     ASSERT_EQ(worker.end(SIGKILL), -SIGKILL);
     const auto cache = test::open_cache(file_);
     ASSERT_TRUE(cache);
@@ -105,7 +116,8 @@ TEST_F(Processes, AllThatWasReportedSurvivesKillAtAnyMoment) {
     }
     ASSERT_EQ(test::integrity(file_), "ok");
   }
-  EXPECT_GT(reported, 100U);
+  // On a busy machine hardly more than the first batch of those that were waited for.
+  EXPECT_GE(reported, kKills / 2U);
 }
 
 }  // namespace
