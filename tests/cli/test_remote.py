@@ -1,6 +1,7 @@
 """`render` from a server: cold, warm, offline and with a server that misbehaves."""
 
 import json
+import subprocess
 import sys
 
 from program import BLUE_MARBLE, DONE, DONE_IN_PART, SOURCE, ProgramTest
@@ -26,12 +27,14 @@ FAULTS = {
 }
 
 
-class RemoteTest(ProgramTest):
+class PyramidTest(ProgramTest):
     def setUp(self):
         super().setUp()
         self.pyramid = self.folder / "tiles"
         servers.write_pyramid(self.pyramid, LEVELS)
 
+
+class RemoteTest(PyramidTest):
     def describe(self, template, **more):
         description = {"url": template, "max_level": LEVELS - 1, **more}
         return self.write("source.json", json.dumps(description).encode())
@@ -123,6 +126,82 @@ class RemoteTest(ProgramTest):
         _, height, rows = png.read(self.folder / "read.png")
         middle = rows[height // 2]
         self.assertNotIn(b"\0\0\0", {middle[3 * x : 3 * x + 3] for x in range(96, 416)})
+
+
+CAPABILITIES = """<?xml version="1.0"?>
+<Capabilities xmlns="http://www.opengis.net/wmts/1.0" xmlns:ows="http://www.opengis.net/ows/1.1" version="1.0.0">
+ <Contents>
+  <Layer>
+   <ows:Title>Marble</ows:Title><ows:Identifier>marble</ows:Identifier>
+   <ows:WGS84BoundingBox><ows:LowerCorner>-180 -90</ows:LowerCorner><ows:UpperCorner>180 90</ows:UpperCorner>
+   </ows:WGS84BoundingBox>
+   <Style isDefault="true"><ows:Identifier>default</ows:Identifier></Style>
+   <Format>image/png</Format>
+   <TileMatrixSetLink><TileMatrixSet>coarse</TileMatrixSet></TileMatrixSetLink>
+   <ResourceURL format="image/png" resourceType="tile" template="{address}/{{TileMatrix}}/{{TileCol}}/{{TileRow}}.png"/>
+  </Layer>
+  <TileMatrixSet>
+   <ows:Identifier>coarse</ows:Identifier><ows:SupportedCRS>urn:ogc:def:crs:OGC:1.3:CRS84</ows:SupportedCRS>
+   {matrices}
+  </TileMatrixSet>
+ </Contents>
+</Capabilities>"""
+MATRIX = """<TileMatrix><ows:Identifier>{z}</ows:Identifier><ScaleDenominator>{scale!r}</ScaleDenominator>
+ <TopLeftCorner>-180 90</TopLeftCorner><TileWidth>512</TileWidth><TileHeight>512</TileHeight>
+ <MatrixWidth>{width}</MatrixWidth><MatrixHeight>{height}</MatrixHeight></TileMatrix>"""
+
+
+class WmtsTest(ProgramTest):
+    """The matrices of NASA's GIBS: 288 degrees a root tile of 512 pixels, clipped to the planet."""
+
+    def test_is_drawn_in_the_same_place_as_the_picture_that_it_was_cut_from(self):
+        # 640 · 2^3 pixels around: the width whose own pixels lie on the 288° grid.
+        subprocess.run(["gdal_translate", "-q", "-r", "bilinear", "-outsize", "5120", "2560", "-of", "PNG", BLUE_MARBLE,
+                        self.folder / "marble.png"], check=True)
+        self.assert_done("cut", "marble.png", "-o", "tiles", "--tile-size", "512", "--format", "png")
+        grid = json.loads((self.folder / "tiles/tileset.json").read_text())
+        self.assertEqual((grid["root_span_deg"], grid["max_level"]), (288.0, 3))
+        sizes = (2, 1), (3, 2), (5, 3), (10, 5)
+        matrices = "".join(MATRIX.format(z=z, scale=223632905.6114871 / 2**z, width=w, height=h)
+                           for z, (w, h) in enumerate(sizes))
+        with servers.nginx(self.folder / "tiles") as server:
+            address = server.template.split("/{z}")[0]
+            self.write("wmts.xml", CAPABILITIES.format(address=address, matrices=matrices).encode())
+            for camera in "30,20,6000000", "0,180,6000000", "-75,100,3000000":
+                view = ("--unlit", "--camera", camera, "--size", "512x512")
+                self.assert_done("render", "wmts.xml", "-o", "remote.png", "--cache", "off", *view)
+                self.assert_done("render", "tiles", "-o", "local.png", *view)
+                self.assertEqual((self.folder / "remote.png").read_bytes(), (self.folder / "local.png").read_bytes())
+            self.assertTrue(all(status == 200 for status, _ in server.requests()), server.requests())
+
+
+class CacheTest(PyramidTest):
+    """Caches made in shards, joined, looked at."""
+
+    def preload(self, template, cache, *more):
+        return self.assert_done("preload", template, "--levels", f"0-{LEVELS - 1}", "-o", cache, *more)
+
+    def test_shards_joined_are_the_whole(self):
+        with servers.nginx(self.pyramid) as server:
+            self.preload(server.template, "whole.gpkg")
+            for shard in "1/2", "2/2":
+                self.preload(server.template, f"part{shard[0]}.gpkg", "--shard", shard)
+            asked = server.counts()
+        self.assertTrue(all(times == 2 for times in asked.values()), "each tile once for the whole, once for a shard")
+        self.assert_done("merge", "part1.gpkg", "part2.gpkg", "-o", "joined.gpkg")
+        whole, joined = (json.loads(self.assert_done("info", name, "--verify", "--json").stdout)
+                         for name in ("whole.gpkg", "joined.gpkg"))
+        self.assertEqual(whole["levels"], joined["levels"])
+        for name in "whole", "joined":
+            self.assert_done("render", f"{name}.gpkg", "-o", f"{name}.png", *VIEW)
+        self.assertEqual((self.folder / "whole.png").read_bytes(), (self.folder / "joined.png").read_bytes())
+
+    def test_caches_of_two_sources_are_not_joined(self):
+        with servers.nginx(self.pyramid) as one, servers.nginx(self.pyramid) as other:
+            self.preload(one.template, "one.gpkg")
+            self.preload(other.template, "other.gpkg")
+        self.assert_fails(1, "merge", "one.gpkg", "other.gpkg", "-o", "joined.gpkg", says=["other.gpkg"])
+        self.assertFalse((self.folder / "joined.gpkg").exists())
 
 
 class NoServerTest(ProgramTest):
