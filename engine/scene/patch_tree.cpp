@@ -137,6 +137,7 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
   node.normal = center.xyz;
   node.sphere.center_m = ellipsoid_.position(center).xyz_m;
   node.lon_center_deg = Ellipsoid::lat_lon(center).lon.deg();
+  node.row_center_deg = row_latitude_deg(grid_, ellipsoid_, center);
   const glm::dvec3 m = glm::normalize(row_direction(grid_, ellipsoid_, center.xyz));
   const double equatorial = std::hypot(m.x, m.y);
   node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z)

@@ -56,6 +56,7 @@ struct PatchNode {
   /// Cosine and sine of the centre's longitude and of its counted latitude (graphic or centric, see row_direction()).
   glm::dvec4 frame{1.0, 0.0, 1.0, 0.0};
   double lon_center_deg = 0.0;                      ///< longitude unwraps around this
+  double row_center_deg = 0.0;                      ///< row latitude of the centre
   double west_deg = 0.0, east_deg = 0.0;            ///< relative to lon_center_deg
   double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
   double min_colatitude_rad = 0.0;                  ///< of the patch's point nearest to a pole

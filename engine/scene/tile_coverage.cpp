@@ -87,6 +87,7 @@ class Coverer {
 
   void choose_levels(const SelectedPatch& patch) {
     const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
+    const TileId last = last_tile(win.level);
     const double spare_texels = std::exp2(win.level - 1 + kLevelRounding);
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
@@ -96,7 +97,7 @@ class Coverer {
         for (double most = spare_texels; texels <= most && choice.spare < win.level - tree_.grid().min_level;
              most *= 0.5)
           ++choice.spare;
-        choice.entry = &memo_.judged(tree_.grid(), ancestor(tile_of(win, x, y), choice.spare));
+        choice.entry = &memo_.judged(tree_.grid(), ancestor(tile_of(win, x, y, last), choice.spare));
         choice.entry->last_chosen = frame_;
       }
     }
@@ -105,10 +106,11 @@ class Coverer {
   void cover(const SelectedPatch& patch, const Choice* choice) {
     const TileWindow& win = patch.node->window;
     out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
+    const TileId last = last_tile(win.level);
     bool uncovered = false;
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x, ++choice) {
-        const Found found = find(patch, tile_of(win, x, y), *choice);
+        const Found found = find(patch, tile_of(win, x, y, last), *choice);
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up));
       }
@@ -116,10 +118,13 @@ class Coverer {
     if (uncovered) ++out_.uncovered;
   }
 
+  [[nodiscard]] TileId last_tile(int level) const {
+    return {level, columns(tree_.grid(), level) - 1, rows(tree_.grid(), level) - 1};
+  }
+
   // Cells beyond the planet repeat its edge.
-  [[nodiscard]] TileId tile_of(const TileWindow& win, int x, int y) const {
-    return {win.level, std::min(win.x0 + x, columns(tree_.grid(), win.level) - 1),
-            std::min(win.y0 + y, rows(tree_.grid(), win.level) - 1)};
+  static TileId tile_of(const TileWindow& win, int x, int y, const TileId& last) {
+    return {win.level, std::min(win.x0 + x, last.x), std::min(win.y0 + y, last.y)};
   }
 
   static TileId ancestor(TileId id, int levels_up) {
@@ -258,7 +263,7 @@ class Coverer {
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
     const TileGrid& grid = tree_.grid();
-    const double row = row_latitude_deg(grid, tree_.ellipsoid(), EcefDir{node.normal});
+    const double row = node.row_center_deg;
     const TileXY center = tile_xy(grid, win.level, row, node.lon_center_deg);
     const double per_deg = 1.0 / tile_span_deg(grid, win.level);
     PatchDraw draw;

@@ -32,7 +32,7 @@ const std::vector<Case>& cases() {
       {"patches_50", camera_at(20, 30, 2.0e7, 0, -90), {1024, 1024}},
       {"patches_150", camera_at(46, 7, 6.0e6, 30, -90), {3840, 2160}},
       {"patches_500", camera_at(70, 7, 1.0e6, 30, -45), {7680, 4320}},
-      {"patches_500_hd", camera_at(46, 7, 6.0e6, 30, -90), {1920, 1080}, {.max_error_px = 0.0125}},
+      {"patches_500_hd", camera_at(46, 7, 6.0e6, 30, -90), {1920, 1080}, {.max_error_px = 0.009}},
       {"tilted", camera_at(46, 7, 3.0e4, 30, -12), {3840, 2160}},
       {"tilted_pole", camera_at(88, 10, 3.0e5, 0, -20), {3840, 2160}},
   };
