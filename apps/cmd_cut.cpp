@@ -1,13 +1,13 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
 #include "apps/option_checks.h"
 #include "apps/progress.h"
+#include "apps/stop_signals.h"
 #include "geo/body.h"
 #include "geo/number.h"
 #include "streaming/cut.h"
@@ -15,7 +15,7 @@
 namespace terrella {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCutExamples =
     "Examples:\n"
     "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
     "  terrella cut alps.tif -o tiles --bounds 5,43,17,49 --format png\n"
@@ -33,20 +33,6 @@ struct CutCommand {
   bool elevation = false;
   CutElevation heights;
   bool json = false;
-};
-
-volatile std::sig_atomic_t g_interrupted = 0;
-
-/// While it lives, Ctrl-C asks the cutter to stop, which then removes what it has written.
-class StopOnInterrupt {
- public:
-  StopOnInterrupt() : before_(std::signal(SIGINT, [](int) { g_interrupted = 1; })) {}
-  ~StopOnInterrupt() { std::signal(SIGINT, before_); }
-  StopOnInterrupt(const StopOnInterrupt&) = delete;
-  StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
-
- private:
-  void (*before_)(int);
 };
 
 Result<GeoRect> parse_bounds(const std::string& text) {
@@ -114,20 +100,17 @@ int run(CutCommand& command) {
   command.cut.images.assign(command.images.begin(), command.images.end());
   command.cut.output = command.output;
   if (command.elevation) command.cut.elevation = command.heights;
-  const StopOnInterrupt stop;
+  const StopSignals signals;
   Result<CutSummary> summary = Error{};
   {
     Progress progress("cutting " + command.cut.images.front().filename().string());
     command.cut.progress = [&](std::int64_t done, std::int64_t total) {
       progress.show(done, total);
-      return g_interrupted == 0;
+      return !StopSignals::came();
     };
     summary = cut(command.cut);
   }
-  if (!summary) {
-    fmt::print(stderr, "terrella cut: {}\n", summary.error().message);
-    return kFailed;
-  }
+  if (!summary) return fail("cut", summary.error().message);
   print_summary(command, *summary);
   return kDone;
 }
@@ -189,7 +172,7 @@ void add_work_options(CLI::App& app, CutCommand& command) {
 
 void add_cut_command(CLI::App& app, int& exit_code) {
   CLI::App& sub = *app.add_subcommand("cut", "Cuts a picture of a planet into a tile set");
-  sub.footer(kExamples);
+  sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
   sub.add_option("image", command->images, "The picture, or the parts of one: JPEG, PNG, TIFF or BigTIFF")

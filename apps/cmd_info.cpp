@@ -27,7 +27,7 @@ struct InfoOptions {
   bool json = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kInfoExamples =
     "Examples:\n"
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
@@ -66,16 +66,11 @@ auto progress_lines() {
   };
 }
 
-int fail(const Error& error) {
-  fmt::print(stderr, "terrella info: {}\n", error.message);
-  return kFailed;
-}
-
 int run_info(const InfoOptions& options) {
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   const Result<std::shared_ptr<TileSource>> source = open_imagery(scene);
-  if (!source) return fail(source.error());
+  if (!source) return fail("info", source.error().message);
   TileSetReport report{
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(options.tile_set);
@@ -84,7 +79,7 @@ int run_info(const InfoOptions& options) {
     const std::int64_t now_unix_s = std::time(nullptr);
     Result<CacheReport> cache =
         options.verify ? verify_cache(options.tile_set, now_unix_s) : read_cache_report(options.tile_set, now_unix_s);
-    if (!cache) return fail(cache.error());
+    if (!cache) return fail("info", cache.error().message);
     report.cache = *std::move(cache);
   }
   if (options.verify) {
@@ -92,7 +87,7 @@ int run_info(const InfoOptions& options) {
     Result<VerifyReport> verified =
         report.cache ? verify_cached_tiles(*source, options.tile_set, report.cache->tiles, progress_lines())
                      : verify_tiles(*source, progress_lines());
-    if (!verified) return fail(verified.error());
+    if (!verified) return fail("info", verified.error().message);
     report.verified = *std::move(verified);
   }
   fmt::print("{}", options.json ? to_json(report) : to_text(report));
@@ -104,7 +99,7 @@ int run_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("info", "Say what a tile set holds, and check it.");
-  command->footer(kExamples);
+  command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
   command->add_flag(

@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/stop_signals.h"
 #include "streaming/cache/merge_caches.h"
 
 namespace terrella {
@@ -25,14 +25,11 @@ struct MergeCommand {
   bool json = false;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kMergeExamples =
     "Examples:\n"
     "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
     "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
     "Of two records of a tile the one stored later is kept.";
-
-volatile std::sig_atomic_t g_interrupted = 0;
-extern "C" void note_interrupt(int) { g_interrupted = 1; }
 
 void print_summary(const MergeCommand& command, const MergeSummary& summary) {
   if (command.json) {
@@ -51,21 +48,16 @@ void print_summary(const MergeCommand& command, const MergeSummary& summary) {
 
 int run_merge(const MergeCommand& command) {
   const std::vector<fs::path> caches(command.caches.begin(), command.caches.end());
-  g_interrupted = 0;
-  const auto before = std::signal(SIGINT, note_interrupt);
+  const StopSignals signals;
   Result<MergeSummary> summary = Error{};
   {
     Progress progress("merging into " + command.output);
     summary = merge_caches(caches, command.output, [&](std::int64_t done, std::int64_t total) {
       progress.show(done, total);
-      return g_interrupted == 0;
+      return !StopSignals::came();
     });
   }
-  std::signal(SIGINT, before);
-  if (!summary) {
-    fmt::print(stderr, "terrella merge: {}\n", summary.error().message);
-    return kFailed;
-  }
+  if (!summary) return fail("merge", summary.error().message);
   print_summary(command, *summary);
   return kDone;
 }
@@ -74,7 +66,7 @@ int run_merge(const MergeCommand& command) {
 
 void add_merge_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("merge", "Join caches of one source, losing nothing.");
-  command->footer(kExamples);
+  command->footer(kMergeExamples);
   const auto options = std::make_shared<MergeCommand>();
   command->add_option("CACHE", options->caches, "caches that `preload` or `view` filled from one source")
       ->required()

@@ -23,7 +23,7 @@
 namespace terrella {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kPreloadExamples =
     "Examples:\n"
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
@@ -33,11 +33,6 @@ constexpr int kMostSampled = 20;
 constexpr double kSampleRate = 10.0;      // requests a second
 constexpr int kQuestionsAConnection = 8;  // under way at once where a connection carries several
 constexpr std::chrono::hours kDay{24};
-
-int fail(const std::string& message) {
-  fmt::print(stderr, "terrella preload: {}\n", message);
-  return kFailed;
-}
 
 /// A file of lines; none if it has no name.
 using LinesFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -91,7 +86,7 @@ Result<std::int64_t> count_there(const PreloadCommand& command, const PreloadSou
 int forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   PreloadForecast forecast{.levels = plan.counts(), .sample = {}};
   const auto there = count_there(command, source, plan);
-  if (!there) return fail(there.error().message);
+  if (!there) return fail("preload", there.error().message);
   forecast.there = *there;
   forecast.rate = command.http.rate_per_host;
   forecast.jobs = command.http.connections_per_host;
@@ -128,11 +123,12 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
 
 int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   auto lacks = LackReport::open(command.missing_file);
-  if (!lacks) return fail(lacks.error().message);
+  if (!lacks) return fail("preload", lacks.error().message);
   LinesFile stored(command.stored_file.empty() ? nullptr : std::fopen(command.stored_file.c_str(), "ae"), &std::fclose);
-  if (!stored && !command.stored_file.empty()) return fail(command.stored_file + ": cannot be written; see --stored");
+  if (!stored && !command.stored_file.empty())
+    return fail("preload", command.stored_file + ": cannot be written; see --stored");
   const auto cache = open_cache(command, source);
-  if (!cache) return fail(cache.error().message);
+  if (!cache) return fail("preload", cache.error().message);
   PreloadOptions options = preload_options(command, source);
   options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };
   if (stored) {
@@ -151,11 +147,12 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
     };
     result = preload(plan, **cache, source.make_origin, options);
   }
-  if (!result) return fail(result.error().message + "; what was stored before is safe, and the same command goes on");
+  if (!result)
+    return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const PreloadReport report{command.output, *result, lacks->groups(), seconds};
   fmt::print("{}", command.json ? to_json(report) : to_text(report));
-  if (const Status listed = lacks->close(); !listed) return fail(listed.error().message);
+  if (const Status listed = lacks->close(); !listed) return fail("preload", listed.error().message);
   return conclude(command, *result);
 }
 
@@ -169,10 +166,10 @@ int run(PreloadCommand& command) {
     http.attempts = 1;
   }
   const auto source = open_preload_source(command.source, command.remote, http);
-  if (!source) return fail(source.error().message);
-  if (!source->set.refuse_bulk.empty()) return fail(command.source + ": " + source->set.refuse_bulk);
+  if (!source) return fail("preload", source.error().message);
+  if (!source->set.refuse_bulk.empty()) return fail("preload", command.source + ": " + source->set.refuse_bulk);
   const auto plan = make_preload_plan(command, source->set.info);
-  if (!plan) return fail(plan.error().message);
+  if (!plan) return fail("preload", plan.error().message);
   return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);
 }
 
@@ -180,7 +177,7 @@ int run(PreloadCommand& command) {
 
 void add_preload_command(CLI::App& app, int& exit_code) {
   CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline.");
-  sub.footer(kExamples);
+  sub.footer(kPreloadExamples);
   const auto command = std::make_shared<PreloadCommand>();
   add_preload_options(sub, *command);
   sub.callback([command, &exit_code] {

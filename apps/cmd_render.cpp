@@ -88,8 +88,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
 int run(const RenderCommand& command) {
   const Result<Rendered> rendered = render_picture(command);
   if (!rendered) {
-    fmt::print(stderr, "terrella render: {}\n", rendered.error().message);
-    return kFailed;
+    return fail("render", rendered.error().message);
   }
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;

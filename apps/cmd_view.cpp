@@ -30,24 +30,18 @@ struct ViewOptions {
   bool print_camera = false;
 };
 
-/// Over the tropics of the Atlantic: with the whole globe in view, continents on both sides.
-int fail(const Error& error) {
-  fmt::print(stderr, "terrella view: {}\n", error.message);
-  return kFailed;
-}
-
 int view(const ViewOptions& options) {
-  if (const Status found = find_imagery(options.scene); !found) return fail(found.error());
+  if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
   // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
   auto window = Window::create("Terrella", options.scene.size);
-  if (!window) return fail(window.error());
+  if (!window) return fail("view", window.error().message);
   auto imagery = open_imagery(options.scene);
-  if (!imagery) return fail(imagery.error());
+  if (!imagery) return fail("view", imagery.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
-  if (!body) return fail(body.error());
+  if (!body) return fail("view", body.error().message);
   const std::string attribution = (*imagery)->info().attribution;
   auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery));
-  if (!globe) return fail(globe.error());
+  if (!globe) return fail("view", globe.error().message);
   (*window)->show();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,

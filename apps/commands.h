@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <string>
 
 namespace terrella {
 
@@ -16,5 +17,8 @@ void add_merge_command(CLI::App& app, int& exit_code);
 void add_preload_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
+
+/// Says on standard error why a subcommand failed. Returns kFailed.
+int fail(const char* command, const std::string& why);
 
 }  // namespace terrella

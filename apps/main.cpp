@@ -12,7 +12,7 @@ namespace {
 
 using namespace terrella;
 
-constexpr const char* kExamples =
+constexpr const char* kProgramExamples =
     "Examples:\n"
     "  terrella view                                  turn the Earth\n"
     "  terrella view moon.jpg --body moon             turn any planet that there is a 2:1 picture of\n"
@@ -40,11 +40,16 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
+int terrella::fail(const char* command, const std::string& why) {
+  fmt::print(stderr, "terrella {}: {}\n", command, why);
+  return kFailed;
+}
+
 int main(int argc, char** argv) {
   CLI::App app("A globe for equirectangular pictures and tile sets of any planet.", "terrella");
   app.set_version_flag("--version", std::string("terrella ") + TERRELLA_VERSION);
   app.require_subcommand(1);
-  app.footer(kExamples);
+  app.footer(kProgramExamples);
   int exit_code = kDone;
   add_view_command(app, exit_code);
   add_render_command(app, exit_code);

@@ -26,13 +26,13 @@ struct Decoder {
   ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+[[noreturn]] void on_png_error(png_structp png, png_const_charp message) {
   auto* decoder = static_cast<Decoder*>(png_get_error_ptr(png));
   std::strncpy(decoder->message, message, sizeof(decoder->message) - 1);
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
+void ignore_png_warning(png_structp, png_const_charp) {}
 
 void on_read(png_structp png, png_bytep target, std::size_t size) {
   auto* decoder = static_cast<Decoder*>(png_get_io_ptr(png));
@@ -42,7 +42,7 @@ void on_read(png_structp png, png_bytep target, std::size_t size) {
 }
 
 bool set_up(Decoder& decoder) {
-  decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning);
+  decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_png_error, ignore_png_warning);
   if (decoder.png == nullptr) return false;
   decoder.info = png_create_info_struct(decoder.png);
   if (decoder.info == nullptr) return false;
@@ -50,11 +50,7 @@ bool set_up(Decoder& decoder) {
   png_set_chunk_malloc_max(decoder.png, kMaxChunkBytes);
   // Only what makes pixels is read: profiles and texts can be compressed bombs.
   png_set_keep_unknown_chunks(decoder.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-  png_set_crc_action(decoder.png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-#else
   png_set_crc_action(decoder.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-#endif
   return true;
 }
 
@@ -84,7 +80,7 @@ bool read_pixels(Decoder& decoder, std::uint8_t* rgba, std::size_t row_bytes, st
 
 Error png_failure(const std::string& message) { return Error{"PNG: " + message}; }
 
-bool is_opaque(const Image& image) {
+bool has_no_alpha(const Image& image) {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
     if (image.rgba[i] != 255) return false;
   }
@@ -131,7 +127,7 @@ Result<std::vector<std::byte>> encode_png(const Image& image) {
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width_px);
   header.height = static_cast<png_uint_32>(image.height_px);
-  const bool opaque = is_opaque(image);
+  const bool opaque = has_no_alpha(image);
   header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
   const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>{};
   const void* pixels = opaque ? rgb.data() : image.rgba.data();

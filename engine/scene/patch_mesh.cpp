@@ -7,8 +7,6 @@
 namespace terrella {
 namespace {
 
-double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
-
 class IndexWriter {
  public:
   IndexWriter(int n, unsigned coarse, bool forward, std::vector<std::uint16_t>& out)
@@ -63,13 +61,9 @@ SplitPosition split_position(const glm::dvec3& p_m) {
   return {high, glm::vec3(p_m - glm::dvec3(high))};
 }
 
-double center_row_deg(const PatchTree& tree, const PatchNode& node) {
-  return row_latitude_deg(tree.grid(), tree.ellipsoid(), EcefDir{node.normal});
-}
-
 std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& node) {
   const int n = tree.segments();
-  const double row0 = center_row_deg(tree, node);
+  const double row0 = node.row_center_deg;
   const glm::dvec3 direction0 = row_direction(tree.grid(), tree.ellipsoid(), node.normal);
   const double length0 = glm::length(direction0);
   std::vector<PatchVertex> vertices;

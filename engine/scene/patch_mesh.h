@@ -30,8 +30,6 @@ struct SplitPosition {
 /// The (segments + 1)² vertices of a patch, row-major in (i, j). Longitude unwraps around the patch's centre; a vertex
 /// on the antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. thread: any
 [[nodiscard]] std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& node);
-/// Row latitude of the patch's centre: what offset_deg.y counts from.
-[[nodiscard]] double center_row_deg(const PatchTree& tree, const PatchNode& node);
 
 /// Triangles for all patches: 2 diagonals (paper 1, (2)) × 16 sets of coarse sides, each a range of one list.
 /// On a coarse side every odd vertex gives way to the even one before it, so that the edge is the neighbour's.

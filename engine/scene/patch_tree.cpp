@@ -8,8 +8,6 @@
 namespace terrella {
 namespace {
 
-double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
-
 // Longitude has no value at a pole: such a vertex takes no part in a patch's extent.
 bool on_axis(const EcefDir& n) { return n.xyz.x == 0.0 && n.xyz.y == 0.0; }
 
@@ -117,6 +115,8 @@ SurfaceLattice lattice_over(const PatchTree& tree, const PatchNode& node, const 
 }
 
 }  // namespace
+
+double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
 
 glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal) {
   return {normal.x, normal.y, grid.latitude == LatitudeKind::centric ? normal.z * ellipsoid.one_minus_e2() : normal.z};

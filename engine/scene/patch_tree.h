@@ -41,6 +41,9 @@ struct TileWindow {
   std::vector<CellExtent> cells;  ///< row-major
 };
 
+/// A difference of longitudes brought into [-180°, 180°]. thread: any
+[[nodiscard]] double wrapped_deg(double deg);
+
 /// What never changes about a patch, worked out once and kept in the tree.
 struct PatchNode {
   PatchId id;

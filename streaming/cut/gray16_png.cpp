@@ -16,11 +16,11 @@ void on_write(png_structp png, png_bytep bytes, std::size_t size) {
   out->insert(out->end(), first, first + size);
 }
 void on_flush(png_structp) {}
-[[noreturn]] void on_error(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-void on_warning(png_structp, png_const_charp) {}
+[[noreturn]] void on_write_error(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void ignore_write_warning(png_structp, png_const_charp) {}
 
 struct Encoder {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, ignore_write_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   Encoder() = default;
   Encoder(const Encoder&) = delete;

@@ -22,7 +22,7 @@ struct ErrorState {
 
 ErrorState* error_state(j_common_ptr codec) { return reinterpret_cast<ErrorState*>(codec->err); }
 
-[[noreturn]] void on_error(j_common_ptr codec) {
+[[noreturn]] void on_jpeg_error(j_common_ptr codec) {
   ErrorState* state = error_state(codec);
   (*state->manager.format_message)(codec, state->message);
   std::longjmp(state->way_out, 1);
@@ -33,7 +33,7 @@ void on_message(j_common_ptr codec, int level) {
   if (level >= 0) return;
   const int code = codec->err->msg_code;
   const bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_JFIF_MAJOR;
-  if (!harmless) on_error(codec);
+  if (!harmless) on_jpeg_error(codec);
 }
 
 void on_progress(j_common_ptr codec) {
@@ -47,7 +47,7 @@ class JpegRows : public RowReader {
  public:
   JpegRows(File file, std::string name) : file_(std::move(file)), name_(std::move(name)) {
     decoder_.err = jpeg_std_error(&errors_.manager);
-    errors_.manager.error_exit = on_error;
+    errors_.manager.error_exit = on_jpeg_error;
     errors_.manager.emit_message = on_message;
     progress_.progress_monitor = on_progress;
   }

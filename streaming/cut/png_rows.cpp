@@ -12,13 +12,13 @@ namespace {
 constexpr png_alloc_size_t kMaxChunkBytes = 8UL << 20;
 
 /// libpng's callbacks are C frames that longjmp passes over.
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+[[noreturn]] void on_row_error(png_structp png, png_const_charp message) {
   auto* text = static_cast<char*>(png_get_error_ptr(png));
   std::snprintf(text, 128, "%s", message);
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
+void ignore_row_warning(png_structp, png_const_charp) {}
 
 class PngRows : public RowReader {
  public:
@@ -65,7 +65,7 @@ class PngRows : public RowReader {
  private:
   // The functions that set the way out hold nothing that needs a destructor.
   bool read_header() {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, message_, on_error, on_warning);
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, message_, on_row_error, ignore_row_warning);
     if (png_ == nullptr) return false;
     header_ = png_create_info_struct(png_);
     if (header_ == nullptr) return false;
@@ -76,11 +76,7 @@ class PngRows : public RowReader {
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     // Only what makes pixels is read: profiles and texts can be compressed bombs.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
-    png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-#else
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-#endif
     png_read_info(png_, header_);
     return true;
   }

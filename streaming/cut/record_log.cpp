@@ -65,7 +65,7 @@ Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bo
 }
 
 Status RecordLogWriter::write(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size()) return Done{};
+  if (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size()) return Done{};
   return cannot_write(output_, errno);
 }
 

@@ -17,7 +17,7 @@ using test::tile_record;
 constexpr std::uint64_t kLimit = 12UL << 20;
 /// What the issue allows a limit to be missed by.
 constexpr double kLimitSlack = 0.05;
-constexpr std::size_t kTileBytes = 11'000;
+constexpr std::size_t kLimitedTileBytes = 11'000;
 
 class CacheLimit : public testing::Test {
  protected:
@@ -25,7 +25,7 @@ class CacheLimit : public testing::Test {
   static int fill(TileCache& cache, std::uint64_t bytes, int level = 8) {
     int n = 0;
     for (std::uint64_t sum = 0; sum < bytes; ++n) {
-      const std::size_t size = kTileBytes / 2 + static_cast<std::size_t>(n * 7919 % kTileBytes);
+      const std::size_t size = kLimitedTileBytes / 2 + static_cast<std::size_t>(n * 7919 % kLimitedTileBytes);
       cache.store(nth_tile(level, n), tile_record(nth_tile(level, n), size));
       sum += size;
     }

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Cuts to both kinds of output; each must fail with a message that holds all parts, and leave nothing behind.
-void expect_refused(const TestFolder& folder, const fs::path& picture, const std::vector<std::string>& parts) {
+void expect_picture_refused(const TestFolder& folder, const fs::path& picture, const std::vector<std::string>& parts) {
   const auto before = folder.names();
   for (const char* output : {"out.gpkg", "out"}) {
     const auto made = cut({.images = {picture}, .output = folder / output});
@@ -34,20 +34,20 @@ void truncate_to(const fs::path& path, double part) {
 
 TEST(BadInputTest, NoFileAndNoPicture) {
   const TestFolder folder;
-  expect_refused(folder, folder / "nowhere.jpg", {"no such file"});
+  expect_picture_refused(folder, folder / "nowhere.jpg", {"no such file"});
   write_bytes(folder / "empty.jpg", {});
-  expect_refused(folder, folder / "empty.jpg", {"empty"});
+  expect_picture_refused(folder, folder / "empty.jpg", {"empty"});
   const std::string letter(1000, 'a');
   write_bytes(folder / "letter.jpg", std::as_bytes(std::span(letter)));
-  expect_refused(folder, folder / "letter.jpg", {"JPEG, PNG, TIFF"});
+  expect_picture_refused(folder, folder / "letter.jpg", {"JPEG, PNG, TIFF"});
   fs::create_directory(folder / "folder");
-  expect_refused(folder, folder / "folder", {"folder"});
+  expect_picture_refused(folder, folder / "folder", {"folder"});
 }
 
 TEST(BadInputTest, NotTwoToOneSaysWhatToDo) {
   const TestFolder folder;
   write_png(folder / "square.png", noise(64, 64));
-  expect_refused(folder, folder / "square.png", {"64x64", "--bounds"});
+  expect_picture_refused(folder, folder / "square.png", {"64x64", "--bounds"});
 }
 
 TEST(BadInputTest, TruncatedPicturesNameTheRow) {
@@ -60,7 +60,7 @@ TEST(BadInputTest, TruncatedPicturesNameTheRow) {
     write_interlaced_png(folder / "interlaced.png", picture);
     for (const char* name : {"a.jpg", "progressive.jpg", "a.png", "interlaced.png"}) {
       truncate_to(folder / name, part);
-      expect_refused(folder, folder / name, {"row ", "of 128"});
+      expect_picture_refused(folder, folder / name, {"row ", "of 128"});
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(BadInputTest, TruncatedTiffsAreRefused) {
   for (const int tile_px : {0, 64}) {
     write_tiff(folder / "a.tif", picture, {.tile_px = tile_px});
     truncate_to(folder / "a.tif", 0.9);
-    expect_refused(folder, folder / "a.tif", {});
+    expect_picture_refused(folder, folder / "a.tif", {});
   }
 }
 
@@ -89,7 +89,7 @@ TEST(BadInputTest, ProgressiveJpegWithEndlessScansIsRefused) {
   for (int i = 0; i < 200; ++i) bytes.insert(bytes.end(), last.begin(), last.end());
   bytes.insert(bytes.end(), {std::byte{0xFF}, std::byte{0xD9}});
   write_bytes(folder / "in.jpg", bytes);
-  expect_refused(folder, folder / "in.jpg", {});
+  expect_picture_refused(folder, folder / "in.jpg", {});
 }
 
 TEST(BadInputTest, KindsOfTiffThatAreNotReadSaySo) {
@@ -105,7 +105,7 @@ TEST(BadInputTest, KindsOfTiffThatAreNotReadSaySo) {
   TIFFWriteScanline(tiff, row.data(), 0, 0);
   TIFFWriteScanline(tiff, row.data(), 1, 0);
   TIFFClose(tiff);
-  expect_refused(folder, folder / "float.tif", {"32 bits", "gdal_translate"});
+  expect_picture_refused(folder, folder / "float.tif", {"32 bits", "gdal_translate"});
 }
 
 class Output : public testing::Test {

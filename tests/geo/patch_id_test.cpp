@@ -19,7 +19,7 @@ using test::Draw;
 using test::kNaN;
 
 constexpr std::array kSides = {PatchSide::west, PatchSide::east, PatchSide::south, PatchSide::north};
-constexpr std::array kMappings = {CubeMapping::plain, CubeMapping::tangent};
+constexpr std::array kBothMappings = {CubeMapping::plain, CubeMapping::tangent};
 
 PatchId random_patch(Draw& draw, int level) {
   const std::uint32_t last = (1U << level) - 1U;
@@ -70,7 +70,7 @@ void expect_shared_side(const PatchId& id, PatchSide side, CubeMapping mapping) 
 }
 
 TEST(PatchId, NeighboursShareTheirSideBitForBitOnCoarseLevels) {
-  for (const CubeMapping mapping : kMappings) {
+  for (const CubeMapping mapping : kBothMappings) {
     for (int level = 0; level <= 3; ++level) {
       for (const PatchId& id : all_patches(level)) {
         for (const PatchSide side : kSides) expect_shared_side(id, side, mapping);
@@ -152,7 +152,7 @@ TEST(PatchId, NeighbouringPointsDifferAtTheFinestLevel) {
 
 TEST(PatchId, PatchAtFindsThePatchOfItsCentre) {
   Draw draw(33);
-  for (const CubeMapping mapping : kMappings) {
+  for (const CubeMapping mapping : kBothMappings) {
     for (int k = 0; k < 2000; ++k) {
       const PatchId id = random_patch(draw, draw.whole(0, kMaxPatchLevel));
       EXPECT_EQ(patch_at(patch_point(id, 1, 1, 2, mapping), id.level, mapping), id);

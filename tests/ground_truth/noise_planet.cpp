@@ -99,7 +99,11 @@ std::vector<OctaveWalk> make_octaves(const NoisePlanetOptions& options) {
   for (const Octave& octave : kOctaves) {
     glm::quat turn(1.0F, 0.0F, 0.0F, 0.0F);
     do {
-      turn = glm::quat(uniform(), uniform(), uniform(), uniform());
+      // One by one: the order in which a call's arguments are worked out is the compiler's.
+      turn.z = uniform();
+      turn.y = uniform();
+      turn.x = uniform();
+      turn.w = uniform();
     } while (glm::length(turn) > 1.0F || glm::length(turn) < 0.1F);
     const float cells_per_radian = static_cast<float>(texels_per_radian / octave.spacing_texels);
     walks.emplace_back(cells_per_radian * glm::mat3_cast(glm::normalize(turn)), octave.amplitude_levels,

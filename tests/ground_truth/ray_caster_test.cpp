@@ -13,7 +13,7 @@
 namespace terrella::truth {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr Spheroid kSphere{6371000.0, 0.0};
 constexpr Spheroid kSaturn{60268000.0, 0.098};
 constexpr double kTexel = 1e-9;      // texels: a 8192-texel row in double is good to 1e-12 of itself
@@ -27,7 +27,7 @@ Picture filled(int width, int height, std::uint8_t level) {
 }
 
 double limb_radius_px(double radius_m, double distance_m, double fov_deg, int height_px) {
-  return 0.5 * height_px * std::tan(std::asin(radius_m / distance_m)) / std::tan(0.5 * fov_deg * kDegree);
+  return 0.5 * height_px * std::tan(std::asin(radius_m / distance_m)) / std::tan(0.5 * fov_deg * kRadiansPerDegree);
 }
 
 TEST(PixelRaysTest, TheCentreOfANadirViewIsTheSubPoint) {
@@ -38,9 +38,9 @@ TEST(PixelRaysTest, TheCentreOfANadirViewIsTheSubPoint) {
     const PixelRays rays(kSaturn, {.eye = eye, .heading_deg = uniform(0, 360)}, 640, 480);
     const auto hit = first_hit(kSaturn, rays.eye_m(), rays.direction({320, 240}));
     ASSERT_TRUE(hit);
-    const double east = std::remainder(longitude_rad(hit->normal) / kDegree - eye.lon_deg, 360.0);
-    EXPECT_NEAR(latitude_rad(hit->normal) / kDegree, eye.lat_deg, kNadir_deg);
-    EXPECT_NEAR(east * std::cos(eye.lat_deg * kDegree), 0.0, kNadir_deg);
+    const double east = std::remainder(longitude_rad(hit->normal) / kRadiansPerDegree - eye.lon_deg, 360.0);
+    EXPECT_NEAR(latitude_rad(hit->normal) / kRadiansPerDegree, eye.lat_deg, kNadir_deg);
+    EXPECT_NEAR(east * std::cos(eye.lat_deg * kRadiansPerDegree), 0.0, kNadir_deg);
   }
 }
 
@@ -103,10 +103,10 @@ TEST(CastTest, ZonesAreTheCentresPlace) {
   const glm::dvec3 direction = rays.direction({16.5, 18.5});
   const auto hit = first_hit(Spheroid{}, rays.eye_m(), direction);
   ASSERT_TRUE(hit);
-  EXPECT_NEAR(image.lat_deg[at], latitude_rad(hit->normal) / kDegree, kFloat_deg);
-  EXPECT_NEAR(image.lon_deg[at], longitude_rad(hit->normal) / kDegree, kFloat_deg);
+  EXPECT_NEAR(image.lat_deg[at], latitude_rad(hit->normal) / kRadiansPerDegree, kFloat_deg);
+  EXPECT_NEAR(image.lon_deg[at], longitude_rad(hit->normal) / kRadiansPerDegree, kFloat_deg);
   const double cosine = -glm::dot(direction, hit->normal) / glm::length(direction);
-  EXPECT_NEAR(std::cos(static_cast<double>(image.incidence_deg[at]) * kDegree), cosine, kFloat_deg);
+  EXPECT_NEAR(std::cos(static_cast<double>(image.incidence_deg[at]) * kRadiansPerDegree), cosine, kFloat_deg);
 }
 
 TEST(CastTest, TheNumberOfThreadsChangesNothing) {
@@ -123,12 +123,13 @@ TEST(TexelPositionTest, RowsFollowTheLatitudeTheyCount) {
     const glm::dvec3 normal = local_frame(lat, 40).up;
     const Hit hit{position_m(kSaturn, {lat, 40, 0}), normal, 1.0};
     // tan(centric) = (1 - f)² tan(geodetic), the textbook's relation.
-    const double centric = std::atan((1 - kSaturn.f) * (1 - kSaturn.f) * std::tan(lat * kDegree)) / kDegree;
+    const double centric =
+        std::atan((1 - kSaturn.f) * (1 - kSaturn.f) * std::tan(lat * kRadiansPerDegree)) / kRadiansPerDegree;
     const auto row = [&](bool area, bool centre) { return texel_position(source, {area, centre}, hit).y; };
     EXPECT_NEAR(row(false, false), (90 - lat) * 10, kTexel);
     EXPECT_NEAR(row(false, true), (90 - centric) * 10, kTexel);
-    EXPECT_NEAR(row(true, false), 900 * (1 - std::sin(lat * kDegree)), kTexel);
-    EXPECT_NEAR(row(true, true), 900 * (1 - std::sin(centric * kDegree)), kTexel);
+    EXPECT_NEAR(row(true, false), 900 * (1 - std::sin(lat * kRadiansPerDegree)), kTexel);
+    EXPECT_NEAR(row(true, true), 900 * (1 - std::sin(centric * kRadiansPerDegree)), kTexel);
     EXPECT_NEAR(texel_position(source, {}, hit).x, 2200, kTexel);
   }
 }

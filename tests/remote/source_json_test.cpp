@@ -7,7 +7,7 @@
 namespace terrella {
 namespace {
 
-void expect_refused(const std::string& json, const std::string& why) {
+void expect_json_refused(const std::string& json, const std::string& why) {
   const auto source = parse_source_json(json, "a.json");
   ASSERT_FALSE(source) << json;
   EXPECT_NE(source.error().message.find(why), std::string::npos) << source.error().message;
@@ -57,26 +57,26 @@ TEST(SourceJson, PointsToAWmtsOrATms) {
 }
 
 TEST(SourceJson, RefusesByFileAndField) {
-  expect_refused("", "not JSON");
-  expect_refused("[]", "one JSON object");
-  expect_refused("{}", "\"url\" is missing");
-  expect_refused(R"({"url": "a", "wmts": "b"})", "one of the three");
-  expect_refused(R"({"url": "a", "layer": "b"})", "\"layer\"");
-  expect_refused(R"({"url": "a", "attributions": "b"})", "\"attributions\" is not known");
-  expect_refused(R"({"url": 5})", "\"url\" must be a text");
-  expect_refused(R"({"url": "a", "version": 2})", "\"version\"");
-  expect_refused(R"({"url": "a", "max_level": 25})", "\"max_level\" must be in [0, 24]");
-  expect_refused(R"({"url": "a", "max_level": 1.5})", "\"max_level\"");
-  expect_refused(R"({"url": "a", "tile_px": 8})", "\"tile_px\"");
-  expect_refused(R"({"url": "a", "root_span_deg": 0})", "\"root_span_deg\"");
-  expect_refused(R"({"url": "a", "tile_life_s": -1})", "\"tile_life_s\"");
-  expect_refused(R"({"url": "a", "bounds": [0, 0, 0, 1000]})", "bounds");
-  expect_refused(R"({"url": "a", "format": "webp"})", "\"format\"");
-  expect_refused(R"({"url": "a", "headers": "A: b"})", "\"headers\"");
-  expect_refused(R"({"url": "a", "headers": ["no colon"]})", "header 1");
-  expect_refused(R"({"url": "a", "subdomains": ["a b"]})", "sub-domain");
-  expect_refused(R"({"url": "a", "body": "vulcan"})", "body");
-  expect_refused("{\"url\": \"" + std::string(kMaxSourceJsonBytes, 'a') + "\"}", "too many");
+  expect_json_refused("", "not JSON");
+  expect_json_refused("[]", "one JSON object");
+  expect_json_refused("{}", "\"url\" is missing");
+  expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the three");
+  expect_json_refused(R"({"url": "a", "layer": "b"})", "\"layer\"");
+  expect_json_refused(R"({"url": "a", "attributions": "b"})", "\"attributions\" is not known");
+  expect_json_refused(R"({"url": 5})", "\"url\" must be a text");
+  expect_json_refused(R"({"url": "a", "version": 2})", "\"version\"");
+  expect_json_refused(R"({"url": "a", "max_level": 25})", "\"max_level\" must be in [0, 24]");
+  expect_json_refused(R"({"url": "a", "max_level": 1.5})", "\"max_level\"");
+  expect_json_refused(R"({"url": "a", "tile_px": 8})", "\"tile_px\"");
+  expect_json_refused(R"({"url": "a", "root_span_deg": 0})", "\"root_span_deg\"");
+  expect_json_refused(R"({"url": "a", "tile_life_s": -1})", "\"tile_life_s\"");
+  expect_json_refused(R"({"url": "a", "bounds": [0, 0, 0, 1000]})", "bounds");
+  expect_json_refused(R"({"url": "a", "format": "webp"})", "\"format\"");
+  expect_json_refused(R"({"url": "a", "headers": "A: b"})", "\"headers\"");
+  expect_json_refused(R"({"url": "a", "headers": ["no colon"]})", "header 1");
+  expect_json_refused(R"({"url": "a", "subdomains": ["a b"]})", "sub-domain");
+  expect_json_refused(R"({"url": "a", "body": "vulcan"})", "body");
+  expect_json_refused("{\"url\": \"" + std::string(kMaxSourceJsonBytes, 'a') + "\"}", "too many");
 }
 
 TEST(SourceJson, DoesNotRepeatASecretInAMessage) {

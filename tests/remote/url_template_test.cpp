@@ -17,7 +17,8 @@ RemoteTileSet make(const std::string& url, RemoteOptions options = {}) {
   return set ? *std::move(set) : RemoteTileSet{};
 }
 
-void expect_refused(const std::string& url, const std::string& why, const RemoteOptions& options = {.max_level = 5}) {
+void expect_template_refused(const std::string& url, const std::string& why,
+                             const RemoteOptions& options = {.max_level = 5}) {
   const auto set = template_tile_set(url, options, false, "here");
   ASSERT_FALSE(set) << url;
   EXPECT_NE(set.error().message.find(why), std::string::npos) << set.error().message;
@@ -44,8 +45,8 @@ TEST(UrlTemplate, LeavesOutTheOneRootTileWhoseRowsCountFromTheSouth) {
   const RemoteTileSet set = make("http://example.com/{z}/{x}/{-y}.jpg", {.root_span_deg = 360.0});
   EXPECT_EQ(set.info.grid.min_level, 1);
   EXPECT_EQ(tile_url(set, {1, 1, 0}), "http://example.com/1/1/0.jpg");
-  expect_refused("http://example.com/{z}/{x}/{-y}.jpg", "which does not divide 180°",
-                 {.root_span_deg = 288.0, .max_level = 2});
+  expect_template_refused("http://example.com/{z}/{x}/{-y}.jpg", "which does not divide 180°",
+                          {.root_span_deg = 288.0, .max_level = 2});
 }
 
 TEST(UrlTemplate, SendsATileAlwaysToTheSameSubdomain) {
@@ -68,31 +69,31 @@ TEST(UrlTemplate, WrapsColumnsAndShiftsRows) {
 }
 
 TEST(UrlTemplate, RefusesByNameWhatItIsNot) {
-  expect_refused("https://example.com/{x}/{y}.png", "no {z}");
-  expect_refused("https://example.com/{z}/{y}.png", "no {x}");
-  expect_refused("https://example.com/{z}/{x}.png", "no {y}");
-  expect_refused("https://example.com/{z}/{x}/{y}/{-y}.png", "both {y} and {-y}");
-  expect_refused("https://example.com/{z}/{x}/{y}/{q}.png", "unknown placeholder {q}");
-  expect_refused("https://example.com/{z}/{x}/{y", "brace");
-  expect_refused("https://example.com/{z}/{x}/{y}}", "brace");
-  expect_refused("https://{z}.example.com/{z}/{x}/{y}", "in its host");
-  expect_refused("ftp://example.com/{z}/{x}/{y}.png", "must begin with http:// or https://");
-  expect_refused("file:///tiles/{z}/{x}/{y}.png", "must begin with http:// or https://");
-  expect_refused("example.com/{z}/{x}/{y}.png", "must begin with http:// or https://");
-  expect_refused("https://example.com/{z}/{x}/{y} 1.png", "%20");
-  expect_refused("https:///{z}/{x}/{y}", "address");
-  expect_refused("https://example.com/" + std::string(9000, 'a') + "{z}/{x}/{y}", "longer than");
+  expect_template_refused("https://example.com/{x}/{y}.png", "no {z}");
+  expect_template_refused("https://example.com/{z}/{y}.png", "no {x}");
+  expect_template_refused("https://example.com/{z}/{x}.png", "no {y}");
+  expect_template_refused("https://example.com/{z}/{x}/{y}/{-y}.png", "both {y} and {-y}");
+  expect_template_refused("https://example.com/{z}/{x}/{y}/{q}.png", "unknown placeholder {q}");
+  expect_template_refused("https://example.com/{z}/{x}/{y", "brace");
+  expect_template_refused("https://example.com/{z}/{x}/{y}}", "brace");
+  expect_template_refused("https://{z}.example.com/{z}/{x}/{y}", "in its host");
+  expect_template_refused("ftp://example.com/{z}/{x}/{y}.png", "must begin with http:// or https://");
+  expect_template_refused("file:///tiles/{z}/{x}/{y}.png", "must begin with http:// or https://");
+  expect_template_refused("example.com/{z}/{x}/{y}.png", "must begin with http:// or https://");
+  expect_template_refused("https://example.com/{z}/{x}/{y} 1.png", "%20");
+  expect_template_refused("https:///{z}/{x}/{y}", "address");
+  expect_template_refused("https://example.com/" + std::string(9000, 'a') + "{z}/{x}/{y}", "longer than");
 }
 
 TEST(UrlTemplate, RefusesGridsOutOfRange) {
   const std::string url = "https://example.com/{z}/{x}/{y}.png";
-  expect_refused(url, "--levels", {});
-  expect_refused(url, "max_level", {.max_level = 25});
-  expect_refused(url, "min_level", {.min_level = 3, .max_level = 2});
-  expect_refused(url, "tile_px", {.tile_px = 3, .max_level = 2});
-  expect_refused(url, "root_span_deg", {.root_span_deg = -1.0, .max_level = 2});
-  expect_refused(url, "header 1", {.max_level = 2, .headers = {"A: b\r\nC: d"}});
-  expect_refused(url, "sub-domain", {.max_level = 2, .subdomains = {"a/b"}});
+  expect_template_refused(url, "--levels", {});
+  expect_template_refused(url, "max_level", {.max_level = 25});
+  expect_template_refused(url, "min_level", {.min_level = 3, .max_level = 2});
+  expect_template_refused(url, "tile_px", {.tile_px = 3, .max_level = 2});
+  expect_template_refused(url, "root_span_deg", {.root_span_deg = -1.0, .max_level = 2});
+  expect_template_refused(url, "header 1", {.max_level = 2, .headers = {"A: b\r\nC: d"}});
+  expect_template_refused(url, "sub-domain", {.max_level = 2, .subdomains = {"a/b"}});
 }
 
 TEST(UrlTemplate, KeepsSecretsOutOfMessages) {

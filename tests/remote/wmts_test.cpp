@@ -27,7 +27,7 @@ std::string refusal(const std::string& xml, const RemoteOptions& options = {}) {
   return set.error().message;
 }
 
-void expect_refused(const std::string& xml, const std::string& why, const RemoteOptions& options = {}) {
+void expect_wmts_refused(const std::string& xml, const std::string& why, const RemoteOptions& options = {}) {
   const std::string said = refusal(xml, options);
   EXPECT_NE(said.find(why), std::string::npos) << said;
 }
@@ -87,9 +87,9 @@ TEST(Wmts, TimesAreThoseThatAreListed) {
   EXPECT_NE(read(test::gibs_document(), with_time("2012-07-09T12:30:00Z")).url.find("/2012-07-09T12:30:00Z/"),
             std::string::npos);
   for (const char* time : {"1999-01-01", "2021-01-15", "2024-05-21", "yesterday", "2012-02-30", "2012-7-9", "{z}"}) {
-    expect_refused(test::gibs_document(), "2000-02-24/2020-12-31/P1D", with_time(time));
+    expect_wmts_refused(test::gibs_document(), "2000-02-24/2020-12-31/P1D", with_time(time));
   }
-  expect_refused(test::gibs_document(), "no time dimension", {.layer = "Still", .time = "2012-07-09"});
+  expect_wmts_refused(test::gibs_document(), "no time dimension", {.layer = "Still", .time = "2012-07-09"});
 }
 
 TEST(Wmts, FindsTheQuadtreesOfTheStandard) {
@@ -151,15 +151,15 @@ TEST(Wmts, RefusesSetsThatNoRootSpanDescribes) {
     if (set.sizes.empty()) set.sizes = quads(2, 1, 3);
     return one_set(set);
   };
-  expect_refused(like({.crs = "urn:ogc:def:crs:EPSG::3857"}), "Web Mercator");
-  expect_refused(like({.crs = "urn:ogc:def:crs:EPSG:6.18:3:900913"}), "Web Mercator");
-  expect_refused(like({.crs = "urn:ogc:def:crs:EPSG::25832"}), "25832");
-  expect_refused(like({.corner = "-170 90"}), "no whole number of tiles");
-  expect_refused(like({.ratio = 2.5}), "do not halve");
-  expect_refused(like({.corner = "west north"}), "TopLeftCorner");
-  expect_refused(like({.denominator = -1.0}), "ScaleDenominator");
-  expect_refused(like({.tile_px = 7}), "TileWidth");
-  expect_refused(like({.denominator = 1e6, .sizes = {{560, 280}}}), "root tiles");
+  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG::3857"}), "Web Mercator");
+  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG:6.18:3:900913"}), "Web Mercator");
+  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG::25832"}), "25832");
+  expect_wmts_refused(like({.corner = "-170 90"}), "no whole number of tiles");
+  expect_wmts_refused(like({.ratio = 2.5}), "do not halve");
+  expect_wmts_refused(like({.corner = "west north"}), "TopLeftCorner");
+  expect_wmts_refused(like({.denominator = -1.0}), "ScaleDenominator");
+  expect_wmts_refused(like({.tile_px = 7}), "TileWidth");
+  expect_wmts_refused(like({.denominator = 1e6, .sizes = {{560, 280}}}), "root tiles");
 }
 
 TEST(Wmts, TakesTheFirstSetThatCanBeShown) {
@@ -172,8 +172,8 @@ TEST(Wmts, TakesTheFirstSetThatCanBeShown) {
       .name = "WorldCRS84Quad", .denominator = test::kCrs84QuadDenominator, .sizes = quads(2, 1, 2)};
   const std::string xml = capabilities({{.matrix_sets = {"GoogleMapsCompatible", "WorldCRS84Quad"}}}, {mercator, quad});
   EXPECT_NE(read(xml).url.find("WorldCRS84Quad"), std::string::npos);
-  expect_refused(xml, "Web Mercator", {.matrix_set = "GoogleMapsCompatible"});
-  expect_refused(xml, "GoogleMapsCompatible, WorldCRS84Quad", {.matrix_set = "Nothing"});
+  expect_wmts_refused(xml, "Web Mercator", {.matrix_set = "GoogleMapsCompatible"});
+  expect_wmts_refused(xml, "GoogleMapsCompatible, WorldCRS84Quad", {.matrix_set = "Nothing"});
 }
 
 TEST(Wmts, LimitsAndBoxesNarrowLevelsAndBounds) {
@@ -217,43 +217,44 @@ TEST(Wmts, AsksWithKeysAndValuesWhereThereIsNoTemplate) {
             "https://example.com/"
             "wmts.cgi?map=a&SERVICE=WMTS&REQUEST=GetTile&VERSION=1.0.0&LAYER=a%20b%26%7Bz%7D&STYLE=default"
             "&TILEMATRIXSET=set&FORMAT=image%2Fjpeg&TILEMATRIX=EPSG:4326:2&TILEROW=3&TILECOL=7");
-  expect_refused(capabilities({{.matrix_sets = {"set"}, .resources = {}}}, {gibs_set("set", 3)}),
-                 "neither a ResourceURL");
+  expect_wmts_refused(capabilities({{.matrix_sets = {"set"}, .resources = {}}}, {gibs_set("set", 3)}),
+                      "neither a ResourceURL");
 }
 
 TEST(Wmts, SaysWhatThereIsInstead) {
-  expect_refused(test::gibs_document(), "Still, Daily");
-  expect_refused(test::gibs_document(), "Still, Daily", {.layer = "Other"});
-  expect_refused(test::gibs_document(), "but \"Still\"", {.layer = "still"});
-  expect_refused(test::gibs_document(), "no style \"x\"; it has: default", {.layer = "Still", .style = "x"});
-  expect_refused(test::gibs_document(), "image/jpeg", {.layer = "Still", .format = ImageFormat::png});
-  expect_refused(test::gibs_document(), "spans 288°", {.layer = "Still", .root_span_deg = 180.0});
-  expect_refused(test::gibs_document(), "512 pixels", {.layer = "Still", .tile_px = 256});
-  expect_refused(test::gibs_document(), "levels 0 to 7", {.layer = "Still", .min_level = 9});
+  expect_wmts_refused(test::gibs_document(), "Still, Daily");
+  expect_wmts_refused(test::gibs_document(), "Still, Daily", {.layer = "Other"});
+  expect_wmts_refused(test::gibs_document(), "but \"Still\"", {.layer = "still"});
+  expect_wmts_refused(test::gibs_document(), "no style \"x\"; it has: default", {.layer = "Still", .style = "x"});
+  expect_wmts_refused(test::gibs_document(), "image/jpeg", {.layer = "Still", .format = ImageFormat::png});
+  expect_wmts_refused(test::gibs_document(), "spans 288°", {.layer = "Still", .root_span_deg = 180.0});
+  expect_wmts_refused(test::gibs_document(), "512 pixels", {.layer = "Still", .tile_px = 256});
+  expect_wmts_refused(test::gibs_document(), "levels 0 to 7", {.layer = "Still", .min_level = 9});
   std::vector<LayerText> many;
   for (int i = 0; i < 1000; ++i) many.push_back({.name = fmt::format("l{}", i)});
   EXPECT_LT(refusal(capabilities(many, {})).size(), 500U);
 }
 
 TEST(Wmts, RefusesWhatIsNoCapabilities) {
-  expect_refused("", "not XML");
-  expect_refused("<html><body>Not found</body></html>", "not the capabilities");
-  expect_refused("<WMS_Capabilities/>", "of a WMS");
-  expect_refused("<ExceptionReport><Exception><ExceptionText>no such map</ExceptionText></Exception></ExceptionReport>",
-                 "no such map");
+  expect_wmts_refused("", "not XML");
+  expect_wmts_refused("<html><body>Not found</body></html>", "not the capabilities");
+  expect_wmts_refused("<WMS_Capabilities/>", "of a WMS");
+  expect_wmts_refused(
+      "<ExceptionReport><Exception><ExceptionText>no such map</ExceptionText></Exception></ExceptionReport>",
+      "no such map");
   const LayerText odd{
       .resources =
           R"(<ResourceURL format="image/jpeg" resourceType="tile" template="https://example.com/{z}/{TileCol}/{TileRow}"/>)"};
-  expect_refused(one_set(gibs_set("set", 3), odd), "unknown placeholder {z}");
+  expect_wmts_refused(one_set(gibs_set("set", 3), odd), "unknown placeholder {z}");
   const LayerText scheme{
       .resources =
           R"(<ResourceURL format="image/jpeg" resourceType="tile" template="gopher://a/{TileMatrix}/{TileCol}/{TileRow}"/>)"};
-  expect_refused(one_set(gibs_set("set", 3), scheme), "must begin with http");
+  expect_wmts_refused(one_set(gibs_set("set", 3), scheme), "must begin with http");
   const std::string entity = "<!DOCTYPE a [<!ENTITY b SYSTEM \"file:///etc/passwd\">]>";
   std::string xml = one_set(gibs_set("set", 3), {.name = "&b;"});
   xml.insert(xml.find("<Capabilities"), entity);
   EXPECT_EQ(read(xml).info.name, "About &b;");
-  expect_refused(std::string(kMaxCapabilitiesBytes + 1, ' '), "longer than");
+  expect_wmts_refused(std::string(kMaxCapabilitiesBytes + 1, ' '), "longer than");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace terrella::test {
 namespace {
 
-constexpr Viewport kSmall{128, 128};
+constexpr Viewport kStreamed{128, 128};
 
 TileGrid deep_grid() { return {.tile_px = 64, .max_level = 8}; }
 
@@ -47,14 +47,14 @@ TEST_F(GlobeStreaming, NeverAHoleWhileTilesComeOneByOne) {
     tiles->hold();
     const auto globe = make_globe(unlit_options(), tiles);
     globe->set_camera(camera);
-    FrameStats stats = draw(*globe, kSmall);
+    FrameStats stats = draw(*globe, kStreamed);
     EXPECT_GT(stats.patches_uncovered, 0);
     int after_roots = 0;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
     while (!globe->settled() && std::chrono::steady_clock::now() < deadline) {
       tiles->release(1);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      stats = draw(*globe, kSmall);
+      stats = draw(*globe, kStreamed);
       if (after_roots == 0 && stats.patches_uncovered > 0) continue;
       ++after_roots;
       ASSERT_EQ(stats.patches_uncovered, 0);
@@ -73,12 +73,12 @@ TEST_F(GlobeStreaming, SettlesAndThenStandsStill) {
     for (int run = 0; run < 2; ++run) {
       const auto globe = make_globe(unlit_options(), source());
       globe->set_camera(camera);
-      const FrameStats stats = settle(*globe, kSmall);
+      const FrameStats stats = settle(*globe, kStreamed);
       EXPECT_TRUE(globe->settled());
       EXPECT_EQ(stats.tiles_missing, 0);
       EXPECT_EQ(stats.uploaded_bytes, 0U);
       const auto settled = picture().rgba;
-      draw(*globe, kSmall);
+      draw(*globe, kStreamed);
       EXPECT_EQ(picture().rgba, settled) << "a second frame differs";
       if (run == 0) first = settled;
       EXPECT_EQ(settled, first) << "a second run differs";
@@ -95,14 +95,14 @@ TEST_F(GlobeStreaming, SettlesInThreeFramesAfterTheLastTileHasArrived) {
     options.upload_time_per_frame = std::chrono::seconds(1);
     const auto globe = make_globe(options, tiles);
     globe->set_camera(camera);
-    draw(*globe, kSmall);
+    draw(*globe, kStreamed);
     tiles->release(1000);
     for (LoaderCounts left = globe->loading(); left.waiting + left.running > 0; left = globe->loading()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     ASSERT_GT(globe->loading().finished, 4U);
     int frames = 0;
-    for (; !globe->settled() && frames < 10; ++frames) draw(*globe, kSmall);
+    for (; !globe->settled() && frames < 10; ++frames) draw(*globe, kStreamed);
     EXPECT_LE(frames, 3);
   }
 }
@@ -111,11 +111,11 @@ TEST_F(GlobeStreaming, APictureDoesNotDependOnWhatWasSeenBefore) {
   const auto traveller = make_globe(unlit_options(), source());
   for (const Camera& camera : ground_cameras()) {
     traveller->set_camera(camera);
-    settle(*traveller, kSmall);
+    settle(*traveller, kStreamed);
     const auto after_a_journey = picture().rgba;
     const auto fresh = make_globe(unlit_options(), source());
     fresh->set_camera(camera);
-    settle(*fresh, kSmall);
+    settle(*fresh, kStreamed);
     EXPECT_EQ(picture().rgba, after_a_journey);
   }
 }
@@ -141,12 +141,12 @@ TEST_F(GlobeStreaming, TheRootTilesAreKeptWhateverComes) {
   const auto globe = make_globe(options, tiles);
   for (const Camera& camera : ground_cameras()) {
     globe->set_camera(camera);
-    settle(*globe, kSmall);
+    settle(*globe, kStreamed);
   }
   // Nothing more comes: only what is kept can be drawn.
   tiles->hold();
   globe->set_camera(camera_at(-10, -100, 5.0e5));
-  EXPECT_EQ(draw(*globe, kSmall).patches_uncovered, 0);
+  EXPECT_EQ(draw(*globe, kStreamed).patches_uncovered, 0);
   EXPECT_EQ(dark_pixels(picture()), 0);
   tiles->release(1000);
 }
@@ -156,7 +156,7 @@ TEST_F(GlobeStreaming, AncestorsStandInForTilesThatTheSourceLacks) {
   for (const Camera& camera : ground_cameras()) {
     const auto globe = make_globe(unlit_options(), source(deep_grid(), some));
     globe->set_camera(camera);
-    const FrameStats stats = settle(*globe, kSmall);
+    const FrameStats stats = settle(*globe, kStreamed);
     EXPECT_GT(stats.tiles_lacked, 0);
     EXPECT_EQ(stats.tiles_missing, 0);
     EXPECT_EQ(stats.patches_uncovered, 0);
@@ -172,9 +172,9 @@ TEST_F(GlobeStreaming, SettlesWhereThereIsNoImageryAtAll) {
   for (const auto& tiles : {source(europe), source(deep_grid(), everything)}) {
     const auto globe = make_globe(unlit_options(), tiles);
     globe->set_camera(camera_at(-40, -120, 2.0e6));
-    settle(*globe, kSmall);
+    settle(*globe, kStreamed);
     globe->set_camera(camera_at(47, 8, 2.0e7));
-    settle(*globe, kSmall);
+    settle(*globe, kStreamed);
   }
 }
 
@@ -186,7 +186,7 @@ TEST_F(GlobeStreaming, AFrameTakesFewDrawCalls) {
     const auto globe = make_globe(options, source());
     for (int k = 0; k < 30; ++k) {
       globe->set_camera(random_camera(draws, 10.0, 1.0e8));
-      const FrameStats stats = draw(*globe, kSmall);
+      const FrameStats stats = draw(*globe, kStreamed);
       EXPECT_LE(stats.draw_calls, 10);
       EXPECT_GE(stats.patches, stats.band_patches);
     }
@@ -202,7 +202,7 @@ TEST_F(GlobeStreaming, UploadsStayWithinTheBudgetOfAFrame) {
   std::size_t least = SIZE_MAX, most = 0;
   for (int k = 0; k < 400 && !globe->settled(); ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const std::size_t bytes = draw(*globe, kSmall).uploaded_bytes;
+    const std::size_t bytes = draw(*globe, kStreamed).uploaded_bytes;
     if (bytes > 0) least = std::min(least, bytes);
     most = std::max(most, bytes);
   }
@@ -223,12 +223,12 @@ std::array<int, 6> live_objects() {
 }
 
 TEST_F(GlobeStreaming, AGlobeThatIsGoneLeavesNoObjectBehind) {
-  draw(*make_globe(unlit_options(), source()), kSmall);
+  draw(*make_globe(unlit_options(), source()), kStreamed);
   const auto before = live_objects();
   {
     const auto globe = make_globe(unlit_options(), source());
     globe->set_camera(camera_at(47, 8, 8.0e5));
-    settle(*globe, kSmall);
+    settle(*globe, kStreamed);
     EXPECT_NE(live_objects(), before);
   }
   EXPECT_EQ(live_objects(), before);

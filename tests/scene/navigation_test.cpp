@@ -9,21 +9,18 @@
 #include "geo/body.h"
 #include "scene/ground_frame.h"
 #include "scene/view_limits.h"
+#include "tests/scene/patch_test_support.h"
 
 namespace terrella {
 namespace {
+
+using test::camera_at;
 
 constexpr double kHeld_px = 0.05;      // a twentieth of what the issue asks
 constexpr double kArrived_deg = 1e-6;  // 0.1 m on Earth
 constexpr double kFrame_s = 1.0 / 60.0;
 constexpr Viewport kViewport{1024, 768};
 constexpr glm::dvec2 kCentre(512.0, 384.0);
-
-Camera camera(double lat, double lon, double height_m, double heading = 0.0, double pitch = -90.0) {
-  return {.eye = {.lat = Angle::degrees(lat), .lon = Angle::degrees(lon), .height_m = height_m},
-          .heading = Angle::degrees(heading),
-          .pitch = Angle::degrees(pitch)};
-}
 
 /// A navigator of Earth with a hand and a clock.
 struct Hand {
@@ -89,17 +86,18 @@ TEST_P(LeftDrag, HoldsTheGrabbedPointUnderTheCursor) {
 
 INSTANTIATE_TEST_SUITE_P(
     Places, LeftDrag,
-    testing::Values(DragCase{"mid_latitude", camera(46.0, 7.0, 3.0e6), {300.0, 300.0}, {700.0, 500.0}},
-                    DragCase{"across_the_antimeridian", camera(10.0, 179.5, 2.0e6), {700.0, 400.0}, {200.0, 380.0}},
-                    DragCase{"over_the_pole", camera(80.0, 30.0, 5.0e6), {500.0, 300.0}, {540.0, 600.0}},
-                    DragCase{"from_the_pole", camera(90.0, 0.0, 5.0e6), {512.0, 384.0}, {300.0, 200.0}},
-                    DragCase{"tilted_at_300_km", camera(46.0, 7.0, 3.0e5, 30.0, -35.0), {200.0, 600.0}, {800.0, 450.0}},
-                    DragCase{"two_metres_up", camera(-33.0, 151.0, 2.0, 200.0, -50.0), {512.0, 500.0}, {300.0, 600.0}},
-                    DragCase{"from_20_radii", camera(5.0, -60.0, 1.2e8), {512.0, 384.0}, {535.0, 370.0}}),
+    testing::Values(
+        DragCase{"mid_latitude", camera_at(46.0, 7.0, 3.0e6), {300.0, 300.0}, {700.0, 500.0}},
+        DragCase{"across_the_antimeridian", camera_at(10.0, 179.5, 2.0e6), {700.0, 400.0}, {200.0, 380.0}},
+        DragCase{"over_the_pole", camera_at(80.0, 30.0, 5.0e6), {500.0, 300.0}, {540.0, 600.0}},
+        DragCase{"from_the_pole", camera_at(90.0, 0.0, 5.0e6), {512.0, 384.0}, {300.0, 200.0}},
+        DragCase{"tilted_at_300_km", camera_at(46.0, 7.0, 3.0e5, 30.0, -35.0), {200.0, 600.0}, {800.0, 450.0}},
+        DragCase{"two_metres_up", camera_at(-33.0, 151.0, 2.0, 200.0, -50.0), {512.0, 500.0}, {300.0, 600.0}},
+        DragCase{"from_20_radii", camera_at(5.0, -60.0, 1.2e8), {512.0, 384.0}, {535.0, 370.0}}),
     [](const auto& test) { return std::string(test.param.what); });
 
 TEST(Drag, GoesOverThePoleWithoutTurningThePicture) {
-  Hand hand(camera(70.0, 30.0, 4.0e6));
+  Hand hand(camera_at(70.0, 30.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, {512.0, 100.0}, hand.now);
   glm::dvec3 last = ground_frame(hand.navigator.camera()).ahead;
   for (int y = 100; y <= 700; y += 5) {
@@ -114,7 +112,7 @@ TEST(Drag, GoesOverThePoleWithoutTurningThePicture) {
 }
 
 TEST(Drag, OutAndBackNearThePoleEndsWhereItBegan) {
-  Hand hand(camera(88.0, 10.0, 5.0e6, 25.0));
+  Hand hand(camera_at(88.0, 10.0, 5.0e6, 25.0));
   const Camera start = hand.navigator.camera();
   hand.navigator.pointer_down(PointerButton::left, false, {400.0, 300.0}, hand.now);
   for (const glm::dvec2 px : {glm::dvec2(600.0, 300.0), glm::dvec2(600.0, 500.0), glm::dvec2(400.0, 300.0)}) {
@@ -125,7 +123,7 @@ TEST(Drag, OutAndBackNearThePoleEndsWhereItBegan) {
 }
 
 TEST(Drag, KeepsTurningBesideTheGlobe) {
-  Hand hand(camera(0.0, 0.0, 2.0e7));
+  Hand hand(camera_at(0.0, 0.0, 2.0e7));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   double last = 0.0;
   for (double x = 552.0; x < 1400.0; x += 40.0) {
@@ -138,7 +136,7 @@ TEST(Drag, KeepsTurningBesideTheGlobe) {
 }
 
 TEST(Glide, GoesOnInTheSameDirectionAndStops) {
-  Hand hand(camera(20.0, 50.0, 4.0e6));
+  Hand hand(camera_at(20.0, 50.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   for (int i = 1; i <= 10; ++i) {
     hand.navigator.pointer_move(kCentre + glm::dvec2(12.0 * i, 0.0), hand.now += Seconds(kFrame_s));
@@ -155,7 +153,7 @@ TEST(Glide, GoesOnInTheSameDirectionAndStops) {
 TEST(Glide, IsAsFastWhenMovesComeInBundles) {
   // 600 px/s, once as 10 moves of 1/60 s and once as 3 frames of a slow program that gets several moves at one time.
   const auto glided_deg = [](int per_frame) {
-    Hand hand(camera(0.0, 0.0, 3.0e6));
+    Hand hand(camera_at(0.0, 0.0, 3.0e6));
     hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
     for (int i = 1; i <= 12; ++i) {
       if (i % per_frame == 0) hand.now += Seconds(per_frame * kFrame_s);
@@ -171,7 +169,7 @@ TEST(Glide, IsAsFastWhenMovesComeInBundles) {
 }
 
 TEST(Glide, DoesNotFollowFromAClickThatSlipped) {
-  Hand hand(camera(20.0, 50.0, 4.0e6));
+  Hand hand(camera_at(20.0, 50.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   hand.navigator.pointer_move(kCentre + glm::dvec2(4.0, 2.0), hand.now += Seconds(kFrame_s));
   hand.navigator.pointer_up(PointerButton::left, hand.now);
@@ -179,7 +177,7 @@ TEST(Glide, DoesNotFollowFromAClickThatSlipped) {
 }
 
 TEST(Glide, IsCaughtByAPress) {
-  Hand hand(camera(20.0, 50.0, 4.0e6));
+  Hand hand(camera_at(20.0, 50.0, 4.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   hand.navigator.pointer_move(kCentre + glm::dvec2(30.0, 0.0), hand.now += Seconds(kFrame_s));
   hand.navigator.pointer_up(PointerButton::left, hand.now);
@@ -190,7 +188,7 @@ TEST(Glide, IsCaughtByAPress) {
 
 TEST(Wheel, KeepsThePointUnderTheCursor) {
   for (const Camera& start :
-       {camera(46.0, 7.0, 3.0e6), camera(46.0, 179.9, 3.0e5, 30.0, -40.0), camera(89.0, 0.0, 4.0e6)}) {
+       {camera_at(46.0, 7.0, 3.0e6), camera_at(46.0, 179.9, 3.0e5, 30.0, -40.0), camera_at(89.0, 0.0, 4.0e6)}) {
     for (const double steps : {1.0, 5.0, -2.0}) {
       Hand hand(start);
       const glm::dvec2 px(650.0, 500.0);
@@ -206,14 +204,14 @@ TEST(Wheel, KeepsThePointUnderTheCursor) {
 }
 
 TEST(Wheel, StepsAddUpWhileTheZoomStillRuns) {
-  Hand hand(camera(46.0, 7.0, 1.0e6));
+  Hand hand(camera_at(46.0, 7.0, 1.0e6));
   for (int i = 0; i < 3; ++i) hand.navigator.wheel(kCentre, 1.0, hand.now += Seconds(0.01));
   hand.settle();
   EXPECT_NEAR(hand.navigator.camera().eye.height_m, 1.0e6 * 0.512, 1.0);
 }
 
 TEST(Wheel, StaysBetweenTheGroundAndFiftyRadii) {
-  Hand hand(camera(46.0, 7.0, 1.0e3));
+  Hand hand(camera_at(46.0, 7.0, 1.0e3));
   for (int i = 0; i < 40; ++i) hand.navigator.wheel(kCentre, 10.0, hand.now);
   hand.settle();
   EXPECT_DOUBLE_EQ(hand.navigator.camera().eye.height_m, 1.0);
@@ -223,7 +221,7 @@ TEST(Wheel, StaysBetweenTheGroundAndFiftyRadii) {
 }
 
 TEST(Wheel, OutFromATiltedViewKeepsTheGlobeInThePicture) {
-  Hand hand(camera(46.0, 7.0, 1.0e4, 0.0, -5.0));
+  Hand hand(camera_at(46.0, 7.0, 1.0e4, 0.0, -5.0));
   for (int i = 0; i < 60; ++i) {
     hand.navigator.wheel(kCentre, -2.0, hand.now);
     hand.settle();
@@ -235,7 +233,7 @@ TEST(Wheel, OutFromATiltedViewKeepsTheGlobeInThePicture) {
 }
 
 TEST(RightDrag, TiltsAndTurnsAroundThePictureCentre) {
-  Hand hand(camera(46.0, 7.0, 3.0e5));
+  Hand hand(camera_at(46.0, 7.0, 3.0e5));
   const Ecef pivot = hand.under(kCentre);
   hand.drag({500.0, 500.0}, {600.0, 250.0}, PointerButton::right);
   EXPECT_LT(hand.miss_px(pivot, kCentre), kHeld_px);
@@ -247,16 +245,16 @@ TEST(RightDrag, TiltsAndTurnsAroundThePictureCentre) {
 }
 
 TEST(RightDrag, IsTheSameAsLeftWithControl) {
-  Hand right(camera(46.0, 7.0, 3.0e5, 80.0, -60.0));
-  Hand left(camera(46.0, 7.0, 3.0e5, 80.0, -60.0));
+  Hand right(camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0));
+  Hand left(camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0));
   right.drag({500.0, 500.0}, {420.0, 450.0}, PointerButton::right);
   left.drag({500.0, 500.0}, {420.0, 450.0}, PointerButton::left, true);
   EXPECT_TRUE(same(right.navigator.camera(), left.navigator.camera()));
-  EXPECT_FALSE(same(right.navigator.camera(), camera(46.0, 7.0, 3.0e5, 80.0, -60.0)));
+  EXPECT_FALSE(same(right.navigator.camera(), camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0)));
 }
 
 TEST(RightDrag, StopsAboveTheGroundAndStraightDown) {
-  Hand hand(camera(46.0, 7.0, 50.0));
+  Hand hand(camera_at(46.0, 7.0, 50.0));
   hand.drag({500.0, 700.0}, {500.0, -2000.0}, PointerButton::right);
   EXPECT_GE(hand.navigator.camera().eye.height_m, 1.0);
   EXPECT_GT(hand.navigator.camera().pitch.deg(), -5.0);
@@ -265,7 +263,7 @@ TEST(RightDrag, StopsAboveTheGroundAndStraightDown) {
 }
 
 TEST(RightDrag, InTheSkyTurnsTheEyeInItsPlace) {
-  Hand hand(camera(46.0, 7.0, 1000.0, 0.0, 10.0));
+  Hand hand(camera_at(46.0, 7.0, 1000.0, 0.0, 10.0));
   hand.drag({500.0, 300.0}, {600.0, 400.0}, PointerButton::right);
   EXPECT_NEAR(hand.navigator.camera().eye.lat.deg(), 46.0, 1e-12);
   EXPECT_GT(hand.navigator.camera().heading.deg(), 20.0);
@@ -273,7 +271,7 @@ TEST(RightDrag, InTheSkyTurnsTheEyeInItsPlace) {
 }
 
 TEST(DoubleClick, FliesToThePoint) {
-  Hand hand(camera(46.0, 179.0, 3.0e6, 40.0, -60.0));
+  Hand hand(camera_at(46.0, 179.0, 3.0e6, 40.0, -60.0));
   const Ecef there = hand.under({700.0, 500.0});
   hand.navigator.double_click({700.0, 500.0}, hand.now);
   EXPECT_TRUE(hand.navigator.animating());
@@ -283,7 +281,7 @@ TEST(DoubleClick, FliesToThePoint) {
 }
 
 TEST(DoubleClick, BesideTheGlobeDoesNothing) {
-  Hand hand(camera(0.0, 0.0, 2.0e7));
+  Hand hand(camera_at(0.0, 0.0, 2.0e7));
   hand.navigator.double_click({2.0, 2.0}, hand.now);
   EXPECT_TRUE(hand.navigator.at_rest());
 }
@@ -297,7 +295,7 @@ TEST(Keys, ArrowsMoveOverTheGlobe) {
                      {NavigationKey::pan_left, 0.0, -1.0},
                      {NavigationKey::pan_right, 0.0, 1.0}};
   for (const auto& c : cases) {
-    Hand hand(camera(0.0, 0.0, 3.0e6));
+    Hand hand(camera_at(0.0, 0.0, 3.0e6));
     const Ecef before = hand.under(kCentre);
     hand.navigator.key(c.key, hand.now);
     hand.settle();
@@ -310,7 +308,7 @@ TEST(Keys, ArrowsMoveOverTheGlobe) {
 }
 
 TEST(Keys, PlusAndMinusZoomAndCancelOut) {
-  Hand hand(camera(46.0, 7.0, 3.0e6));
+  Hand hand(camera_at(46.0, 7.0, 3.0e6));
   hand.navigator.key(NavigationKey::zoom_in, hand.now);
   hand.settle();
   EXPECT_LT(hand.navigator.camera().eye.height_m, 2.5e6);
@@ -320,7 +318,7 @@ TEST(Keys, PlusAndMinusZoomAndCancelOut) {
 }
 
 TEST(Keys, NorthUpTurnsAroundThePictureCentre) {
-  Hand hand(camera(46.0, 7.0, 3.0e5, 130.0, -45.0));
+  Hand hand(camera_at(46.0, 7.0, 3.0e5, 130.0, -45.0));
   const Ecef centre = hand.under(kCentre);
   hand.navigator.key(NavigationKey::north_up, hand.now);
   EXPECT_LT(hand.settle(), Seconds(1.0));
@@ -329,19 +327,19 @@ TEST(Keys, NorthUpTurnsAroundThePictureCentre) {
 }
 
 TEST(Keys, NorthUpTakesTheShortWayAndWorksOnThePole) {
-  Hand hand(camera(10.0, 7.0, 3.0e5, -170.0));
+  Hand hand(camera_at(10.0, 7.0, 3.0e5, -170.0));
   hand.navigator.key(NavigationKey::north_up, hand.now);
   hand.navigator.advance(hand.now += Seconds(0.2));
   hand.navigator.advance(hand.now += Seconds(0.1));
   EXPECT_LT(hand.navigator.camera().heading.deg(), -10.0);
-  Hand pole(camera(90.0, 0.0, 3.0e6, 75.0));
+  Hand pole(camera_at(90.0, 0.0, 3.0e6, 75.0));
   pole.navigator.key(NavigationKey::north_up, pole.now);
   pole.settle();
   EXPECT_NEAR(pole.navigator.camera().heading.deg(), 0.0, 0.01);
 }
 
 TEST(Keys, HomeShowsTheWholeGlobe) {
-  Hand hand(camera(46.0, 7.0, 300.0, 130.0, 3.0));
+  Hand hand(camera_at(46.0, 7.0, 300.0, 130.0, 3.0));
   hand.navigator.key(NavigationKey::whole_globe, hand.now);
   hand.settle();
   EXPECT_DOUBLE_EQ(hand.navigator.camera().heading.deg(), 0.0);
@@ -354,7 +352,7 @@ TEST(Keys, HomeShowsTheWholeGlobe) {
 TEST(Robustness, EventsThatAreNotFiniteAreIgnored) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
-  Hand hand(camera(46.0, 7.0, 3.0e5));
+  Hand hand(camera_at(46.0, 7.0, 3.0e5));
   const Camera start = hand.navigator.camera();
   Navigator& n = hand.navigator;
   n.pointer_down(PointerButton::left, false, {kNan, 0.0}, hand.now);
@@ -373,7 +371,7 @@ TEST(Robustness, EventsThatAreNotFiniteAreIgnored) {
 }
 
 TEST(Robustness, AClockThatJumpsMovesNothingFar) {
-  Hand hand(camera(46.0, 7.0, 3.0e6));
+  Hand hand(camera_at(46.0, 7.0, 3.0e6));
   hand.navigator.double_click({600.0, 300.0}, hand.now);
   hand.navigator.advance(hand.now + Seconds(1.0e9));
   EXPECT_TRUE(hand.navigator.animating());
@@ -386,7 +384,7 @@ TEST(Robustness, AClockThatJumpsMovesNothingFar) {
 }
 
 TEST(Robustness, AClockThatStandsStillFlicksNoFasterThanTheLimit) {
-  Hand hand(camera(0.0, 0.0, 3.0e6));
+  Hand hand(camera_at(0.0, 0.0, 3.0e6));
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   for (int i = 0; i < 50; ++i) hand.navigator.pointer_move(kCentre + glm::dvec2(i, 0.0), hand.now);
   hand.navigator.pointer_up(PointerButton::left, hand.now);
@@ -396,7 +394,7 @@ TEST(Robustness, AClockThatStandsStillFlicksNoFasterThanTheLimit) {
 TEST(Robustness, AOnePixelWindowAndACentreOfTheEarthCameraStayFinite) {
   for (const Viewport viewport : {Viewport{1, 1}, Viewport{16384, 16}, Viewport{0, -3}}) {
     for (const double height_m : {-6.378137e6, -10.0, 0.0, 1.0, 1.0e9}) {
-      Navigator n(camera(90.0, 0.0, height_m, 10.0, -20.0), earth().ellipsoid, viewport);
+      Navigator n(camera_at(90.0, 0.0, height_m, 10.0, -20.0), earth().ellipsoid, viewport);
       Seconds now(0.0);
       n.pointer_down(PointerButton::left, false, {0.5, 0.5}, now);
       n.pointer_move({40.0, -7.0}, now += Seconds(0.01));

@@ -9,7 +9,6 @@
 namespace terrella::test {
 namespace {
 
-constexpr int kSegments = 16;
 // to_geodetic() promises 10 nm.
 constexpr double kGeodetic_m = 2.0e-8;
 // The pole bands of paper 1: there coordinates are taken for each fragment.

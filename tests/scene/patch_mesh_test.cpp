@@ -12,8 +12,6 @@
 namespace terrella::test {
 namespace {
 
-constexpr int kSegments = 16;
-
 /// Both halves of a vertex's position, every bit of them.
 using PositionBits = std::array<std::uint32_t, 6>;
 
@@ -106,7 +104,7 @@ TEST(PatchMesh, LongitudesUnwrapAroundThePatchAndStayInItsExtent) {
         ASSERT_LE(node.east_deg - node.west_deg, 90.0 + 1e-9);
         for (const PatchVertex& v : patch_vertices(tree, node)) {
           ASSERT_TRUE(std::isfinite(glm::dot(v.direction, v.direction) + v.offset_deg.x + v.offset_deg.y));
-          const double row = center_row_deg(tree, node) + double(v.offset_deg.y);
+          const double row = node.row_center_deg + double(v.offset_deg.y);
           EXPECT_GE(row, node.south_row_deg - kFloat_deg);
           EXPECT_LE(row, node.north_row_deg + kFloat_deg);
           EXPECT_GE(double(v.offset_deg.x), node.west_deg - kFloat_deg);
@@ -132,7 +130,7 @@ TEST(PatchMesh, DirectionsAreThoseOfTheRowsRelativeToTheCentre) {
         for (const PatchVertex& v : patch_vertices(tree, node)) {
           const glm::dvec3 m = center + glm::dvec3(v.direction);
           const double row = std::atan2(m.z, std::hypot(m.x, m.y)) * 180.0 / std::numbers::pi;
-          EXPECT_NEAR(row, center_row_deg(tree, node) + double(v.offset_deg.y), 1e-5);
+          EXPECT_NEAR(row, node.row_center_deg + double(v.offset_deg.y), 1e-5);
         }
         EXPECT_GT(length, 0.8);
       }

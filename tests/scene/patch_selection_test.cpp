@@ -7,7 +7,6 @@
 namespace terrella::test {
 namespace {
 
-constexpr int kSegments = 16;
 // What a frame may hold at the most, whatever the camera: more would mean that the subdivision ran away.
 constexpr std::size_t kRunaway = 20000;
 

@@ -13,6 +13,9 @@
 
 namespace terrella::test {
 
+/// A side of the patches under test.
+inline constexpr int kSegments = 16;
+
 /// The bodies that the selection is tested on: Earth, a small one, the flattest planet, a perfect sphere.
 inline std::vector<Body> selection_bodies() {
   std::vector<Body> bodies;

@@ -12,7 +12,6 @@
 namespace terrella::test {
 namespace {
 
-constexpr int kSegments = 16;
 constexpr float kTile_px = 256.0F;
 using TileSet = std::unordered_set<TileId, TileIdHash>;
 
@@ -121,8 +120,8 @@ void expect_right_tile(const PatchTree& tree, const PatchNode& node, const TileC
   const Lookup found = look_up(coverage, coverage.draws[0], offset_deg);
   ASSERT_TRUE(tiles.contains(found.slot));
   const TileId tile = tiles.at(found.slot);
-  const TileXY truth = tile_xy(grid, tile.level, center_row_deg(tree, node) + double(offset_deg.y),
-                               node.lon_center_deg + double(offset_deg.x));
+  const TileXY truth =
+      tile_xy(grid, tile.level, node.row_center_deg + double(offset_deg.y), node.lon_center_deg + double(offset_deg.x));
   // A thousandth of a texel is far below what a bilinear filter of 8 bits of fraction shows.
   constexpr double kTexel = 1e-3;
   EXPECT_NEAR(double(found.texel.x), (truth.x - double(tile.x)) * double(kTile_px), kTexel) << "level " << tile.level;

@@ -17,8 +17,8 @@ using test::insert_tile;
 using test::run_sql;
 using test::ScratchFolder;
 
-constexpr int kTilePx = 32;
-constexpr double kRounding = 0.51;  // of colours to 8 bits
+constexpr int kPackagedPx = 32;
+constexpr double kPackagedRounding = 0.51;  // of colours to 8 bits
 
 /// A tile matrix set: its corner and extent, and the span of the tile and the size of the matrix of each zoom level.
 struct Zoom {
@@ -55,7 +55,7 @@ void write_geopackage(const fs::path& path, const MatrixSet& set) {
                     ", " + std::to_string(set.srs) + "); INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', " +
                     std::to_string(set.srs) + ", " + extent + ");";
   for (const Zoom& zoom : set.zooms) {
-    const std::string pixel = number(zoom.span_deg / kTilePx);
+    const std::string pixel = number(zoom.span_deg / kPackagedPx);
     sql += "INSERT INTO gpkg_tile_matrix VALUES ('tiles', " + std::to_string(zoom.zoom) + ", " +
            std::to_string(zoom.columns) + ", " + std::to_string(zoom.rows) + ", 32, 32, " + pixel + ", " + pixel + ");";
   }
@@ -67,7 +67,7 @@ void write_geopackage(const fs::path& path, const MatrixSet& set) {
         const double west = set.west + column * zoom.span_deg;
         const double wrapped_west = west >= 180.0 ? west - 360.0 : west;
         const double north = set.north - row * zoom.span_deg;
-        TileGrid grid{.root_span_deg = zoom.span_deg, .tile_px = kTilePx};
+        TileGrid grid{.root_span_deg = zoom.span_deg, .tile_px = kPackagedPx};
         const TileId id{0, std::llround((wrapped_west + 180.0) / zoom.span_deg),
                         std::llround((90.0 - north) / zoom.span_deg)};
         insert_tile(path, zoom.zoom, column, row, *encode_png(test::place_tile(grid, id)));
@@ -82,7 +82,7 @@ std::unique_ptr<TileSource> open(const fs::path& path) {
   return source ? *std::move(source) : nullptr;
 }
 
-void expect_refused(const fs::path& path, const std::string& says) {
+void expect_package_refused(const fs::path& path, const std::string& says) {
   const auto source = open_tile_set(path);
   ASSERT_FALSE(source) << path;
   EXPECT_EQ(source.error().message.rfind(path.string(), 0), 0U) << source.error().message;
@@ -94,7 +94,7 @@ void expect_places(TileSource& source) {
   const TileGrid& grid = source.info().grid;
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
     for_each_place(grid, level, [&](const TileId& id) {
-      EXPECT_LE(test::worst_misplacement(grid, id, test::load_tile(source, id)), kRounding)
+      EXPECT_LE(test::worst_misplacement(grid, id, test::load_tile(source, id)), kPackagedRounding)
           << id.level << "/" << id.x << "/" << id.y;
       return true;
     });
@@ -110,7 +110,7 @@ TEST(GeoPackage, AWorldFromItsCornerIsRead) {
   EXPECT_EQ(source->info().name, "Planet");
   EXPECT_EQ(source->info().attribution, "by someone");
   EXPECT_EQ(source->info().format, ImageFormat::png);
-  EXPECT_EQ(source->info().grid, (TileGrid{.root_span_deg = 180, .tile_px = kTilePx, .max_level = 1}));
+  EXPECT_EQ(source->info().grid, (TileGrid{.root_span_deg = 180, .tile_px = kPackagedPx, .max_level = 1}));
   expect_places(*source);
 }
 
@@ -144,7 +144,7 @@ TEST(GeoPackage, CoarseLevelsBetweenTilesAreLeftOut) {
   EXPECT_EQ(source->info().grid.min_level, 2);
   EXPECT_EQ(source->info().grid.max_level, 2);
   for_each_place(source->info().grid, 2, [&](const TileId& id) {
-    EXPECT_LE(test::worst_misplacement(source->info().grid, id, test::load_tile(*source, id)), kRounding);
+    EXPECT_LE(test::worst_misplacement(source->info().grid, id, test::load_tile(*source, id)), kPackagedRounding);
     return true;
   });
 }
@@ -180,7 +180,7 @@ TEST(GeoPackage, OursKeepsWhatGeoPackageCannotSay) {
   TileSetInfo info;
   info.name = "Mars";
   info.body = "mars";
-  info.grid = {.root_span_deg = 288.0, .tile_px = kTilePx, .max_level = 1, .latitude = LatitudeKind::centric};
+  info.grid = {.root_span_deg = 288.0, .tile_px = kPackagedPx, .max_level = 1, .latitude = LatitudeKind::centric};
   info.format = ImageFormat::png;
   run_sql(path,
           "CREATE TABLE terrella_tileset (key TEXT PRIMARY KEY, value TEXT); INSERT INTO terrella_tileset VALUES "
@@ -190,11 +190,11 @@ TEST(GeoPackage, OursKeepsWhatGeoPackageCannotSay) {
   ASSERT_TRUE(source);
   EXPECT_EQ(source->info().name, "Mars");
   EXPECT_EQ(source->info().grid, info.grid);
-  EXPECT_LE(test::worst_misplacement(info.grid, {1, 2, 1}, test::load_tile(*source, {1, 2, 1})), kRounding);
+  EXPECT_LE(test::worst_misplacement(info.grid, {1, 2, 1}, test::load_tile(*source, {1, 2, 1})), kPackagedRounding);
   run_sql(path, "UPDATE terrella_tileset SET value = replace(value, '288.0', '180.0')");
-  expect_refused(path, "level 0 has tiles of 180°");
+  expect_package_refused(path, "level 0 has tiles of 180°");
   run_sql(path, "UPDATE terrella_tileset SET value = x'07'");
-  expect_refused(path, "terrella_tileset: no text");
+  expect_package_refused(path, "terrella_tileset: no text");
 }
 
 TEST(GeoPackage, LevelsWithoutTilesAtTheTopAreLeftOut) {
@@ -203,7 +203,7 @@ TEST(GeoPackage, LevelsWithoutTilesAtTheTopAreLeftOut) {
   run_sql(folder / "fine.gpkg", "DELETE FROM tiles WHERE zoom_level = 0");
   EXPECT_EQ(open(folder / "fine.gpkg")->info().grid.min_level, 1);
   run_sql(folder / "fine.gpkg", "DELETE FROM tiles");
-  expect_refused(folder / "fine.gpkg", "holds no tiles");
+  expect_package_refused(folder / "fine.gpkg", "holds no tiles");
 }
 
 TEST(GeoPackage, TooManyRootTilesAskForOverviews) {
@@ -211,22 +211,22 @@ TEST(GeoPackage, TooManyRootTilesAskForOverviews) {
   write_geopackage(folder / "flat.gpkg", {.zooms = {}});
   run_sql(folder / "flat.gpkg",
           "INSERT INTO gpkg_tile_matrix VALUES ('tiles', 6, 64, 32, 32, 32, 0.17578125, 0.17578125)");
-  insert_tile(folder / "flat.gpkg", 6, 0, 0, *encode_png(test::gradient(kTilePx, kTilePx)));
-  expect_refused(folder / "flat.gpkg", "gdaladdo");
+  insert_tile(folder / "flat.gpkg", 6, 0, 0, *encode_png(test::gradient(kPackagedPx, kPackagedPx)));
+  expect_package_refused(folder / "flat.gpkg", "gdaladdo");
 }
 
 TEST(GeoPackage, SetsThatNoGridDescribesAreRefusedWithTheReason) {
   const ScratchFolder folder;
   write_geopackage(folder / "thirds.gpkg", {.zooms = {{0, 180, 2, 1}, {1, 60, 6, 3}}});
-  expect_refused(folder / "thirds.gpkg", "do not halve");
+  expect_package_refused(folder / "thirds.gpkg", "do not halve");
   write_geopackage(folder / "between.gpkg",
                    {.west = -170, .south = -80, .east = 170, .north = 80, .zooms = {{0, 170, 2, 1}}});
-  expect_refused(folder / "between.gpkg", "no whole number of tiles");
+  expect_package_refused(folder / "between.gpkg", "no whole number of tiles");
   write_geopackage(folder / "shifted.gpkg",
                    {.west = -100, .south = -45, .east = 80, .north = 45, .zooms = {{0, 45, 4, 2}}});
-  expect_refused(folder / "shifted.gpkg", "no whole number of tiles");
+  expect_package_refused(folder / "shifted.gpkg", "no whole number of tiles");
   write_geopackage(folder / "mercator.gpkg", {.srs = 3857});
-  expect_refused(folder / "mercator.gpkg", "EPSG:3857");
+  expect_package_refused(folder / "mercator.gpkg", "EPSG:3857");
 }
 
 /// SQL that makes a good GeoPackage bad, and a word of the message.
@@ -290,23 +290,23 @@ TEST(GeoPackage, HostileOnesAreRefused) {
     const fs::path path = folder / "bad.gpkg";
     fs::copy_file(folder / "good.gpkg", path, fs::copy_options::overwrite_existing);
     run_sql(path, damage.sql);
-    expect_refused(path, damage.says);
+    expect_package_refused(path, damage.says);
   }
 }
 
 TEST(GeoPackage, WhatIsNoGeoPackageIsNamed) {
   const ScratchFolder folder;
   run_sql(folder / "other.db", "CREATE TABLE recipes (name)");
-  expect_refused(folder / "other.db", "not a GeoPackage");
+  expect_package_refused(folder / "other.db", "not a GeoPackage");
   run_sql(folder / "a.mbtiles",
           "CREATE TABLE tiles (zoom_level, tile_column, tile_row, tile_data);"
           "CREATE TABLE metadata (name, value)");
-  expect_refused(folder / "a.mbtiles", "MBTiles");
+  expect_package_refused(folder / "a.mbtiles", "MBTiles");
   write_geopackage(folder / "whole.gpkg", {});
   fs::resize_file(folder / "whole.gpkg", 5000);
-  expect_refused(folder / "whole.gpkg", "whole.gpkg");
+  expect_package_refused(folder / "whole.gpkg", "whole.gpkg");
   test::write_text(folder / "magic.gpkg", std::string_view("SQLite format 3\0", 16));
-  expect_refused(folder / "magic.gpkg", "GeoPackage");
+  expect_package_refused(folder / "magic.gpkg", "GeoPackage");
 }
 
 TEST(GeoPackage, AbsenceIsTyped) {
@@ -341,7 +341,7 @@ TEST(GeoPackage, AViewWithoutEndIsGivenUp) {
       "DROP TABLE gpkg_tile_matrix_set; CREATE VIEW gpkg_tile_matrix_set AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL "
       "SELECT i + 1 FROM n) SELECT 'none' AS table_name, i AS srs_id, 0 AS min_x, 0 AS min_y, 1 AS max_x, 1 AS max_y "
       "FROM n");
-  expect_refused(path, "takes too long");
+  expect_package_refused(path, "takes too long");
 }
 
 TEST(GeoPackage, ATileTableWithoutEndIsGivenUpOnce) {

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 using test::run_sql;
 using test::ScratchFolder;
 
-constexpr int kTilePx = 32;
-constexpr double kRounding = 0.51;  // of colours to 8 bits
+constexpr int kMbtilePx = 32;
+constexpr double kMbtileRounding = 0.51;  // of colours to 8 bits
 
 std::string metadata(const std::string& name, const std::string& value) {
   return "INSERT INTO metadata VALUES ('" + name + "', '" + value + "');";
@@ -42,20 +42,20 @@ void expect_places(const fs::path& path, double root_span_deg, int min_level) {
   EXPECT_EQ(grid.root_span_deg, root_span_deg);
   EXPECT_EQ(grid.min_level, min_level);
   EXPECT_EQ(grid.max_level, 2);
-  EXPECT_EQ(grid.tile_px, kTilePx);
+  EXPECT_EQ(grid.tile_px, kMbtilePx);
   EXPECT_EQ((*source)->info().format, ImageFormat::png);
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
     EXPECT_EQ((*source)->count_tiles(level), count_places(grid, level));
     for_each_place(grid, level, [&](const TileId& id) {
       const Image tile = test::load_tile(**source, id);
-      EXPECT_EQ(tile.width_px, kTilePx);
-      EXPECT_LE(test::worst_misplacement(grid, id, tile), kRounding);
+      EXPECT_EQ(tile.width_px, kMbtilePx);
+      EXPECT_LE(test::worst_misplacement(grid, id, tile), kMbtileRounding);
       return true;
     });
   }
 }
 
-void expect_refused(const fs::path& path, const std::string& why) {
+void expect_mbtiles_refused(const fs::path& path, const std::string& why) {
   const auto source = open_tile_set(path);
   ASSERT_FALSE(source);
   EXPECT_TRUE(source.error().message.starts_with(path.string())) << source.error().message;
@@ -64,22 +64,22 @@ void expect_refused(const fs::path& path, const std::string& why) {
 
 TEST(Mbtiles, TilesAreWhereTheyShouldBeWithTwoRootsOrOne) {
   const ScratchFolder folder;
-  const TileGrid two{.root_span_deg = 180.0, .tile_px = kTilePx, .max_level = 2};
+  const TileGrid two{.root_span_deg = 180.0, .tile_px = kMbtilePx, .max_level = 2};
   write_mbtiles(folder / "two.mbtiles", two, metadata("profile", "geodetic"));
   expect_places(folder / "two.mbtiles", 180.0, 0);
-  const TileGrid one{.root_span_deg = 360.0, .tile_px = kTilePx, .min_level = 1, .max_level = 2};
+  const TileGrid one{.root_span_deg = 360.0, .tile_px = kMbtilePx, .min_level = 1, .max_level = 2};
   write_mbtiles(folder / "one.mbtiles", one, metadata("crs", "EPSG:4326"));
   expect_places(folder / "one.mbtiles", 360.0, 1);
 }
 
 TEST(Mbtiles, MustSayThatItIsGeodetic) {
   const ScratchFolder folder;
-  const TileGrid grid{.root_span_deg = 180.0, .tile_px = kTilePx, .max_level = 1};
+  const TileGrid grid{.root_span_deg = 180.0, .tile_px = kMbtilePx, .max_level = 1};
   write_mbtiles(folder / "silent.mbtiles", grid, "");
-  expect_refused(folder / "silent.mbtiles", "'profile', 'geodetic'");
+  expect_mbtiles_refused(folder / "silent.mbtiles", "'profile', 'geodetic'");
   EXPECT_TRUE(open_tile_set(folder / "silent.mbtiles", true));
   write_mbtiles(folder / "web.mbtiles", grid, metadata("srs", "EPSG:3857"));
-  expect_refused(folder / "web.mbtiles", "Web Mercator");
+  expect_mbtiles_refused(folder / "web.mbtiles", "Web Mercator");
   write_mbtiles(folder / "srs.mbtiles", grid, metadata("srs", "CRS:84"));
   EXPECT_TRUE(open_tile_set(folder / "srs.mbtiles"));
 }
@@ -87,7 +87,7 @@ TEST(Mbtiles, MustSayThatItIsGeodetic) {
 TEST(Mbtiles, BoundsOfItsMetadataNarrowIt) {
   const ScratchFolder folder;
   const TileGrid west{.root_span_deg = 180.0,
-                      .tile_px = kTilePx,
+                      .tile_px = kMbtilePx,
                       .max_level = 2,
                       .bounds = {.east = Angle::degrees(0.0), .north = Angle::degrees(0.0)}};
   write_mbtiles(folder / "part.mbtiles", west, metadata("profile", "geodetic") + metadata("bounds", "-180,-90,0,0"));
@@ -104,23 +104,23 @@ TEST(Mbtiles, HostileFilesAreRefused) {
   const ScratchFolder folder;
   const std::string geodetic = kTables + metadata("profile", "geodetic");
   run_sql(folder / "empty.mbtiles", geodetic);
-  expect_refused(folder / "empty.mbtiles", "no tiles");
+  expect_mbtiles_refused(folder / "empty.mbtiles", "no tiles");
   run_sql(folder / "vector.mbtiles", geodetic + "INSERT INTO tiles VALUES (0, 0, 0, x'1F8B0800');");
-  expect_refused(folder / "vector.mbtiles", "neither JPEG nor PNG");
+  expect_mbtiles_refused(folder / "vector.mbtiles", "neither JPEG nor PNG");
   run_sql(folder / "cut.mbtiles", geodetic + "INSERT INTO tiles VALUES (0, 0, 0, x'FFD8FFE0');");
-  expect_refused(folder / "cut.mbtiles", "its first tile");
+  expect_mbtiles_refused(folder / "cut.mbtiles", "its first tile");
   run_sql(folder / "deep.mbtiles", geodetic);
   test::insert_tile(folder / "deep.mbtiles", 60, 0, 0, *encode_png(test::gradient(32, 32)));
-  expect_refused(folder / "deep.mbtiles", "zoom levels are 60 to 60");
+  expect_mbtiles_refused(folder / "deep.mbtiles", "zoom levels are 60 to 60");
   run_sql(folder / "wide.mbtiles", geodetic);
   test::insert_tile(folder / "wide.mbtiles", 0, 0, 0, *encode_png(test::gradient(32, 16)));
-  expect_refused(folder / "wide.mbtiles", "not square");
+  expect_mbtiles_refused(folder / "wide.mbtiles", "not square");
   run_sql(folder / "endless.mbtiles",
           "CREATE TABLE metadata (name, value);" + metadata("profile", "geodetic") +
               "CREATE VIEW tiles AS WITH RECURSIVE n(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM n) "
               "SELECT i AS zoom_level, 0 AS tile_column, 0 AS tile_row, CASE WHEN i < 0 THEN x'FF' END AS tile_data "
               "FROM n;");
-  expect_refused(folder / "endless.mbtiles", "takes too long");
+  expect_mbtiles_refused(folder / "endless.mbtiles", "takes too long");
 }
 
 }  // namespace

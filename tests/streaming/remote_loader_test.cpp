@@ -12,14 +12,14 @@
 namespace terrella {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(30);  // a loaded machine under a sanitizer
-constexpr int kTilePx = 16;
+constexpr auto kRemotePatience = std::chrono::seconds(30);  // a loaded machine under a sanitizer
+constexpr int kRemotePx = 16;
 
 /// Has nothing at hand; the test plays the network.
 class FarSource : public TileSource, public RemoteTiles {
  public:
-  FarSource() : tile_(*encode_png(test::gradient(kTilePx, kTilePx))) {
-    info_.grid.tile_px = kTilePx;
+  FarSource() : tile_(*encode_png(test::gradient(kRemotePx, kRemotePx))) {
+    info_.grid.tile_px = kRemotePx;
     info_.grid.max_level = 10;
   }
 
@@ -45,7 +45,7 @@ class FarSource : public TileSource, public RemoteTiles {
 
   [[nodiscard]] bool wait_until_asked(std::size_t tiles) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, kPatience, [&] { return asked_.size() >= tiles; });
+    return changed_.wait_for(lock, kRemotePatience, [&] { return asked_.size() >= tiles; });
   }
   [[nodiscard]] std::map<std::int64_t, double> asked() {
     const std::lock_guard lock(mutex_);
@@ -88,7 +88,7 @@ std::vector<TileRequest> wishes(int first, int last) {
 
 std::size_t poll_all(TileLoader& loader) {
   std::size_t tiles = 0;
-  while (loader.wait(std::chrono::steady_clock::now() + kPatience)) {
+  while (loader.wait(std::chrono::steady_clock::now() + kRemotePatience)) {
     for (const LoadedTile& tile : loader.poll(1)) tiles += tile.pixels ? 1 : 0;
   }
   return tiles;

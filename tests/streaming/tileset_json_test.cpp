@@ -48,7 +48,7 @@ constexpr const char* kGolden = R"({
 }
 )";
 
-std::string error_of(const std::string& text) {
+std::string json_error_of(const std::string& text) {
   const auto read = parse_tileset_json(text, "set/tileset.json");
   EXPECT_FALSE(read) << text;
   return read ? "" : read.error().message;
@@ -63,8 +63,8 @@ std::string with(const std::string& field, const std::string& value) {
   return text.replace(begin, text.find_first_of(",}", begin) - begin, value);
 }
 
-void expect_refused(const std::string& field, const std::string& value) {
-  const std::string message = error_of(with(field, value));
+void expect_json_refused(const std::string& field, const std::string& value) {
+  const std::string message = json_error_of(with(field, value));
   EXPECT_NE(message.find("set/tileset.json"), std::string::npos) << message;
   EXPECT_NE(message.find(field), std::string::npos) << message;
 }
@@ -95,31 +95,31 @@ TEST(TileSetJson, UnknownFieldsArePassedOver) { EXPECT_TRUE(parse_tileset_json(w
 
 TEST(TileSetJson, EachFieldIsChecked) {
   for (const char* value : {"0", "-180", "1e-9", "20000", "\"wide\"", "null", "[180]"})
-    expect_refused("root_span_deg", value);
+    expect_json_refused("root_span_deg", value);
   for (const char* value : {"0", "15", "4097", "-256", "256.5", "1e18", "\"256\"", "null"})
-    expect_refused("tile_px", value);
+    expect_json_refused("tile_px", value);
   for (const char* value : {"-1", "25", "1e9", "18446744073709551615", "2.5", "null"})
-    expect_refused("max_level", value);
-  for (const char* value : {"-1", "4", "true"}) expect_refused("min_level", value);
-  for (const char* value : {"\"mercator\"", "1", "[]"}) expect_refused("projection", value);
-  for (const char* value : {"\"geodetic\"", "false"}) expect_refused("latitude", value);
-  for (const char* value : {"\"webp\"", "null"}) expect_refused("format", value);
-  for (const char* value : {"7", "{}"}) expect_refused("name", value);
-  for (const char* value : {"\"vulcan\"", "7", "\"-5,0\""}) expect_refused("body", value);
-  for (const char* value : {"0", "2", "\"1\""}) expect_refused("version", value);
+    expect_json_refused("max_level", value);
+  for (const char* value : {"-1", "4", "true"}) expect_json_refused("min_level", value);
+  for (const char* value : {"\"mercator\"", "1", "[]"}) expect_json_refused("projection", value);
+  for (const char* value : {"\"geodetic\"", "false"}) expect_json_refused("latitude", value);
+  for (const char* value : {"\"webp\"", "null"}) expect_json_refused("format", value);
+  for (const char* value : {"7", "{}"}) expect_json_refused("name", value);
+  for (const char* value : {"\"vulcan\"", "7", "\"-5,0\""}) expect_json_refused("body", value);
+  for (const char* value : {"0", "2", "\"1\""}) expect_json_refused("version", value);
   for (const char* value : {"[0, 0, 1]", "[0, 0, 1, \"x\"]", "[-181, 0, 1, 1]", "[0, 5, 1, 5]", "[0, 5, 1, 4]",
                             "[0, 0, 0, 1]", "[0, -91, 1, 1]", "\"all\""}) {
-    expect_refused("bounds", value);
+    expect_json_refused("bounds", value);
   }
 }
 
-TEST(TileSetJson, TextsHaveALimit) { expect_refused("name", '"' + std::string(20000, 'x') + '"'); }
+TEST(TileSetJson, TextsHaveALimit) { expect_json_refused("name", '"' + std::string(20000, 'x') + '"'); }
 
 TEST(TileSetJson, SaysWhereTheTextIsNotJson) {
-  EXPECT_NE(error_of("").find("not JSON"), std::string::npos);
-  EXPECT_NE(error_of("{\"name\": \"\xff\"}").find("not JSON"), std::string::npos);
-  EXPECT_NE(error_of("[]").find("object"), std::string::npos);
-  EXPECT_NE(error_of("{\"root_span_deg\": 1e999}").find("set/tileset.json"), std::string::npos);
+  EXPECT_NE(json_error_of("").find("not JSON"), std::string::npos);
+  EXPECT_NE(json_error_of("{\"name\": \"\xff\"}").find("not JSON"), std::string::npos);
+  EXPECT_NE(json_error_of("[]").find("object"), std::string::npos);
+  EXPECT_NE(json_error_of("{\"root_span_deg\": 1e999}").find("set/tileset.json"), std::string::npos);
 }
 
 TEST(TileSetJson, BytesThatAreNotUtf8AreReplacedOnWriting) {

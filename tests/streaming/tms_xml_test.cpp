@@ -27,7 +27,7 @@ TmsDescription read(const TmsText& tms) {
   return description ? *std::move(description) : TmsDescription{};
 }
 
-void expect_refused(const TmsText& tms, const std::string& says) {
+void expect_tms_refused(const TmsText& tms, const std::string& says) {
   const auto description = parse_tms_xml(tms.text(), "here");
   ASSERT_FALSE(description) << tms.text();
   EXPECT_EQ(description.error().message.rfind("here: ", 0), 0U) << description.error().message;
@@ -68,23 +68,23 @@ TEST(TmsXml, OtherSpansThatDivideAHalfTurnAreTaken) {
 }
 
 TEST(TmsXml, RefusesWithTheReason) {
-  expect_refused({.srs = "EPSG:3857"}, "Web Mercator");
-  expect_refused({.profile = "mercator"}, "Web Mercator");
-  expect_refused({.srs = "EPSG:31467"}, "EPSG:31467");
-  expect_refused({.format = R"(<TileFormat width="256" height="128" extension="png"/>)"}, "TileFormat");
-  expect_refused({.format = R"(<TileFormat width="1e9" height="1e9" extension="png"/>)"}, "TileFormat");
-  expect_refused({.format = R"(<TileFormat width="256" height="256" extension="webp"/>)"}, "webp");
-  expect_refused({.levels = ""}, "no <TileSet>");
-  expect_refused({.levels = R"(<TileSet href="0" units-per-pixel="0"/>)"}, "units-per-pixel");
-  expect_refused({.levels = R"(<TileSet href="0" units-per-pixel="nan"/>)"}, "units-per-pixel");
-  expect_refused({.levels = R"(<TileSet href="0" units-per-pixel="0.7x"/>)"}, "units-per-pixel");
-  expect_refused({.levels = R"(<TileSet href=".." units-per-pixel="0.703125"/>)"}, "folder");
-  expect_refused({.levels = R"(<TileSet href="0" units-per-pixel="0.7"/>)"}, "divide 180°");
-  expect_refused({.levels = R"(<TileSet href="0" units-per-pixel="0.9"/><TileSet href="1" units-per-pixel="0.3"/>)"},
-                 "halve");
+  expect_tms_refused({.srs = "EPSG:3857"}, "Web Mercator");
+  expect_tms_refused({.profile = "mercator"}, "Web Mercator");
+  expect_tms_refused({.srs = "EPSG:31467"}, "EPSG:31467");
+  expect_tms_refused({.format = R"(<TileFormat width="256" height="128" extension="png"/>)"}, "TileFormat");
+  expect_tms_refused({.format = R"(<TileFormat width="1e9" height="1e9" extension="png"/>)"}, "TileFormat");
+  expect_tms_refused({.format = R"(<TileFormat width="256" height="256" extension="webp"/>)"}, "webp");
+  expect_tms_refused({.levels = ""}, "no <TileSet>");
+  expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="0"/>)"}, "units-per-pixel");
+  expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="nan"/>)"}, "units-per-pixel");
+  expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="0.7x"/>)"}, "units-per-pixel");
+  expect_tms_refused({.levels = R"(<TileSet href=".." units-per-pixel="0.703125"/>)"}, "folder");
+  expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="0.7"/>)"}, "divide 180°");
+  expect_tms_refused(
+      {.levels = R"(<TileSet href="0" units-per-pixel="0.9"/><TileSet href="1" units-per-pixel="0.3"/>)"}, "halve");
   std::string many;
   for (int i = 0; i < 100; ++i) many += R"(<TileSet href="0" units-per-pixel="0.7"/>)";
-  expect_refused({.levels = many}, "more than 64");
+  expect_tms_refused({.levels = many}, "more than 64");
 }
 
 TEST(TmsXml, WhatIsNoTileMapIsRefused) {
