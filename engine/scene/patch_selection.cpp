@@ -85,7 +85,8 @@ class Selector {
     const double sine = std::min(1.0, std::abs(east) / flat), cosine = std::sqrt(1.0 - sine * sine);
     const double across = distance * radians_per_pixel_, along = across / std::clamp(std::abs(up), 0.05, 1.0);
     return {nearest_m * radians_per_pixel_ / std::sqrt(std::clamp(std::abs(up), 0.05, 1.0)),
-            std::hypot(along * sine, across * cosine), std::hypot(along * cosine, across * sine)};
+            std::sqrt(along * along * (sine * sine) + across * across * (cosine * cosine)),
+            std::sqrt(along * along * (cosine * cosine) + across * across * (sine * sine))};
   }
 
   [[nodiscard]] SelectedPatch assess(PatchNode& node) const {

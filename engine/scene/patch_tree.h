@@ -29,6 +29,7 @@ inline constexpr int kLatticeQuads = 4;
 /// What a cell of a window shares with its patch.
 struct CellExtent {
   BoundingSphere whole;
+  glm::dvec3 up{0.0};      ///< geodetic normal in its middle
   SurfaceLattice lattice;  ///< empty until it is asked for
 };
 

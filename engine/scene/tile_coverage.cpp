@@ -16,7 +16,7 @@ constexpr double kLevelRounding = 0.02;
 // A cell larger than this part of its distance has pixels of too different size to be judged by its middle.
 constexpr double kLargeCell = 0.25;
 
-// Entries looked up in this frame. Cells side by side climb through the same ancestors, so a few remembered entries a
+// Entries looked up in this frame. Cells side by side climb through the same ancestors, so some remembered entries a
 // level save most walks through the hash table. Nothing is erased while a frame's cells are found.
 class EntryMemo {
  public:
@@ -45,12 +45,12 @@ class EntryMemo {
     bool judged = false;
   };
   [[nodiscard]] Line& line_of(const TileId& id) {
-    const std::int64_t place = (id.x & 3) | (id.y & 1) << 2;
+    const std::int64_t place = (id.x & 7) | (id.y & 3) << 3;
     return lines_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(place)];
   }
 
   TileResidency& residency_;
-  std::array<std::array<Line, 8>, kMaxTileLevel + 1> lines_;
+  std::array<std::array<Line, 32>, kMaxTileLevel + 1> lines_;
 };
 
 class Coverer {
@@ -58,11 +58,11 @@ class Coverer {
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
       : tree_(tree), view_(view), memo_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
-    axes_m_ = glm::dvec3(e.a_m(), e.a_m(), e.b_m());
+    const glm::dvec3 axes_m(e.a_m(), e.a_m(), e.b_m());
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     texel0_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
-    const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m_;
-    eye_over_axes2_ = eye_scaled / axes_m_;
+    const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m;
+    eye_over_axes2_ = eye_scaled / axes_m;
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
     if (glm::dot(eye_scaled, eye_scaled) <= 1.0) limits_ &= ~kHorizon;
   }
@@ -93,7 +93,7 @@ class Coverer {
       for (int x = 0; x < win.w; ++x) {
         Choice& choice = choices_.emplace_back();
         if (!in_view(patch, x, y)) continue;
-        const double texels = texels_wanted(win.cells[index(win, x, y)].whole);
+        const double texels = texels_wanted(win.cells[index(win, x, y)]);
         for (double most = spare_texels; texels <= most && choice.spare < win.level - tree_.grid().min_level;
              most *= 0.5)
           ++choice.spare;
@@ -135,11 +135,11 @@ class Coverer {
   // How many texels of level 0 a pixel in the middle of a cell asks for, both along the meridian and along the
   // parallel. A patch has the level of its nearest part; a cell that asks for less takes a coarser one. Towards the
   // poles, where tiles are thin and many, the texels may be somewhat larger than a pixel.
-  [[nodiscard]] double texels_wanted(const BoundingSphere& cell) const {
-    const glm::dvec3 to_eye = view_.eye.xyz_m - cell.center_m;
-    const glm::dvec3 normal = glm::normalize(cell.center_m / (axes_m_ * axes_m_));
+  [[nodiscard]] double texels_wanted(const CellExtent& cell) const {
+    const glm::dvec3 to_eye = view_.eye.xyz_m - cell.whole.center_m;
+    const glm::dvec3& normal = cell.up;
     const double distance_m = std::max(glm::length(to_eye), 1e-9);
-    if (cell.radius_m > kLargeCell * distance_m) return std::numeric_limits<double>::infinity();
+    if (cell.whole.radius_m > kLargeCell * distance_m) return std::numeric_limits<double>::infinity();
     const double up = std::clamp(glm::dot(to_eye, normal) / distance_m, 0.05, 1.0);
     const double cos_lat2 = std::max(normal.x * normal.x + normal.y * normal.y, 1e-18);
     const double east = (normal.x * to_eye.y - normal.y * to_eye.x) / distance_m;
@@ -283,7 +283,6 @@ class Coverer {
   std::uint64_t frame_;
   TileCoverage& out_;
   ViewPlanes planes_;
-  glm::dvec3 axes_m_{1.0};
   glm::dvec3 eye_over_axes2_{0.0};
   double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
   unsigned limits_ = kAllLimits;
