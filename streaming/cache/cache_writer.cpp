@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <thread>
 #include <utility>
 
 #include "streaming/cache/open_cache.h"
@@ -15,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kPatience{60'000};
+/// A log that cannot be written back for so long has a reader that sleeps: then it grows.
+constexpr std::chrono::seconds kLogPatience{10};
 constexpr int kEvictedAtATime = 32;
 /// Moving a page to the front of the file is a write of it: a step is small against a batch.
 constexpr std::int64_t kPagesGivenBackAtATime = 128;
@@ -43,9 +46,8 @@ WriteResult<std::unique_ptr<CacheWriter>> CacheWriter::make(SqliteWriter databas
   if (!page_bytes) return page_bytes.error();
   writer->page_bytes_ = *page_bytes;
   writer->budget_ = cache_budget(max_bytes, *page_bytes);
-  if (auto limited = file.integer(fmt::format("PRAGMA journal_size_limit = {}", writer->budget_.log_bytes)); !limited) {
-    return limited.error();
-  }
+  // A log that begins anew is cut short, so that its size says how much stands in it.
+  if (auto limited = file.integer("PRAGMA journal_size_limit = 0"); !limited) return limited.error();
   WriteResult<CacheRows> rows = CacheRows::prepare(file, root_level);
   if (!rows) return rows.error();
   writer->rows_ = *std::move(rows);
@@ -122,19 +124,25 @@ WriteStatus CacheWriter::give_back_pages() {
 }
 
 /// A passive checkpoint waits for nobody. It leaves the log as long as it is while somebody reads from it; when that
-/// has gone on for too long, readers are waited for, and they are short.
+/// has gone on for too long, readers are waited for, and they are short. Nothing more is written while another process
+/// writes the log back, which on a slow disk would let it grow to many times its share.
 void CacheWriter::keep_log_short() {
   const std::uint64_t log = log_bytes(path_);
   if (log < budget_.log_bytes) return;
   checkpoint("PASSIVE", std::chrono::milliseconds(0));
-  if (log >= budget_.log_bytes + budget_.log_bytes / 2) checkpoint("RESTART", std::chrono::milliseconds(500));
+  if (log < budget_.log_bytes + budget_.log_bytes / 2) return;
+  const auto give_up = std::chrono::steady_clock::now() + kLogPatience;
+  while (!checkpoint("TRUNCATE", std::chrono::milliseconds(500)) && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
-void CacheWriter::checkpoint(const char* mode, std::chrono::milliseconds patience) {
+bool CacheWriter::checkpoint(const char* mode, std::chrono::milliseconds patience) {
   database_.wait_for_locks(patience);
   // It may fail (another process does it, the disk is full): then the next one does it, nothing is lost.
-  static_cast<void>(database_.run(fmt::format("PRAGMA wal_checkpoint({})", mode)));
+  const WriteResult<std::int64_t> busy = database_.integer(fmt::format("PRAGMA wal_checkpoint({})", mode));
   database_.wait_for_locks(kPatience);
+  return busy && *busy == 0;
 }
 
 void CacheWriter::tidy() {

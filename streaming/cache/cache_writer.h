@@ -35,7 +35,8 @@ class CacheWriter {
   [[nodiscard]] WriteStatus make_room(std::int64_t needed_pages);
   [[nodiscard]] WriteStatus give_back_pages();
   void keep_log_short();
-  void checkpoint(const char* mode, std::chrono::milliseconds patience);
+  /// False if it could not be done to its end.
+  bool checkpoint(const char* mode, std::chrono::milliseconds patience);
 
   SqliteWriter database_;
   const std::filesystem::path path_;
