@@ -8,11 +8,15 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
+import urllib.error
 import urllib.request
 
 SOURCE = pathlib.Path(os.environ["TERRELLA_SOURCE"])
 HTTP = SOURCE / "tests/http"
 TILES = sorted((SOURCE / "tests/fixtures/natural_earth_ii").glob("*/*/*.jpg"))
+
+DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
 
 def write_pyramid(folder, levels):
@@ -66,6 +70,26 @@ class Nginx:
     def counts(self):
         return collections.Counter(path for _, path in self.requests())
 
+    def cut(self):
+        """A connection that is younger than all before it and older than all after it."""
+        name = f"/cut/{time.monotonic_ns()}"
+        with contextlib.suppress(urllib.error.HTTPError):
+            DIRECT.open(self.template.split("/{z}")[0] + name).close()
+        while True:  # the log is written after the answer
+            for connection, path in self._connections():
+                if path == name:
+                    return connection
+            time.sleep(0.002)
+
+    def asked_since(self, cut):
+        """(z, x, y) of the tiles asked for on connections after a cut."""
+        return {tuple(map(int, path.removesuffix(".jpg").split("/")[1:])) for connection, path in self._connections()
+                if connection > cut and not path.startswith("/cut/")}
+
+    def _connections(self):
+        lines = self.access_log.read_text().splitlines() if self.access_log.exists() else []
+        return [(int(line.split()[0]), line.split()[3]) for line in lines if len(line.split()) == 4]
+
 
 @contextlib.contextmanager
 def misbehaving(root, faults, *options):
@@ -85,3 +109,24 @@ class Misbehaving:
     def log(self):
         with urllib.request.urlopen(self.address + "/log") as answer:
             return [json.loads(line) for line in answer]
+
+
+class SmallDisk:
+    """A small file system in memory, where the system lets us have one."""
+
+    def __init__(self, folder, size):
+        self.folder = folder
+        folder.mkdir()
+        self.mounted = self._mount(f"size={size}")
+
+    def resize(self, size):
+        if not self._mount(f"remount,size={size}"):
+            raise OSError(f"{self.folder} cannot be resized")
+
+    def unmount(self):
+        if self.mounted:
+            subprocess.run(["umount", "--lazy", self.folder], check=True)
+
+    def _mount(self, options):
+        return subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", self.folder], check=False,
+                              stderr=subprocess.DEVNULL).returncode == 0
