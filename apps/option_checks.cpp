@@ -36,6 +36,13 @@ CLI::Validator whole_number_in(long low, long high) {
   return {check, fmt::format("{}...{}", low, high)};
 }
 
+Result<std::optional<double>> parse_length_or_off(std::string_view text) {
+  if (text == "off") return std::optional<double>();
+  const std::optional<double> length = read_number(text);
+  if (!length || *length < 0.0) return Error{in_quotes(text) + " is neither a length in metres, 0 or more, nor off"};
+  return length;
+}
+
 Result<Viewport> parse_size(std::string_view text) {
   const std::size_t x = text.find('x');
   const auto width = read_number(text.substr(0, x));

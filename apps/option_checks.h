@@ -20,6 +20,9 @@ namespace terrella {
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
 [[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 
+/// Reads a length of at least 0 metres, or "off", which is none.
+[[nodiscard]] Result<std::optional<double>> parse_length_or_off(std::string_view text);
+
 /// The value, or a CLI::ValidationError that names the option.
 template <class T>
 [[nodiscard]] T parsed_or_throw(const char* option, Result<T> parsed) {

@@ -61,6 +61,48 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       ->default_str("reversed");
 }
 
+void add_translucency_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("--surface-alpha", options.surface.alpha, "How opaque the surface is: 0 not at all, 1 wholly")
+      ->check(number_in(0.0, 1.0))
+      ->capture_default_str();
+  add_choice<Blend>(command, "--blend", options.surface.blend,
+                    {{"normal", Blend::normal}, {"additive", Blend::additive}},
+                    "How a translucent surface goes over what lies under it")
+      ->default_str("normal");
+  command
+      .add_option_function<std::string>(
+          "--inner-sphere",
+          [&options](const std::string& text) {
+            options.surface.inner_sphere_below_m = parsed_or_throw("--inner-sphere", parse_length_or_off(text));
+          },
+          "How far under the equator the sphere lies that hides the far side of a translucent globe, metres (of Earth; "
+          "in proportion on other bodies)")
+      ->type_name("METRES_BELOW|off")
+      ->default_str("1000000");
+  add_choice<SurfaceFromBelow>(command, "--surface-from-below", options.surface.from_below,
+                               {{"opaque", SurfaceFromBelow::opaque},
+                                {"translucent", SurfaceFromBelow::translucent},
+                                {"selective", SurfaceFromBelow::selective}},
+                               "What an eye under the ground sees of the surface: selective lets through only objects "
+                               "with through_surface")
+      ->default_str("opaque");
+}
+
+void add_stereo_options(CLI::App& command, SceneOptions& options) {
+  add_choice<Stereo>(command, "--stereo", options.stereo.mode,
+                     {{"off", Stereo::off},
+                      {"side-by-side", Stereo::side_by_side},
+                      {"interlaced", Stereo::interlaced},
+                      {"anaglyph", Stereo::anaglyph}},
+                     "Two eyes: the left one's picture left, in the even rows, or in red")
+      ->default_str("off");
+  command
+      .add_option("--eye-separation", options.stereo.eye_separation_m,
+                  "How far apart the eyes are, metres (default: a thirtieth of the distance to what is in the middle)")
+      ->check(number_in(0.0, 1.0e9))
+      ->type_name("METRES");
+}
+
 void add_cache_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
@@ -93,6 +135,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_drawing_options(command, options);
+  add_translucency_options(command, options);
+  add_stereo_options(command, options);
   add_cache_options(command, options);
   add_remote_set_options(command, options.remote);
 }
@@ -121,6 +165,8 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.paper_band = options.band;
   globe.depth = options.depth;
   globe.unlit = options.unlit;
+  globe.surface = options.surface;
+  globe.stereo = options.stereo;
   globe.gpu_bytes = options.memory_mb << 20;
   return globe;
 }

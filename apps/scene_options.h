@@ -27,6 +27,8 @@ struct SceneOptions {
   double paper_a = 4.0;
   double band = 0.05;
   DepthMode depth = DepthMode::reversed;
+  SurfaceLook surface;
+  StereoLook stereo;
   std::string cache;                 ///< --cache as given; empty: the default place; "off": none
   std::size_t cache_size_mb = 4096;  ///< of the cache's file, 10^6 bytes each
   std::size_t memory_mb = 512;       ///< memory for tiles, 2^20 bytes each

@@ -42,6 +42,7 @@ struct Globe::Impl {
         tiles(grid, layout, kMips, o.gpu_bytes),
         loader(std::move(imagery), {.workers = o.workers, .gutter = kGutter_px, .mips = kMips}) {}
 
+  [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
   void select(Viewport viewport);
   void ask();
   std::size_t take_finished();
@@ -59,7 +60,8 @@ struct Globe::Impl {
   TileTextures tiles;
   TileLoader loader;
   std::unique_ptr<GlobeRenderer> renderer;
-  View view;
+  View view;  ///< what is selected for: the eye's, or both eyes'
+  std::optional<EyePair> eyes;
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;
   std::uint64_t frame = 0;
@@ -69,8 +71,19 @@ struct Globe::Impl {
   std::deque<std::pair<Clock::time_point, TileId>> failed;  ///< to be asked for again, the earliest first
 };
 
+// Of one eye, half of a side-by-side picture is all there is.
+Viewport Globe::Impl::eye_picture(Viewport viewport) const {
+  if (options.stereo.mode == Stereo::side_by_side) viewport.width_px = std::max(1, viewport.width_px / 2);
+  return viewport;
+}
+
 void Globe::Impl::select(Viewport viewport) {
-  view = make_view(camera, options.body.ellipsoid, viewport);
+  view = make_view(camera, options.body.ellipsoid, eye_picture(viewport));
+  eyes.reset();
+  if (options.stereo.mode != Stereo::off) {
+    eyes = stereo_eyes(view, options.body.ellipsoid, options.stereo);
+    view = eyes->both;
+  }
   PatchSelectionOptions selection;
   selection.texels_per_pixel = detail;
   select_patches(tree, view, selection, patches);
@@ -136,13 +149,17 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   }
   stats.selection_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   ask();
-  const FrameInput input{.view = view,
+  const FrameInput input{.size = viewport,
+                         .view = view,
+                         .eyes = eyes,
+                         .stereo = options.stereo.mode,
                          .patches = &patches,
                          .coverage = &coverage,
+                         .surface = options.surface,
                          .lit = !options.unlit,
                          .sun = sun_over_the_shoulder(view),
                          .frame = frame};
-  const FrameCounts counts = renderer->draw(input, tiles, layout, framebuffer);
+  const FrameCounts counts = renderer->draw(input, tiles, framebuffer);
   stats.patches = static_cast<int>(patches.size());
   for (const SelectedPatch& patch : patches) stats.band_patches += patch.in_band ? 1 : 0;
   stats.draw_calls = counts.draw_calls;
@@ -182,6 +199,8 @@ void Globe::set_camera(const Camera& camera) {
 const Camera& Globe::camera() const { return impl_->camera; }
 const GlobeOptions& Globe::options() const { return impl_->options; }
 void Globe::set_unlit(bool unlit) { impl_->options.unlit = unlit; }
+void Globe::set_surface(const SurfaceLook& surface) { impl_->options.surface = surface; }
+void Globe::set_stereo(const StereoLook& stereo) { impl_->options.stereo = stereo; }
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
 

@@ -20,7 +20,9 @@ struct GlobeOptions {
   double paper_a = 4.0;      ///< formula (6)'s a, [2, 8]
   double paper_band = 0.05;  ///< formula (5)'s b, (0, 0.5]
   DepthMode depth = DepthMode::reversed;
-  bool unlit = false;                   ///< imagery alone: no light, no sky, black background
+  bool unlit = false;  ///< imagery alone: no light, no sky, black background
+  SurfaceLook surface;
+  StereoLook stereo;
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
@@ -62,6 +64,8 @@ class Globe {
   [[nodiscard]] const Camera& camera() const;
   [[nodiscard]] const GlobeOptions& options() const;
   void set_unlit(bool unlit);
+  void set_surface(const SurfaceLook& surface);
+  void set_stereo(const StereoLook& stereo);
 
   /// Draws one frame into `framebuffer` (a GL name, 0 the window) and uploads what has arrived, within the budget.
   /// Returns what the frame did. The GL state is changed.

@@ -1,13 +1,17 @@
 // Antialiases the limb: a pixel that the limb crosses takes the colours just inside and just outside it, by the part of the
 // pixel that each covers.
 layout(binding = 0) uniform sampler2D frame_srgb;
+layout(location = 0) uniform int rows_apart;   // 2: the rows between are another eye's
+layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
 in vec2 outward;
 in float outside_px;
 layout(location = 0) out vec4 color_srgb;
 
 vec4 at(float distance_px) {
-  vec2 p = gl_FragCoord.xy + outward * (distance_px - outside_px);
-  return texelFetch(frame_srgb, clamp(ivec2(p), ivec2(0), textureSize(frame_srgb, 0) - 1), 0);
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  ivec2 p = ivec2(gl_FragCoord.xy + outward * (distance_px - outside_px));
+  p.y = here.y + (p.y - here.y) / rows_apart * rows_apart;
+  return texelFetch(frame_srgb, clamp(p, part_px.xy, part_px.zw), 0);
 }
 
 void main() {

@@ -41,7 +41,8 @@ Error bad_camera(std::string_view text, const std::string& reason) {
 /// A picture position as multiples of right and up where forward is 1.
 glm::dvec2 slopes(const View& view, glm::dvec2 pixel_px) {
   const double per_px = 2.0 * view.tan_half_fov_y / view.viewport.height_px;
-  return {(pixel_px.x - 0.5 * view.viewport.width_px) * per_px, (0.5 * view.viewport.height_px - pixel_px.y) * per_px};
+  return {(pixel_px.x - 0.5 * view.viewport.width_px) * per_px + view.shear_x,
+          (0.5 * view.viewport.height_px - pixel_px.y) * per_px};
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewpo
 }
 
 glm::dmat3 view_from_ecef_rotation(const View& view) {
-  return glm::transpose(glm::dmat3(view.right, view.up, -view.forward));
+  return glm::transpose(glm::dmat3(view.right - view.shear_x * view.forward, view.up, -view.forward));
 }
 
 EcefDir pixel_ray(const View& view, glm::dvec2 pixel_px) {
@@ -106,8 +107,9 @@ std::optional<glm::dvec2> project(const View& view, const Ecef& p) {
   const double depth = glm::dot(offset, view.forward);
   if (!(depth > 0.0)) return std::nullopt;
   const double px_per_slope = 0.5 * view.viewport.height_px / view.tan_half_fov_y;
-  const glm::dvec2 pixel(0.5 * view.viewport.width_px + glm::dot(offset, view.right) / depth * px_per_slope,
-                         0.5 * view.viewport.height_px - glm::dot(offset, view.up) / depth * px_per_slope);
+  const glm::dvec2 pixel(
+      0.5 * view.viewport.width_px + (glm::dot(offset, view.right) / depth - view.shear_x) * px_per_slope,
+      0.5 * view.viewport.height_px - glm::dot(offset, view.up) / depth * px_per_slope);
   if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return std::nullopt;
   return pixel;
 }

@@ -37,13 +37,16 @@ struct View {
   glm::dvec3 right, up, forward;  ///< orthonormal, ECEF axes
   double tan_half_fov_y;
   Viewport viewport;
+  double shear_x = 0.0;       ///< off-axis: the slope, right of forward, that the picture's centre looks along
+  double eye_spread_m = 0.0;  ///< selection serves every eye that is no further from `eye` than this
   [[nodiscard]] double aspect() const { return double(viewport.width_px) / double(viewport.height_px); }
   /// Pixels that one radian covers at the picture's centre.
   [[nodiscard]] double pixels_per_radian() const { return 0.5 * viewport.height_px / tan_half_fov_y; }
 };
 [[nodiscard]] View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport);
 
-/// view_from_ecef without its translation (the eye is subtracted in double first).
+/// view_from_ecef without its translation (the eye is subtracted in double first); an off-axis view's shear is in it,
+/// so that it is no rotation there, and what projects needs to know nothing of it.
 [[nodiscard]] glm::dmat3 view_from_ecef_rotation(const View& view);
 /// Direction through a pixel position (centres at halves), unit, ECEF axes.
 [[nodiscard]] EcefDir pixel_ray(const View& view, glm::dvec2 pixel_px);

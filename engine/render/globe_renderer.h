@@ -2,81 +2,92 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geo/camera.h"
 #include "geo/result.h"
 #include "render/frame_block.h"
+#include "render/frame_targets.h"
 #include "render/gl_handle.h"
+#include "render/inner_sphere_pass.h"
+#include "render/interlace_pass.h"
 #include "render/limb_pass.h"
-#include "render/patch_buffers.h"
+#include "render/patch_pass.h"
 #include "render/tile_textures.h"
 #include "scene/patch_selection.h"
 #include "scene/render_modes.h"
+#include "scene/stereo.h"
 #include "scene/tile_coverage.h"
 
 namespace terrella {
 
-/// What fixes the programs; another choice is another renderer.
-struct RenderOptions {
-  Texturing texturing = Texturing::automatic;
-  DepthMode depth = DepthMode::reversed;
-  double paper_a = 4.0;
-  double paper_band = 0.05;
-};
-
 /// What one frame is drawn from.
 struct FrameInput {
-  View view;
+  Viewport size;
+  View view;                    ///< of the one eye
+  std::optional<EyePair> eyes;  ///< of two; then `view` is not used
+  Stereo stereo = Stereo::off;  ///< how the pictures of two eyes are put together
   const std::vector<SelectedPatch>* patches = nullptr;
   const TileCoverage* coverage = nullptr;  ///< draws belong to patches, one to one
+  SurfaceLook surface;
   bool lit = true;
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
   std::uint64_t frame = 0;
+  /// For tests: a translucent surface without what paper 2 does about it, to show what that prevents.
+  bool naive_translucency = false;
 };
 
-struct FrameCounts {
-  int draw_calls = 0;
-  long triangles = 0;
-};
-
-/// Draws patches. Owns programs, vertex places and the picture that the passes draw into before it goes to the target.
-/// thread: main (of the context)
+/// Draws frames: the list of passes, and the state each of them needs. thread: main (of the context)
 class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options, PatchTree& tree);
 
-  /// The passes of a frame, in order: clear, patches program by program, copy to `framebuffer`, limb.
-  FrameCounts draw(const FrameInput& input, TileTextures& tiles, const SlotLayout& layout, GLuint framebuffer);
+  /// Both eyes' pictures, or the one, into `framebuffer`. What the eyes share is uploaded once.
+  FrameCounts draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer);
 
  private:
-  /// Programs in the order they are drawn.
-  enum PatchProgram { magnified, plain, oblique, polar, paper, kPatchPrograms };
+  /// One eye's part of the picture.
+  struct EyePicture {
+    View view;
+    int left_px = 0;
+    bool red = true, green = true, blue = true;
+    bool interlaced = false;
+    GLuint row_bits = 0;  ///< interlaced: the stencil of its rows
+  };
+  /// What the passes of one picture have in common.
+  struct Pass {
+    const FrameInput& input;
+    const EyePicture& eye;
+    const TileTextures& tiles;
+    FrameCounts& counts;
+  };
 
-  GlobeRenderer(const RenderOptions& options, PatchTree& tree) : options_(options), tree_(tree), patches_(tree) {}
-  Status build_programs();
-  void set_up_vertex_array();
-  void set_up_samplers();
-  void resize(Viewport viewport);
-  void upload_frame(const FrameInput& input, const SlotLayout& layout, int mips);
-  void upload_draws(const FrameInput& input, FrameCounts& counts);
-  void bind_state(const FrameInput& input, TileTextures& tiles) const;
-  void draw_patches(FrameCounts& counts) const;
-  [[nodiscard]] PatchProgram program_for(const SelectedPatch& patch) const;
+  GlobeRenderer(const RenderOptions& options, PatchTree& tree) : options_(options), tree_(tree) {}
+  [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
+  void draw_picture(const Pass& pass);
+  void draw_from_above(const Pass& pass);
+  void draw_from_below(const Pass& pass);
+  void draw_inner_sphere(const Pass& pass) const;
+  void draw_surface(const Pass& pass, bool translucent) const;
+  void draw_limb(const Pass& pass, GLuint picture) const;
+  void begin_frame(const FrameInput& input, FrameCounts& counts) const;
+  void begin_picture(const Pass& pass) const;
+  void color_mask(const EyePicture& eye, bool on) const;
+  void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set) const;
+  void depth_test(GLenum test) const;
+  void upload_frame(const Pass& pass) const;
+  [[nodiscard]] double near_m(const Pass& pass) const;
+  [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
 
   RenderOptions options_;
   PatchTree& tree_;
-  PatchBuffers patches_;
+  std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<LimbPass> limb_;
-  gl::Program programs_[kPatchPrograms];
-  gl::VertexArray vertex_array_;
-  gl::Buffer frame_block_, draws_, commands_, cells_;
-  gl::Texture cells_texture_;
-  gl::Sampler bilinear_, precise_, mipmapped_;
-  gl::Texture color_, depth_;
-  gl::Framebuffer framebuffer_;
-  Viewport size_{0, 0};
-  int first_command_[kPatchPrograms + 1] = {};
+  std::unique_ptr<InnerSpherePass> inner_sphere_;
+  std::unique_ptr<InterlacePass> interlace_;
+  FrameTargets targets_;
+  gl::Buffer frame_block_;
 };
 
 }  // namespace terrella

@@ -32,15 +32,15 @@ Result<std::unique_ptr<LimbPass>> LimbPass::create() {
   return pass;
 }
 
-int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, GLuint picture) {
+int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture) {
   const std::vector<LimbVertex> strip = limb_ribbon(view, ellipsoid, kHalfWidth_px);
   if (strip.empty()) return 0;
   glNamedBufferData(vertices_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(LimbVertex)), strip.data(),
                     GL_STREAM_DRAW);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
   glUseProgram(program_.name());
-  glBindTextureUnit(0, picture);
+  glUniform1i(0, picture.rows_apart);
+  glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
+  glBindTextureUnit(0, picture.texture);
   glBindSampler(0, 0);
   glBindVertexArray(vertex_array_.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));

@@ -8,14 +8,21 @@
 
 namespace terrella {
 
+/// The frame without the limb's antialiasing, and which part of it is the view's.
+struct LimbPicture {
+  GLuint texture = 0;
+  int left_px = 0;     ///< of the view's part, which is as large as the view and begins at the texture's lowest row
+  int rows_apart = 1;  ///< 2: only every other row is of this view
+};
+
 /// Antialiases the globe's limb in a finished picture; shaders/limb.frag. thread: main
 class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
 
-  /// Blends the limb of `picture` (the frame without it, at pixel (0, 0)) into the framebuffer that is bound.
-  /// Returns the draw calls made: 0 where no limb is in view, else 1.
-  int draw(const View& view, const Ellipsoid& ellipsoid, GLuint picture);
+  /// Blends the limb into the framebuffer that is bound, without a depth test. Returns the draw calls made: 0 where no
+  /// limb is in view, else 1.
+  int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture);
 
  private:
   LimbPass() = default;

@@ -60,6 +60,18 @@ Result<GLuint> compile(const ShaderStage& stage, std::initializer_list<std::stri
 
 }  // namespace
 
+std::string_view depth_define(DepthMode mode) {
+  switch (mode) {
+    case DepthMode::logarithmic:
+      return "DEPTH_LOGARITHMIC";
+    case DepthMode::standard:
+      return "DEPTH_STANDARD";
+    case DepthMode::reversed:
+      break;
+  }
+  return "DEPTH_REVERSED";
+}
+
 Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                                   std::initializer_list<std::string_view> defines) {
   gl::Program program(glCreateProgram());

@@ -6,6 +6,7 @@
 
 #include "geo/result.h"
 #include "render/gl_handle.h"
+#include "scene/render_modes.h"
 
 namespace terrella {
 
@@ -20,5 +21,8 @@ struct ShaderStage {
 /// The error names the file and carries the compiler's words. thread: main
 [[nodiscard]] Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                                                 std::initializer_list<std::string_view> defines);
+
+/// The name by which shaders know how depth is stored. thread: any
+[[nodiscard]] std::string_view depth_define(DepthMode mode);
 
 }  // namespace terrella

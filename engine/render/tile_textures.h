@@ -34,6 +34,7 @@ class TileTextures {
 
   [[nodiscard]] TileResidency& residency() { return residency_; }
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
+  [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   [[nodiscard]] int mips() const { return mips_; }
   [[nodiscard]] int capacity() const { return most_slots_; }  ///< tiles that the budget has room for
   [[nodiscard]] std::size_t slot_bytes() const;

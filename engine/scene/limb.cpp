@@ -48,7 +48,8 @@ class LimbCurve {
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p) const {
     const double depth = glm::dot(p, view_.forward);
     if (depth <= 1e-9 * glm::length(p)) return std::nullopt;
-    return glm::dvec2(glm::dot(p, view_.right), glm::dot(p, view_.up)) * (view_.pixels_per_radian() / depth);
+    return glm::dvec2(glm::dot(p, view_.right) - view_.shear_x * depth, glm::dot(p, view_.up)) *
+           (view_.pixels_per_radian() / depth);
   }
 
  private:
@@ -106,7 +107,8 @@ class RibbonWriter {
     const glm::dvec2 along = glm::normalize(b - a);
     // Seen from outside the curve runs one way round the disc; which, shows the side of the nadir's direction.
     glm::dvec2 out(along.y, -along.x);
-    const glm::dvec3 ray = view_.forward * view_.pixels_per_radian() + view_.right * a.x + view_.up * a.y;
+    const glm::dvec3 ray =
+        (view_.forward + view_.shear_x * view_.right) * view_.pixels_per_radian() + view_.right * a.x + view_.up * a.y;
     const glm::dvec3 tilt = view_.right * out.x + view_.up * out.y;
     if (glm::dot(tilt - ray * (glm::dot(tilt, ray) / glm::dot(ray, ray)), down_) > 0.0) out = -out;
     const auto half_width = static_cast<float>(half_width_px_);

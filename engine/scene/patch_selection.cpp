@@ -18,8 +18,7 @@ class Selector {
            std::vector<SelectedPatch>& out)
       : tree_(tree), view_(view), options_(options), stamp_(stamp), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
-    eye_scaled_ = view.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
-    eye_scaled_length_ = glm::length(eye_scaled_);
+    find_horizon(e);
     // No surface point is nearer than the height; 1 % off for the mesh, which sags.
     least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
@@ -56,19 +55,31 @@ class Selector {
   }
 
  private:
-  // Scaled space: a surface point q sees the eye iff q · eye ≥ 1. The most that a cone of directions reaches is
-  // |eye| cos(angle to its axis - half angle).
+  // Scaled space: a surface point q sees the eye iff q · eye ≥ 1, that is if it lies within the horizon's angle of the
+  // eye's direction. Hidden is a cone of directions that lies further from it by its half angle.
   [[nodiscard]] bool behind_horizon(const PatchNode& node) const {
-    if (eye_scaled_length_ <= 1.0) return false;
-    const double c = glm::dot(node.cone_axis, eye_scaled_) / eye_scaled_length_;
-    if (c >= node.cos_cone) return false;
-    const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
-    return eye_scaled_length_ * (c * node.cos_cone + s * node.sin_cone) < 1.0;
+    if (!has_horizon_) return false;
+    const double c = glm::dot(node.cone_axis, eye_direction_);
+    return c < node.cos_cone * cos_horizon_ - node.sin_cone * sin_horizon_;
+  }
+
+  // The eyes of one selection lie in a ball: the highest of them sees furthest, and the ball is wide as seen from the
+  // centre.
+  void find_horizon(const Ellipsoid& e) {
+    const glm::dvec3 eye = view_.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
+    const double length = glm::length(eye), spread = view_.eye_spread_m / e.b_m();
+    has_horizon_ = length - spread > 1.0;
+    if (!has_horizon_) return;
+    eye_direction_ = eye / length;
+    const double angle = std::acos(1.0 / (length + spread)) + std::asin(spread / length);
+    cos_horizon_ = std::cos(angle);
+    sin_horizon_ = std::sin(angle);
   }
 
   [[nodiscard]] double nearest_m(const PatchNode& node) const {
     const double center = glm::length(node.sphere.center_m - view_.eye.xyz_m);
-    return std::max({center - node.sphere.radius_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
+    return std::max(
+        {center - node.sphere.radius_m - view_.eye_spread_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
   }
 
   // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and
@@ -154,10 +165,10 @@ class Selector {
   }
 
   [[nodiscard]] bool nearly_behind_horizon(const PatchNode& node) const {
-    if (eye_scaled_length_ <= 1.0) return false;
-    const double c = glm::dot(node.cone_axis, eye_scaled_) / eye_scaled_length_;
+    if (!has_horizon_) return false;
+    const double c = glm::dot(node.cone_axis, eye_direction_);
     const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
-    return eye_scaled_length_ * (c * node.cos_cone - s * node.sin_cone) < 1.0;
+    return c * node.cos_cone - s * node.sin_cone < cos_horizon_;
   }
 
   // The deepest node of the tree that holds the neighbour across a side. Nodes are never dropped, so the search goes on
@@ -209,8 +220,9 @@ class Selector {
   std::uint64_t stamp_;
   std::vector<SelectedPatch>& out_;
   ViewPlanes planes_;
-  glm::dvec3 eye_scaled_{0.0};
-  double eye_scaled_length_ = 0.0;
+  bool has_horizon_ = false;
+  glm::dvec3 eye_direction_{0.0};  ///< in scaled space
+  double cos_horizon_ = 1.0, sin_horizon_ = 0.0;
   double least_distance_m_ = 0.0;
   double radians_per_pixel_ = 0.0;
   double error_scale_px_ = 0.0;
@@ -228,7 +240,8 @@ bool finite(const View& view) {
 ViewPlanes view_planes(const View& view) {
   const double ty = view.tan_half_fov_y;
   const double tx = ty * view.aspect();
-  return {{glm::normalize(view.forward * tx + view.right), glm::normalize(view.forward * tx - view.right),
+  const glm::dvec3 left = view.forward * (tx - view.shear_x), right = view.forward * (tx + view.shear_x);
+  return {{glm::normalize(left + view.right), glm::normalize(right - view.right),
            glm::normalize(view.forward * ty + view.up), glm::normalize(view.forward * ty - view.up)}};
 }
 
@@ -237,8 +250,8 @@ int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& s
   int result = 1;
   for (const glm::dvec3& normal : planes.normals) {
     const double d = glm::dot(normal, p);
-    if (d < -sphere.radius_m) return -1;
-    if (d < sphere.radius_m) result = 0;
+    if (d < -sphere.radius_m - view.eye_spread_m) return -1;
+    if (d < sphere.radius_m + view.eye_spread_m) result = 0;
   }
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace terrella {
 
 /// How patches are textured: shaders/README.md. `automatic` is the command line's `auto`.
@@ -7,5 +9,41 @@ enum class Texturing { vertex, paper, exact, automatic };
 
 /// How depth is stored (DESIGN 6).
 enum class DepthMode { reversed, logarithmic, standard };
+
+/// How a translucent surface goes over what lies under it; paper 2, formulas (2.7) and (2.9).
+enum class Blend {
+  normal,    ///< A · surface + (1 - A) · below
+  additive,  ///< A · surface + below: brighter, and it may saturate
+};
+
+/// What the surface does to an eye under it; paper 2, 2.9.
+enum class SurfaceFromBelow {
+  opaque,
+  translucent,
+  selective,  ///< opaque but before objects that ask to be seen through it
+};
+
+/// How the surface looks; can change from frame to frame.
+struct SurfaceLook {
+  double alpha = 1.0;  ///< A, [0, 1]; 1: opaque, drawn in one pass
+  Blend blend = Blend::normal;
+  /// A sphere of the background's colour so far under the equator hides what lies under the far side of a translucent
+  /// globe (paper 2, 2.1); none: nothing is hidden. In metres of Earth: on other bodies the same part of their radius.
+  std::optional<double> inner_sphere_below_m = 1.0e6;
+  SurfaceFromBelow from_below = SurfaceFromBelow::opaque;
+};
+
+enum class Stereo {
+  off,
+  side_by_side,  ///< the left eye's picture in the left half
+  interlaced,    ///< the left eye's picture in the even rows, counted from the top
+  anaglyph,      ///< the left eye's red, the right eye's green and blue
+};
+
+/// How the two eyes look; can change from frame to frame.
+struct StereoLook {
+  Stereo mode = Stereo::off;
+  std::optional<double> eye_separation_m;  ///< none: a thirtieth of the distance to what is in the picture's middle
+};
 
 }  // namespace terrella

@@ -68,6 +68,7 @@ class Coverer {
     const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m;
     eye_over_axes2_ = eye_scaled / axes_m;
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
+    horizon_ = 1.0 - view.eye_spread_m / e.b_m();
     if (glm::dot(eye_scaled, eye_scaled) <= 1.0) limits_ &= ~kHorizon;
   }
 
@@ -180,10 +181,12 @@ class Coverer {
     unsigned sides = 0;
     const glm::dvec3 from_eye = p_m - view_.eye.xyz_m;
     for (std::size_t k = 0; k < planes_.normals.size(); ++k) {
-      if ((limits & 1U << k) != 0 && glm::dot(planes_.normals[k], from_eye) < -reach_m) sides |= 1U << k;
+      if ((limits & 1U << k) != 0 && glm::dot(planes_.normals[k], from_eye) < -reach_m - view_.eye_spread_m)
+        sides |= 1U << k;
     }
     // Scaled by the shortest axis what is within reach still is.
-    if ((limits & kHorizon) != 0 && glm::dot(p_m, eye_over_axes2_) < 1.0 - reach_m * horizon_per_m_) sides |= kHorizon;
+    if ((limits & kHorizon) != 0 && glm::dot(p_m, eye_over_axes2_) < horizon_ - reach_m * horizon_per_m_)
+      sides |= kHorizon;
     return sides;
   }
 
@@ -295,6 +298,7 @@ class Coverer {
   TileCoverage& out_;
   ViewPlanes planes_;
   glm::dvec3 eye_over_axes2_{0.0};
+  double horizon_ = 1.0;        ///< what the dot product is, at least, of what some eye sees
   double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
   unsigned limits_ = kAllLimits;
   std::vector<Choice> choices_;  ///< of all cells in order

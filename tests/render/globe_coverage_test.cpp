@@ -134,7 +134,9 @@ TEST_F(GlobeCoverage, NoneInAnyDepthModeOrTexturing) {
 
 TEST_F(GlobeCoverage, TheFarWallFillsThePictureOfACameraUnderTheGround) {
   Draw draw(53);
-  const auto globe = globe_of(earth());
+  GlobeOptions without_inner_sphere = unlit_options();
+  without_inner_sphere.surface.inner_sphere_below_m.reset();
+  const auto globe = globe_of(earth(), without_inner_sphere);
   for (int k = 0; k < 150 && !HasFailure(); ++k) {
     Camera c = random_camera(draw, 1.0, 6.3e6);
     c.eye.height_m = -c.eye.height_m;

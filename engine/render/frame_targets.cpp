@@ -1,0 +1,41 @@
+#include "render/frame_targets.h"
+
+namespace terrella {
+namespace {
+
+gl::Texture make_picture(GLenum format, Viewport size) {
+  gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, format, size.width_px, size.height_px);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  return texture;
+}
+
+}  // namespace
+
+void FrameTargets::fit(Viewport size, bool with_stencil) {
+  const bool same_size = size_.width_px == size.width_px && size_.height_px == size.height_px;
+  if (same_size && (has_stencil_ || !with_stencil)) return;
+  size_ = size;
+  has_stencil_ = with_stencil;
+  color_ = make_picture(GL_RGBA8, size);
+  depth_ = make_picture(with_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, size);
+  copy_ = {};
+  framebuffer_ = gl::make_framebuffer();
+  glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
+  glNamedFramebufferTexture(framebuffer_.name(), with_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                            depth_.name(), 0);
+}
+
+GLuint FrameTargets::copy_of_color() {
+  if (!copy_) copy_ = make_picture(GL_RGBA8, size_);
+  glCopyImageSubData(color_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, copy_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, size_.width_px,
+                     size_.height_px, 1);
+  return copy_.name();
+}
+
+void FrameTargets::copy_to(GLuint framebuffer) const {
+  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, size_.width_px, size_.height_px, 0, 0, size_.width_px,
+                         size_.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace terrella

@@ -1,0 +1,69 @@
+#include "render/inner_sphere_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <vector>
+
+#include "render/shader_library.h"
+
+namespace terrella {
+namespace {
+
+// Quads from pole to pole, and twice as many around: the mesh sags by 1/1900 of the radius, 3 km on Earth.
+constexpr int kRows = 48;
+constexpr double kEarthEquator_m = 6378137.0;
+
+}  // namespace
+
+Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth) {
+  Result<gl::Program> program = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "inner_sphere.vert"}},
+                                               {GL_FRAGMENT_SHADER, {"frame.glsl", "inner_sphere.frag"}}},
+                                              {depth_define(depth)});
+  if (!program) return program.error();
+  std::unique_ptr<InnerSpherePass> pass(new InnerSpherePass);
+  pass->program_ = std::move(*program);
+  constexpr int kColumns = 2 * kRows;
+  std::vector<glm::vec3> points;
+  std::vector<std::uint16_t> triangles;
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kColumns; ++i) {
+      const double lat = std::numbers::pi * (double(j) / kRows - 0.5), lon = 2.0 * std::numbers::pi * i / kColumns;
+      points.emplace_back(std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat));
+      if (j == kRows || i == kColumns) continue;
+      const int a = j * (kColumns + 1) + i, c = a + kColumns + 1;
+      for (int k : {a, a + 1, c + 1, a, c + 1, c}) triangles.push_back(static_cast<std::uint16_t>(k));
+    }
+  }
+  pass->count_ = static_cast<GLsizei>(triangles.size());
+  pass->vertex_array_ = gl::make_vertex_array();
+  pass->vertices_ = gl::make_buffer();
+  pass->indices_ = gl::make_buffer();
+  glNamedBufferStorage(pass->vertices_.name(), static_cast<GLsizeiptr>(points.size() * sizeof(glm::vec3)),
+                       points.data(), 0);
+  glNamedBufferStorage(pass->indices_.name(), static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint16_t)),
+                       triangles.data(), 0);
+  const GLuint array = pass->vertex_array_.name();
+  glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(glm::vec3));
+  glVertexArrayElementBuffer(array, pass->indices_.name());
+  glEnableVertexArrayAttrib(array, 0);
+  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(array, 0, 0);
+  return pass;
+}
+
+int InnerSpherePass::draw(double radius_m) const {
+  glUseProgram(program_.name());
+  glUniform1f(0, static_cast<float>(radius_m));
+  glBindVertexArray(vertex_array_.name());
+  glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_SHORT, nullptr);
+  return 1;
+}
+
+double inner_sphere_radius_m(double a_m, double b_m, double below_m) {
+  return std::clamp(a_m - below_m * (a_m / kEarthEquator_m), 0.0, 0.98 * b_m);
+}
+
+}  // namespace terrella

@@ -1,0 +1,190 @@
+#include "render/patch_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "render/shader_library.h"
+
+namespace terrella {
+namespace {
+
+/// glMultiDrawElementsIndirect's record.
+struct DrawCommand {
+  GLuint count;
+  GLuint instances;
+  GLuint first_index;
+  GLint base_vertex;
+  GLuint base_instance;
+};
+
+// Three taps over the pixel serve footprints of up to this many texels well enough (shaders/patch_plain.frag).
+constexpr double kPlainFootprint_texels = 12.0;
+// Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
+constexpr double kMagnifiedFootprint_texels = 0.7;
+
+Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment, DepthMode depth) {
+  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                       {depth_define(depth)});
+}
+
+gl::Sampler sampler(GLenum minify, GLenum wrap) {
+  gl::Sampler s = gl::make_sampler();
+  glSamplerParameteri(s.name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
+  glSamplerParameteri(s.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
+  glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
+  return s;
+}
+
+template <class T>
+void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
+  glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, PatchTree& tree) {
+  std::unique_ptr<PatchPass> pass(new PatchPass(options, tree));
+  if (const Status built = pass->build_programs(); !built) return built.error();
+  pass->set_up_vertex_array();
+  pass->set_up_samplers();
+  return pass;
+}
+
+Status PatchPass::build_programs() {
+  const auto build = [this](PatchProgram which, std::initializer_list<std::string_view> files) -> Status {
+    Result<gl::Program> program = patch_program(files, options_.depth);
+    if (!program) return program.error();
+    programs_[which] = std::move(*program);
+    return Done{};
+  };
+  Result<gl::Program> depth = patch_program({"frame.glsl", "patch_depth.frag"}, options_.depth);
+  if (!depth) return depth.error();
+  depth_program_ = std::move(*depth);
+  if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
+    Status s = build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    if (!s || options_.texturing == Texturing::exact) return s;
+  }
+  if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
+  if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
+  if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (options_.texturing == Texturing::paper) {
+    return build(paper, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+  }
+  return Done{};
+}
+
+void PatchPass::set_up_vertex_array() {
+  vertex_array_ = gl::make_vertex_array();
+  draws_ = gl::make_buffer();
+  commands_ = gl::make_buffer();
+  cells_ = gl::make_buffer();
+  const GLuint array = vertex_array_.name();
+  glVertexArrayElementBuffer(array, patches_.index_buffer());
+  glVertexArrayVertexBuffer(array, 1, draws_.name(), 0, sizeof(PatchDraw));
+  glVertexArrayBindingDivisor(array, 1, 1);
+  const auto attribute = [array](GLuint index, GLuint binding, GLint size, std::size_t offset) {
+    glEnableVertexArrayAttrib(array, index);
+    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(array, index, binding);
+  };
+  attribute(0, 0, 3, offsetof(PatchVertex, position_high_m));
+  attribute(1, 0, 3, offsetof(PatchVertex, position_low_m));
+  attribute(2, 0, 3, offsetof(PatchVertex, direction));
+  attribute(3, 0, 2, offsetof(PatchVertex, offset_deg));
+  attribute(4, 1, 4, offsetof(PatchDraw, center_and_scale));
+  attribute(5, 1, 4, offsetof(PatchDraw, frame));
+  attribute(6, 1, 4, offsetof(PatchDraw, row));
+  glEnableVertexArrayAttrib(array, 7);
+  glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
+  glVertexArrayAttribBinding(array, 7, 1);
+}
+
+void PatchPass::set_up_samplers() {
+  bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE);
+  // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with
+  // eight bits for the common modes and in float for this one.
+  precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
+  mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
+  cells_texture_ = gl::make_texture(GL_TEXTURE_BUFFER);
+}
+
+PatchPass::PatchProgram PatchPass::program_for(const SelectedPatch& patch) const {
+  switch (options_.texturing) {
+    case Texturing::exact:
+      return polar;
+    case Texturing::automatic:
+      if (patch.in_band) return polar;
+      break;
+    case Texturing::paper:
+      if (patch.node->min_colatitude_rad < options_.paper_band * 3.14159265358979) return paper;
+      break;
+    case Texturing::vertex:
+      break;
+  }
+  if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
+  return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
+}
+
+void PatchPass::upload(const std::vector<SelectedPatch>& patches, const TileCoverage& coverage, std::uint64_t frame) {
+  std::vector<DrawCommand> by_program[kPatchPrograms];
+  triangles_ = 0;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const SelectedPatch& patch = patches[k];
+    const PatchIndices::Range range =
+        patches_.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+    const int place = patches_.place_of(*patch.node, frame);
+    by_program[program_for(patch)].push_back(
+        {range.count, 1, range.first, place * patches_.vertices_per_patch(), static_cast<GLuint>(k)});
+    triangles_ += range.count / 3;
+  }
+  std::vector<DrawCommand> commands;
+  for (int p = 0; p < kPatchPrograms; ++p) {
+    first_command_[p] = static_cast<int>(commands.size());
+    commands.insert(commands.end(), by_program[p].begin(), by_program[p].end());
+  }
+  first_command_[kPatchPrograms] = static_cast<int>(commands.size());
+  stream(commands_, commands);
+  stream(draws_, coverage.draws);
+  stream(cells_, coverage.cells);
+  glTextureBuffer(cells_texture_.name(), GL_R32UI, cells_.name());
+}
+
+void PatchPass::bind_vertices() const {
+  glVertexArrayVertexBuffer(vertex_array_.name(), 0, patches_.vertex_buffer(), 0, sizeof(PatchVertex));
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+}
+
+void PatchPass::draw_commands(int first, int last, FrameCounts& counts) const {
+  if (first == last) return;
+  const auto offset = static_cast<std::uintptr_t>(first) * sizeof(DrawCommand);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(offset), last - first, 0);
+  ++counts.draw_calls;
+}
+
+void PatchPass::draw(const TileTextures& tiles, FrameCounts& counts) const {
+  glBindTextureUnit(1, cells_texture_.name());
+  glBindSampler(1, 0);
+  for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
+  glBindSampler(0, bilinear_.name());
+  glBindSampler(2, mipmapped_.name());
+  glBindSampler(3, precise_.name());
+  bind_vertices();
+  for (int p = 0; p < kPatchPrograms; ++p) {
+    if (first_command_[p] == first_command_[p + 1]) continue;
+    glUseProgram(programs_[p].name());
+    draw_commands(first_command_[p], first_command_[p + 1], counts);
+  }
+  counts.triangles += triangles_;
+}
+
+void PatchPass::draw_depth(FrameCounts& counts) const {
+  bind_vertices();
+  glUseProgram(depth_program_.name());
+  draw_commands(first_command_[0], first_command_[kPatchPrograms], counts);
+}
+
+}  // namespace terrella

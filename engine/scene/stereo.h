@@ -1,0 +1,24 @@
+#pragma once
+
+#include "geo/camera.h"
+#include "geo/ellipsoid.h"
+#include "scene/render_modes.h"
+
+namespace terrella {
+
+/// A pair of off-axis eyes. Their planes of view are parallel, so nothing is shifted up or down between the pictures,
+/// and what lies at the convergence distance appears at the depth of the screen (paper 2, 2.10).
+struct EyePair {
+  View left, right;
+  View both;  ///< for selection: holds all that either eye sees
+  double convergence_m = 0.0;
+  double separation_m = 0.0;
+};
+
+/// The eyes to either side of a view's eye, each with the view's picture size. They converge on what the picture's
+/// middle shows of the ellipsoid, or, where that is the sky, at the height over it; unless it is told, they stand a
+/// thirtieth of that apart, which keeps the parallax of everything behind the screen under 1/30 of its distance, from
+/// orbit to street. thread: any
+[[nodiscard]] EyePair stereo_eyes(const View& view, const Ellipsoid& ellipsoid, const StereoLook& look);
+
+}  // namespace terrella
