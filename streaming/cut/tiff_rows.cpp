@@ -11,6 +11,10 @@
 namespace terrella {
 namespace {
 
+/// What a row of tiles is held as, bytes: all of it, or a part of its rows at a time, and then its tiles are decoded
+/// again for each part (down to the part's last row). 86400 pixels of RGB and tiles of 256 rows fit.
+constexpr std::uint64_t kTileRowBytes = 64ULL << 20;
+
 template <class T>
 T tag_or(TIFF* tiff, ttag_t tag, T otherwise) {
   T value = otherwise;
@@ -151,18 +155,26 @@ class TiffRows : public RowReader {
     if (width == 0 || height == 0 || tile_bytes <= 0 || static_cast<std::uint64_t>(tile_bytes) < needed) {
       return refuse("tiles of an unexpected size");
     }
-    const std::uint64_t held = row_bytes() * std::uint64_t{height};
-    if (held > kMaxHeldBytes || static_cast<std::uint64_t>(tile_bytes) > kMaxHeldBytes) {
+    if (static_cast<std::uint64_t>(tile_bytes) > kMaxHeldBytes) {
       return Error{
-          fmt::format("{}: a row of its tiles needs {} MiB of memory; save it with smaller ones "
+          fmt::format("{}: one of its tiles needs {} MiB of memory; save it with smaller ones "
                       "(gdal_translate -co TILED=YES)",
-                      name_, std::max(held, static_cast<std::uint64_t>(tile_bytes)) >> 20)};
+                      name_, static_cast<std::uint64_t>(tile_bytes) >> 20)};
     }
     tile_width_ = width;
     tile_height_ = height;
     tile_.resize(static_cast<std::size_t>(tile_bytes));
-    held_.resize(held);
+    hold_part_of_tiles();
     return Done{};
+  }
+
+  /// Parts of equal height, as few as can be.
+  void hold_part_of_tiles() {
+    const std::int64_t rows = std::min(tile_height_, info_.height_px);
+    const auto fit = std::max<std::int64_t>(1, static_cast<std::int64_t>(kTileRowBytes / row_bytes()));
+    const std::int64_t parts = (rows + fit - 1) / fit;
+    held_rows_ = (rows + parts - 1) / parts;
+    held_.resize(row_bytes() * static_cast<std::size_t>(held_rows_));
   }
 
   const std::uint8_t* row_of_strip() {
@@ -170,27 +182,39 @@ class TiffRows : public RowReader {
   }
 
   const std::uint8_t* row_of_tiles() {
-    const auto in_tile = static_cast<std::size_t>(row_ % tile_height_);
-    const std::int64_t first = row_ - static_cast<std::int64_t>(in_tile);
-    if (first != held_first_ && !read_tiles(first)) return nullptr;
+    const std::int64_t tile_top = row_ - row_ % tile_height_;
+    const std::int64_t first = row_ - (row_ - tile_top) % held_rows_;
+    if (first != held_first_ && !read_tiles(tile_top, first)) return nullptr;
     held_first_ = first;
-    return held_.data() + in_tile * row_bytes();
+    return held_.data() + static_cast<std::size_t>(row_ - first) * row_bytes();
   }
 
-  bool read_tiles(std::int64_t first_row) {
-    const auto y = static_cast<std::uint32_t>(first_row);
-    const std::int64_t rows = std::min(tile_height_, info_.height_px - first_row);
+  /// The rows of the tiles at `tile_top` that are held at a time, from `first_row` on.
+  bool read_tiles(std::int64_t tile_top, std::int64_t first_row) {
+    const auto y = static_cast<std::uint32_t>(tile_top);
+    const auto above = static_cast<std::size_t>(first_row - tile_top);
+    const auto rows = static_cast<std::size_t>(
+        std::min({first_row + held_rows_, tile_top + tile_height_, info_.height_px}) - first_row);
     for (std::int64_t x = 0; x < info_.width_px; x += tile_width_) {
-      if (TIFFReadTile(tiff_.get(), tile_.data(), static_cast<std::uint32_t>(x), y, 0, 0) <= 0) return false;
+      if (!decode_tile(static_cast<std::uint32_t>(x), y, above + rows)) return false;
       const auto columns = static_cast<std::size_t>(std::min(tile_width_, info_.width_px - x));
-      for (std::int64_t row = 0; row < rows; ++row) {
-        const auto at = static_cast<std::size_t>(row);
-        std::copy_n(tile_.data() + at * static_cast<std::size_t>(tile_width_) * samples_.pixel_bytes(),
-                    columns * samples_.pixel_bytes(),
-                    held_.data() + at * row_bytes() + static_cast<std::size_t>(x) * samples_.pixel_bytes());
+      for (std::size_t row = 0; row < rows; ++row) {
+        std::copy_n(tile_.data() + (above + row) * tile_row_bytes(), columns * samples_.pixel_bytes(),
+                    held_.data() + row * row_bytes() + static_cast<std::size_t>(x) * samples_.pixel_bytes());
       }
     }
     return true;
+  }
+
+  /// The first `rows` rows of a tile, into tile_.
+  bool decode_tile(std::uint32_t x, std::uint32_t y, std::size_t rows) {
+    const std::uint32_t tile = TIFFComputeTile(tiff_.get(), x, y, 0, 0);
+    const auto bytes = static_cast<tmsize_t>(rows * tile_row_bytes());
+    return TIFFReadEncodedTile(tiff_.get(), tile, tile_.data(), bytes) == bytes;
+  }
+
+  [[nodiscard]] std::size_t tile_row_bytes() const {
+    return static_cast<std::size_t>(tile_width_) * samples_.pixel_bytes();
   }
 
   std::string name_;
@@ -198,11 +222,12 @@ class TiffRows : public RowReader {
   PictureInfo info_;
   TiffSamples samples_;
   std::int64_t row_ = 0;
-  std::int64_t held_first_ = -1;  ///< the first row of the tiles that are held
+  std::int64_t held_first_ = -1;  ///< the first row of tiles that is held
   std::int64_t tile_width_ = 0;
   std::int64_t tile_height_ = 0;  ///< 0: strips
+  std::int64_t held_rows_ = 0;    ///< of a row of tiles
   std::vector<std::uint8_t> tile_;
-  std::vector<std::uint8_t> held_;  ///< a row, or a row of tiles, as samples
+  std::vector<std::uint8_t> held_;  ///< a row, or a part of a row of tiles, as samples
   std::optional<HeightCoding> heights_;
   TiffHandle tiff_;
 };
