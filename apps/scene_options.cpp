@@ -86,6 +86,11 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
                                "What an eye under the ground sees of the surface: selective lets through only objects "
                                "with through_surface")
       ->default_str("opaque");
+  add_choice<HorizonCulling>(
+      command, "--horizon-culling", options.surface.horizon_culling,
+      {{"on", HorizonCulling::on}, {"off", HorizonCulling::off}, {"auto", HorizonCulling::automatic}},
+      "Leave out what the planet hides; on: from under the ground also its other half")
+      ->default_str("auto");
 }
 
 void add_stereo_options(CLI::App& command, SceneOptions& options) {

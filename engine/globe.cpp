@@ -86,6 +86,11 @@ void Globe::Impl::select(Viewport viewport) {
   }
   PatchSelectionOptions selection;
   selection.texels_per_pixel = detail;
+  selection.horizon_culling = options.surface.horizon_culling;
+  if (options.surface.inner_sphere_below_m) {
+    const Ellipsoid& e = options.body.ellipsoid;
+    selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
+  }
   select_patches(tree, view, selection, patches);
   cover_with_tiles(tree, view, patches, tiles.residency(), frame, coverage);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 namespace terrella {
 namespace {
@@ -60,6 +61,8 @@ class Selector {
   [[nodiscard]] bool behind_horizon(const PatchNode& node) const {
     if (!has_horizon_) return false;
     const double c = glm::dot(node.cone_axis, eye_direction_);
+    // A cone and a horizon that reach around the planet together hide nothing.
+    if (node.sin_cone * cos_horizon_ + node.cos_cone * sin_horizon_ < 0.0) return false;
     return c < node.cos_cone * cos_horizon_ - node.sin_cone * sin_horizon_;
   }
 
@@ -68,12 +71,25 @@ class Selector {
   void find_horizon(const Ellipsoid& e) {
     const glm::dvec3 eye = view_.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
     const double length = glm::length(eye), spread = view_.eye_spread_m / e.b_m();
-    has_horizon_ = length - spread > 1.0;
+    const std::optional<double> angle = horizon_rad(length, spread, options_.inner_sphere_m / e.a_m());
+    has_horizon_ = angle && options_.horizon_culling != HorizonCulling::off;
     if (!has_horizon_) return;
     eye_direction_ = eye / length;
-    const double angle = std::acos(1.0 / (length + spread)) + std::asin(spread / length);
-    cos_horizon_ = std::cos(angle);
-    sin_horizon_ = std::sin(angle);
+    cos_horizon_ = std::cos(*angle);
+    sin_horizon_ = std::sin(*angle);
+  }
+
+  // How far around the centre, from the eye's direction, the surface can be seen; nothing if nothing hides any of it.
+  [[nodiscard]] std::optional<double> horizon_rad(double length, double spread, double inner) const {
+    const double drift = std::asin(std::min(1.0, spread / length));
+    if (length - spread > 1.0) return std::acos(1.0 / (length + spread)) + drift;
+    if (length - spread <= inner || length <= 0.0) return std::nullopt;
+    const double half = 0.5 * std::numbers::pi + drift;
+    // A sight line grazes the inner sphere: so far from the eye's direction it touches, as far again it comes out.
+    const double behind_inner = std::acos(inner / std::min(1.0, length + spread)) + std::acos(inner) + drift;
+    if (options_.horizon_culling == HorizonCulling::on) return inner > 0.0 ? std::min(half, behind_inner) : half;
+    if (inner > 0.0 && behind_inner < std::numbers::pi) return behind_inner;
+    return std::nullopt;
   }
 
   [[nodiscard]] double nearest_m(const PatchNode& node) const {

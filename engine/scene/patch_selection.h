@@ -5,6 +5,7 @@
 
 #include "geo/camera.h"
 #include "scene/patch_tree.h"
+#include "scene/render_modes.h"
 
 namespace terrella {
 
@@ -15,6 +16,8 @@ struct PatchSelectionOptions {
   double max_footprint_texels = 12.0;  ///< the longest extent of a pixel, in texels, that filtering reaches over
   int max_window = 8;                  ///< a patch whose window has more cells a side is split
   int max_polar_columns = 32;          ///< a patch that touches a pole takes a coarser level over this many columns
+  HorizonCulling horizon_culling = HorizonCulling::automatic;
+  double inner_sphere_m = 0.0;  ///< radius of what hides the far side from an eye under the ground; 0: nothing
 };
 
 /// One patch to draw.
@@ -36,8 +39,8 @@ struct ViewPlanes {
 [[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
 
 /// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
-/// view, the tree (whose nodes it makes and stamps) and the options. An eye on or under the surface sees every patch in
-/// front of it: no horizon culling then. A view with NaN selects nothing. thread: main
+/// view, the tree (whose nodes it makes and stamps) and the options. An eye under the surface sees every patch in
+/// front of it that the inner sphere does not hide. A view with NaN selects nothing. thread: main
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
                     std::vector<SelectedPatch>& out);
 

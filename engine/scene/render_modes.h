@@ -23,6 +23,14 @@ enum class SurfaceFromBelow {
   selective,  ///< opaque but before objects that ask to be seen through it
 };
 
+/// Whether patches that the planet itself hides are left out (paper 2, 2.8).
+enum class HorizonCulling {
+  automatic,  ///< what cannot be seen: from above behind the horizon, from below behind the inner sphere, if there is
+              ///< one
+  on,         ///< from below, the other half of the planet too: for one object nearby
+  off,        ///< all that is in the picture's frame
+};
+
 /// How the surface looks; can change from frame to frame.
 struct SurfaceLook {
   double alpha = 1.0;  ///< A, [0, 1]; 1: opaque, drawn in one pass
@@ -31,6 +39,7 @@ struct SurfaceLook {
   /// globe (paper 2, 2.1); none: nothing is hidden. In metres of Earth: on other bodies the same part of their radius.
   std::optional<double> inner_sphere_below_m = 1.0e6;
   SurfaceFromBelow from_below = SurfaceFromBelow::opaque;
+  HorizonCulling horizon_culling = HorizonCulling::automatic;
 };
 
 enum class Stereo {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "patch_test_support.h"
+#include "scene/stereo.h"
 
 namespace terrella::test {
 namespace {
@@ -67,6 +68,59 @@ void check(PatchTree& tree, const Camera& camera, Viewport viewport, Draw& draw)
 }
 
 TileGrid deep_grid() { return {.max_level = 18}; }
+
+TEST(PatchSelection, FromUnderTheGroundOnlyWhatTheInnerSphereHidesIsLeftOut) {
+  Draw draw(23);
+  PatchTree tree(earth().ellipsoid, deep_grid(), kSegments);
+  constexpr double kInner_m = 5.378e6;
+  std::size_t automatic = 0, all = 0, nearby = 0;
+  for (int k = 0; k < 60; ++k) {
+    Camera camera = random_camera(draw, 10.0, 9.0e5);
+    camera.eye.height_m = -camera.eye.height_m;
+    const View view = make_view(camera, earth().ellipsoid, {400, 300});
+    std::vector<SelectedPatch> patches;
+    const auto count = [&](HorizonCulling culling) {
+      PatchSelectionOptions options;
+      options.horizon_culling = culling;
+      options.inner_sphere_m = kInner_m;
+      select_patches(tree, view, options, patches);
+      return patches.size();
+    };
+    all += count(HorizonCulling::off);
+    nearby += count(HorizonCulling::on);
+    automatic += count(HorizonCulling::automatic);
+    const PatchSet leaves = ids_of(patches);
+    const Ellipsoid inner(kInner_m, 0.0);
+    for (int n = 0; n < 40; ++n) {
+      const EcefDir ray = pixel_ray(view, {draw.between(0, 400), draw.between(0, 300)});
+      if (inner.intersect_m(view.eye, ray)) continue;
+      const auto distance_m = earth().ellipsoid.intersect_m(view.eye, ray);
+      ASSERT_TRUE(distance_m);
+      const EcefDir normal = earth().ellipsoid.surface_normal(Ecef{view.eye.xyz_m + *distance_m * ray.xyz});
+      EXPECT_TRUE(leaf_over(leaves, patch_at(normal, kMaxPatchLevel))) << "a wall that is in sight has no patch";
+    }
+  }
+  EXPECT_LT(automatic, all) << "nothing was left out";
+  EXPECT_LE(nearby, automatic);
+}
+
+TEST(PatchSelection, OneSelectionHoldsWhatBothEyesSee) {
+  Draw draw(19);
+  for (const Body& body : selection_bodies()) {
+    PatchTree tree(body.ellipsoid, deep_grid(), kSegments);
+    const double a = body.ellipsoid.a_m();
+    for (int k = 0; k < 40 && !HasFailure(); ++k) {
+      const Camera camera = random_camera(draw, 1.6e-7 * a, 16.0 * a);
+      const View view = make_view(camera, body.ellipsoid, {800, 600});
+      const EyePair eyes = stereo_eyes(view, body.ellipsoid, {.mode = Stereo::anaglyph, .eye_separation_m = {}});
+      std::vector<SelectedPatch> patches;
+      select_patches(tree, eyes.both, {}, patches);
+      expect_balanced(patches);
+      expect_nothing_visible_culled(eyes.left, body.ellipsoid, patches, draw);
+      expect_nothing_visible_culled(eyes.right, body.ellipsoid, patches, draw);
+    }
+  }
+}
 
 TEST(PatchSelection, TilesWhatIsVisibleForRandomCamerasOnEveryBody) {
   Draw draw(1);
