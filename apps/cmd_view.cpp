@@ -18,7 +18,7 @@ constexpr const char* kHelpFooter =
     "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns, "
     "a\n"
     "double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "F12 saves a picture, F1 or ? lists the keys, Esc leaves.\n"
+    "U translucent, X under the ground, S stereo, F12 saves a picture, F1 or ? lists the keys, Esc leaves.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"

@@ -150,6 +150,15 @@ void Input::on_character(unsigned character) {
     case 'g':
     case 'G':
       return actions_.push_back(ViewerAction::toggle_graticule);
+    case 'u':
+    case 'U':
+      return actions_.push_back(ViewerAction::next_alpha);
+    case 's':
+    case 'S':
+      return actions_.push_back(ViewerAction::next_stereo);
+    case 'x':
+    case 'X':
+      return actions_.push_back(ViewerAction::toggle_underground);
     case '?':
       return actions_.push_back(ViewerAction::toggle_help);
     default:

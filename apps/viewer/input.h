@@ -10,7 +10,16 @@
 namespace terrella {
 
 /// What a key asks of the viewer beside the navigation.
-enum class ViewerAction { toggle_help, toggle_graticule, toggle_full_screen, save_screenshot, leave };
+enum class ViewerAction {
+  toggle_help,
+  toggle_graticule,
+  toggle_full_screen,
+  save_screenshot,
+  next_alpha,
+  next_stereo,
+  toggle_underground,
+  leave
+};
 
 /// Finds double clicks by time and distance.
 class ClickPair {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include "apps/viewer/screenshot.h"
@@ -18,7 +19,8 @@ namespace {
 constexpr std::chrono::seconds kMessageTime(4);
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between frames that only wait for tiles
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
-constexpr double kFoot = 3.4;                   // of the text's height, that the panels below take
+constexpr double kEarthEquator_m = 6378137.0;
+constexpr double kFoot = 3.4;  // of the text's height, that the panels below take
 
 }  // namespace
 
@@ -66,10 +68,68 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::save_screenshot:
       screenshot_wanted_ = true;
       return;
+    case ViewerAction::next_alpha:
+      return next_alpha();
+    case ViewerAction::next_stereo:
+      return next_stereo();
+    case ViewerAction::toggle_underground:
+      return toggle_underground();
     case ViewerAction::leave:
       glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
       return;
   }
+}
+
+void Viewer::next_alpha() {
+  constexpr double kAlphas[] = {1.0, 0.7, 0.4};
+  SurfaceLook surface = globe_.options().surface;
+  const auto* lower =
+      std::find_if(std::begin(kAlphas), std::end(kAlphas), [&](double alpha) { return alpha < surface.alpha - 0.01; });
+  surface.alpha = lower == std::end(kAlphas) ? kAlphas[0] : *lower;
+  globe_.set_surface(surface);
+  say(fmt::format("Surface {:.0f} % opaque", 100.0 * surface.alpha));
+}
+
+void Viewer::next_stereo() {
+  StereoLook stereo = globe_.options().stereo;
+  switch (stereo.mode) {
+    case Stereo::off:
+      stereo.mode = Stereo::anaglyph;
+      say("Stereo: anaglyph, red for the left eye");
+      break;
+    case Stereo::anaglyph:
+      stereo.mode = Stereo::side_by_side;
+      say("Stereo: side by side");
+      break;
+    case Stereo::side_by_side:
+      stereo.mode = Stereo::interlaced;
+      say("Stereo: interlaced, even rows for the left eye");
+      break;
+    case Stereo::interlaced:
+      stereo.mode = Stereo::off;
+      say("Stereo off");
+      break;
+  }
+  globe_.set_stereo(stereo);
+}
+
+// Under the place where it was, as deep as it was high but over the inner sphere, looking up at the ground.
+void Viewer::toggle_underground() {
+  Camera camera = navigator_.camera();
+  if (above_) {
+    camera = *std::exchange(above_, std::nullopt);
+    say("Over the ground");
+  } else {
+    constexpr double kDeepest = 0.8;
+    above_ = camera;
+    const SurfaceLook& surface = globe_.options().surface;
+    const Ellipsoid& e = globe_.options().body.ellipsoid;
+    const double below_m = surface.inner_sphere_below_m.value_or(kEarthEquator_m) * (e.a_m() / kEarthEquator_m);
+    camera.eye.height_m = -std::min(camera.eye.height_m, kDeepest * below_m);
+    camera.pitch = Angle::degrees(std::max(30.0, -camera.pitch.deg()));
+    say("Under the ground; X goes back");
+  }
+  navigator_.set_camera(camera);
 }
 
 void Viewer::draw_frame(Viewport framebuffer) {

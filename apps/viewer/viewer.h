@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "apps/viewer/input.h"
@@ -31,6 +32,9 @@ class Viewer {
 
   void wait_for_work();
   void act(ViewerAction action);
+  void next_alpha();
+  void next_stereo();
+  void toggle_underground();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer, const FrameStats& stats);
   void save_screenshot(Viewport framebuffer);
@@ -44,6 +48,7 @@ class Viewer {
   Ui ui_;
   Navigator navigator_;
   Input input_;
+  std::optional<Camera> above_;  ///< where the eye was before it went under the ground
   bool help_ = false;
   bool graticule_ = false;
   bool screenshot_wanted_ = false;

@@ -39,6 +39,8 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
   const std::vector<EyePicture> pictures = pictures_of(input);
   begin_frame(input, counts);
   for (const EyePicture& eye : pictures) draw_picture({input, eye, tiles, counts});
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilMask(0xFF);
   targets_.copy_to(framebuffer);
   if (pictures.size() == 1) {  // of one eye's picture the limb can be drawn as it is copied
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -55,3 +55,8 @@ def changed(a, b):
             pixels = zip(zip(*[iter(one)] * 3), zip(*[iter(other)] * 3))
             count += sum(max(abs(p - q) for p, q in zip(x, y)) > 24 for x, y in pixels)
     return count
+
+
+def pixel(picture, x, y):
+    """Red, green and blue; rows from the top."""
+    return tuple(picture[2][y][3 * x : 3 * x + 3])

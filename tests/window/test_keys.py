@@ -67,6 +67,36 @@ class Keys(WindowTest):
         again = png.read(self.screenshot(viewer, "closed"))
         self.assertLess(png.changed(plain, again), 6000)
 
+    def test_u_makes_the_surface_translucent_and_opaque_again(self):
+        viewer = self.start("--camera", "20,10,12000000", "--unlit")
+        ground = [SIZE[0] // 2, SIZE[1] // 2 - 60]
+        plain = png.read(self.screenshot(viewer, "opaque"))
+        brightness = []
+        for name in ("u70", "u40", "u100"):
+            viewer.key("u")
+            shot = png.read(self.screenshot(viewer, name))
+            brightness.append(sum(png.pixel(shot, *ground)) / sum(png.pixel(plain, *ground)))
+        for seen, alpha in zip(brightness, (0.7, 0.4, 1.0)):
+            self.assertAlmostEqual(seen, alpha, delta=0.03)
+
+    def test_s_goes_through_the_kinds_of_stereo(self):
+        viewer = self.start("--camera", "20,10,12000000", "--unlit")
+        plain = png.read(self.screenshot(viewer, "mono"))
+        for name in ("anaglyph", "side_by_side", "interlaced"):
+            viewer.key("s")
+            self.assertGreater(png.changed(plain, png.read(self.screenshot(viewer, name))), 10000, name)
+        viewer.key("s")
+        self.assertLess(png.changed(plain, png.read(self.screenshot(viewer, "mono_again"))), 6000)
+
+    def test_x_goes_under_the_ground_and_back(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        viewer.key("x")
+        below = viewer.next_camera()
+        self.assertAlmostEqual(below.height_m, -8.0e5, delta=1.0)
+        self.screenshot(viewer, "below")
+        viewer.key("x")
+        self.assertAlmostEqual(viewer.next_camera().height_m, 1.2e7, delta=1.0)
+
     def test_f_fills_the_screen_and_goes_back(self):
         viewer = self.start("--camera", "20,10,12000000")
         before = viewer.geometry()
