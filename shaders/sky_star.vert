@@ -1,0 +1,25 @@
+// A star as a point at infinity: its direction alone places it, and no near or far plane is asked.
+layout(location = 0) in vec3 direction_j2000;
+layout(location = 1) in float magnitude;
+layout(location = 2) in vec3 star_color_linear;
+layout(location = 0) uniform mat3 view_from_j2000;
+layout(location = 1) uniform float visibility;
+out vec3 peak_linear;
+flat out float inverse_variance;
+flat out float point_px;
+
+// Light of a star of magnitude 0, in pixels fully lit; a pixel's spread of what an eye or a lens makes of a point.
+const float kZeroMagnitude_px = 4.0;
+const float kSpread_px = 0.6;
+
+void main() {
+  vec3 p = view_from_j2000 * direction_j2000;
+  gl_Position = vec4(p.xy * clip_scale.xy, -0.5 * p.z, -p.z);
+  // A spot cannot be brighter than the screen: bright stars are wider instead, and the light adds up to the same.
+  float light_px = visibility * kZeroMagnitude_px * exp2(-1.328771 * magnitude);
+  float variance = max(kSpread_px * kSpread_px, light_px / 6.2831853);
+  peak_linear = star_color_linear * (light_px / (6.2831853 * variance));
+  inverse_variance = 1.0 / variance;
+  point_px = 2.0 * ceil(3.0 * sqrt(variance)) + 1.0;
+  gl_PointSize = point_px;
+}
