@@ -8,8 +8,8 @@
 
 #include "streaming/preload/answer_queue.h"
 #include "streaming/preload/store_tally.h"
-#include "streaming/preload/tile_check.h"
 #include "streaming/preload/wanted_tiles.h"
+#include "streaming/tile_check.h"
 
 namespace terrella {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "streaming/preload/tile_check.h"
+#include "streaming/tile_check.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "streaming/preload/tile_check.h"
+#include "streaming/tile_check.h"
 
 #include <fmt/format.h>
 
