@@ -9,7 +9,8 @@
 
 namespace terrella {
 
-/// A whole database up to this size is checked on opening (about 0.1 s); of a larger one the side tables are.
+/// A whole database up to this size is checked on opening (about 0.1 s). Of a larger one only the head and the smallest
+/// table (`terrella_cache`) are: damage in its tiles is met when they are read, and found by `terrella info --verify`.
 inline constexpr std::uintmax_t kMaxQuickCheckBytes = 64UL << 20;
 
 struct OpenedCache {
@@ -17,8 +18,9 @@ struct OpenedCache {
   std::filesystem::path set_aside;  ///< what the damaged file was renamed to; empty: none
 };
 
-/// Opens the file as the cache of a source, or makes it. Damaged: renamed NAME.damaged-N with its log, and made anew.
-/// Refused by name, and left as it is: another source's cache, a tile set that is no cache, a later version's cache.
+/// Opens the file as the cache of a source, or makes it. Found to be damaged by the look that its size allows: renamed
+/// NAME.damaged-N with its log, and made anew. Refused by name, and left as it is: another source's cache or grid, a
+/// tile set that is no cache, another program's database, a later version's cache.
 [[nodiscard]] Result<OpenedCache> open_cache_database(const std::filesystem::path& path, const TileSetInfo& info,
                                                       const std::string& source_key);
 
