@@ -13,6 +13,7 @@
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_rows.h"
 #include "streaming/cache/cache_schema.h"
+#include "streaming/cache/merge_part.h"
 #include "streaming/cache/open_cache.h"
 #include "streaming/directory_source.h"
 #include "streaming/sqlite_reader.h"
@@ -68,11 +69,10 @@ Row row_of(const SqliteQuery& query) {
 /// The file that is being made; it goes with its owner unless it got its name.
 class MergedFile {
  public:
-  explicit MergedFile(const fs::path& output) : output_(output) {
-    const fs::path folder = output.parent_path().empty() ? fs::path(".") : output.parent_path();
-    part_ = folder / fmt::format(".{}.{}.part", output.filename().string(), getpid());
+  explicit MergedFile(const fs::path& output) : output_(output), part_(merge_part_name(output)) {
     std::error_code ignored;
-    fs::create_directories(folder, ignored);
+    fs::create_directories(part_.parent_path(), ignored);
+    remove_dead_parts(output);
   }
   ~MergedFile() {
     rows_.reset();
@@ -142,7 +142,7 @@ class MergedFile {
   }
 
   const fs::path output_;
-  fs::path part_;
+  const fs::path part_;
   std::optional<SqliteWriter> database_;
   std::optional<CacheRows> rows_;
 };

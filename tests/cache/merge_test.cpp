@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <set>
 
 #include "cache/cache_test_support.h"
 #include "streaming/cache/cache_report.h"
@@ -134,6 +138,51 @@ TEST_F(Merge, InterruptedItLeavesNothingAndCanBeRunAgain) {
   const auto again = merge_caches({a_}, out_);
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->tiles, 2000);
+}
+
+/// Merges in a process of its own that is killed -9 after its first rows.
+void merge_and_be_killed(const fs::path& cache, const fs::path& output) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    static_cast<void>(merge_caches({cache}, output, [](std::int64_t, std::int64_t) { return raise(SIGKILL) == 0; }));
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST_F(Merge, WhatAKilledMergeLeftGoesWithTheNextIntoThatName) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 1000; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 100));
+  }
+  merge_and_be_killed(a_, out_);
+  const auto names = [&] {
+    std::set<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) found.insert(entry.path().filename().string());
+    return found;
+  };
+  ASSERT_GE(names().size(), 2U);  // the part, and the journal that SQLite may have at that moment
+  const std::string left = *names().begin();
+  ASSERT_TRUE(left.starts_with(".out.gpkg.") && left.ends_with(".part")) << left;
+  // Of a process that lives, of another machine, of another output, and not of a merge.
+  const std::string host = left.substr(10, left.rfind('.', left.size() - 6) - 10);
+  const std::string dead = left.substr(left.rfind('.', left.size() - 6) + 1);
+  std::set<std::string> kept{"a.gpkg",
+                             ".out.gpkg." + host + "." + std::to_string(getppid()) + ".part",
+                             ".out.gpkg.not-" + host + "." + dead,
+                             ".other.gpkg." + host + "." + dead,
+                             ".out.gpkg." + host + ".0.part",
+                             ".out.gpkg." + host + ".12x.part"};
+  for (const std::string& name : kept) std::ofstream(folder_ / name, std::ios::app);
+  std::ofstream(folder_ / (left + "-journal"));
+  const auto again = merge_caches({a_}, out_);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->tiles, 1000);
+  kept.insert("out.gpkg");
+  EXPECT_EQ(names(), kept);
 }
 
 TEST_F(Merge, ReportsCountAndFindDamage) {

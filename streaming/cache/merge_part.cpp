@@ -1,0 +1,68 @@
+#include "streaming/cache/merge_part.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPartEnding = ".part";
+
+fs::path part_folder(const fs::path& output) {
+  return output.parent_path().empty() ? fs::path(".") : output.parent_path();
+}
+
+std::string part_prefix(const fs::path& output) {
+  std::array<char, 256> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) host = {"localhost"};
+  return fmt::format(".{}.{}.", output.filename().string(), host.data());
+}
+
+/// Whose part a file name is; nothing if it is no part of that prefix.
+std::optional<pid_t> part_owner(std::string_view name, std::string_view prefix) {
+  if (!name.starts_with(prefix) || !name.ends_with(kPartEnding)) return std::nullopt;
+  if (name.size() <= prefix.size() + kPartEnding.size()) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  name.remove_suffix(kPartEnding.size());
+  pid_t process = 0;
+  const auto [end, failed] = std::from_chars(name.data(), name.data() + name.size(), process);
+  // Zero and below are not processes but groups of them.
+  if (failed != std::errc() || end != name.data() + name.size() || process <= 0) return std::nullopt;
+  return process;
+}
+
+/// A process of another user counts as alive: it answers EPERM.
+bool is_dead(pid_t process) { return kill(process, 0) != 0 && errno == ESRCH; }
+
+}  // namespace
+
+fs::path merge_part_name(const fs::path& output) {
+  return part_folder(output) / fmt::format("{}{}{}", part_prefix(output), getpid(), kPartEnding);
+}
+
+void remove_dead_parts(const fs::path& output) {
+  const std::string prefix = part_prefix(output);
+  std::vector<fs::path> dead;
+  std::error_code error;
+  for (fs::directory_iterator entry(part_folder(output), error), end; !error && entry != end; entry.increment(error)) {
+    const std::optional<pid_t> owner = part_owner(entry->path().filename().string(), prefix);
+    if (owner && is_dead(*owner)) dead.push_back(entry->path());
+  }
+  for (const fs::path& part : dead) {
+    fs::remove(part, error);
+    fs::remove(part.string() + "-journal", error);
+  }
+}
+
+}  // namespace terrella
