@@ -118,15 +118,54 @@ bool lie_over(const TileRange& tiles, const GeoRect& bounds, double span) {
          tiles.last_row <= last(bounds.north.deg() + 90.0);
 }
 
-/// 180° or, if the finest tiles are those of one root tile, 360°.
-double root_span_of(SqliteReader& reader, const TileGrid& grid) {
+std::optional<TileRange> tiles_of_level(SqliteReader& reader, int level) {
   const auto found = numbers<4>(reader, fmt::format("SELECT min(tile_column), max(tile_column), min(tile_row), "
                                                     "max(tile_row) FROM tiles WHERE zoom_level = {}",
-                                                    grid.max_level));
-  if (!found || grid.max_level == 0) return 180.0;
-  const TileRange tiles{(*found)[0], (*found)[1], (*found)[2], (*found)[3]};
+                                                    level));
+  if (!found) return std::nullopt;
+  return TileRange{(*found)[0], (*found)[1], (*found)[2], (*found)[3]};
+}
+
+/// 180° or, if the finest tiles are those of one root tile, 360°.
+double root_span_of(const std::optional<TileRange>& finest, const TileGrid& grid) {
+  if (!finest || grid.max_level == 0) return 180.0;
   const double span = std::ldexp(180.0, -grid.max_level);
-  return !lie_over(tiles, grid.bounds, span) && lie_over(tiles, grid.bounds, 2.0 * span) ? 360.0 : 180.0;
+  return !lie_over(*finest, grid.bounds, span) && lie_over(*finest, grid.bounds, 2.0 * span) ? 360.0 : 180.0;
+}
+
+constexpr const char* kCutThePicture =
+    "Cut the picture that it was made from instead: `gdalwarp -t_srs EPSG:4326 PICTURE new.tif` if that is not in "
+    "EPSG:4326, then `terrella cut new.tif -o new.gpkg`";
+
+/// Tiles beyond the last column or row of the planet are of a grid of their own, or counted in another way.
+Status check_tiles_lie_on(const std::optional<TileRange>& finest, const TileGrid& grid, const std::string& where) {
+  if (!finest) return Done{};
+  const std::int64_t width = columns(grid, grid.max_level);
+  const std::int64_t height = rows(grid, grid.max_level);
+  const bool inside =
+      finest->first_column >= 0 && finest->last_column < width && finest->first_row >= 0 && finest->last_row < height;
+  if (inside) return Done{};
+  return Error{
+      fmt::format("{}: it is in a grid of its own: level {} has columns {} to {} and rows {} to {}, a geodetic one at "
+                  "most {} and {}. {}",
+                  where, grid.max_level, finest->first_column, finest->last_column, finest->first_row, finest->last_row,
+                  width, height, kCutThePicture)};
+}
+
+/// Why a file that does not say it is geodetic cannot be drawn, and how to get one that can.
+Error not_geodetic(const Metadata& metadata, const std::string& where) {
+  for (const char* name : {"crs", "srs"}) {
+    const std::string crs = value_of(metadata, name);
+    if (crs.empty() || is_web_mercator(crs)) continue;
+    return Error{fmt::format("{}: its {} is {}; only longitude and latitude (EPSG:4326, CRS84) can be drawn. {}", where,
+                             name, crs.substr(0, 100), kCutThePicture)};
+  }
+  return Error{fmt::format(
+      "{}: an MBTiles file that does not say it is geodetic, so it is in Web Mercator, which cannot be "
+      "drawn: `gdalwarp -t_srs EPSG:4326 '{}' new.tif`, then `terrella cut new.tif -o new.gpkg` makes of it "
+      "what can. If it is in EPSG:4326, its metadata should say so: INSERT INTO metadata VALUES "
+      "('profile', 'geodetic')",
+      where, where)};
 }
 
 /// The size of the tiles, and their format, from one of them.
@@ -187,10 +226,7 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   const Result<Metadata, SqlError> metadata = read_metadata(*reader);
   if (!metadata) return broken(metadata.error());
   if (!geodetic && !says_geodetic(*metadata)) {
-    return Error{
-        where +
-        ": an MBTiles file that does not say it is geodetic, so it is in Web Mercator, which cannot be drawn. "
-        "If it is in EPSG:4326, its metadata should say so: INSERT INTO metadata VALUES ('profile', 'geodetic')"};
+    return not_geodetic(*metadata, where);
   }
   TileSetInfo info;
   info.name = value_of(*metadata, "name");
@@ -198,9 +234,11 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   info.grid.bounds = bounds_of(value_of(*metadata, "bounds"));
   if (Status looked = look_at_tile(*reader, info, where); !looked) return looked.error();
   if (Status levels = read_levels(*reader, *metadata, info.grid, where); !levels) return levels.error();
-  info.grid.root_span_deg = root_span_of(*reader, info.grid);
+  const std::optional<TileRange> finest = tiles_of_level(*reader, info.grid.max_level);
+  info.grid.root_span_deg = root_span_of(finest, info.grid);
   if (Status left = leave_out_root(info.grid, where); !left) return left.error();
   if (Status checked = check_grid(info.grid, where); !checked) return checked.error();
+  if (Status on_grid = check_tiles_lie_on(finest, info.grid, where); !on_grid) return on_grid.error();
   Result<std::unique_ptr<SqliteTiles>, SqlError> tiles = SqliteTiles::open(path, "tiles");
   if (!tiles) return broken(tiles.error());
   return std::unique_ptr<TileSource>(std::make_unique<MbtilesSource>(std::move(info), *std::move(tiles)));

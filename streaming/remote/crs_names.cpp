@@ -20,13 +20,6 @@ constexpr std::array kBodies = {NaifBody{199, "mercury"}, NaifBody{299, "venus"}
                                 NaifBody{399, "earth"},   NaifBody{401, "phobos"}, NaifBody{499, "mars"},
                                 NaifBody{599, "jupiter"}, NaifBody{699, "saturn"}};
 
-bool is_web_mercator(std::string_view code) {
-  for (const std::string_view one : {"3857", "900913", "3785", "102100", "102113"}) {
-    if (code == one) return true;
-  }
-  return false;
-}
-
 Error not_geographic(std::string_view name) {
   return Error{fmt::format("its reference system is {}; only longitude and latitude (EPSG:4326, CRS84) can be drawn",
                            name.empty() ? "not said" : name.substr(0, 100))};
@@ -44,12 +37,21 @@ Result<GeographicCrs> iau_crs(std::int64_t code, bool of_2015, std::string_view 
 
 }  // namespace
 
+bool is_web_mercator(std::string_view name) {
+  name = trimmed(name);
+  const std::string_view code = name.substr(name.find_last_of(":/") + 1);
+  for (const std::string_view one : {"3857", "900913", "3785", "102100", "102113"}) {
+    if (code == one) return true;
+  }
+  return false;
+}
+
 Result<GeographicCrs> parse_crs(std::string_view name) {
   name = trimmed(name);
   const std::string upper_or_not = lower_case(name);
   const std::string_view lowered = upper_or_not;
   const std::string_view code = lowered.substr(lowered.find_last_of(":/") + 1);
-  if (is_web_mercator(code)) {
+  if (is_web_mercator(name)) {
     return Error{fmt::format("it is in Web Mercator ({}), which has no poles; use a matrix set in EPSG:4326", name)};
   }
   if (code == "crs84" || (code == "84" && lowered.find("epsg") == std::string_view::npos)) {

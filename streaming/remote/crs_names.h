@@ -21,4 +21,7 @@ struct GeographicCrs {
 /// cannot be shown: Web Mercator by name. thread: any
 [[nodiscard]] Result<GeographicCrs> parse_crs(std::string_view name);
 
+/// True for the names that Web Mercator goes by, written as parse_crs() reads them. thread: any
+[[nodiscard]] bool is_web_mercator(std::string_view name);
+
 }  // namespace terrella

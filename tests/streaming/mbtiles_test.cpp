@@ -80,8 +80,29 @@ TEST(Mbtiles, MustSayThatItIsGeodetic) {
   EXPECT_TRUE(open_tile_set(folder / "silent.mbtiles", true));
   write_mbtiles(folder / "web.mbtiles", grid, metadata("srs", "EPSG:3857"));
   expect_mbtiles_refused(folder / "web.mbtiles", "Web Mercator");
+  expect_mbtiles_refused(folder / "web.mbtiles", "gdalwarp -t_srs EPSG:4326 '" + (folder / "web.mbtiles").string());
+  write_mbtiles(folder / "utm.mbtiles", grid, metadata("crs", "EPSG:32632"));
+  expect_mbtiles_refused(folder / "utm.mbtiles", "its crs is EPSG:32632");
+  expect_mbtiles_refused(folder / "utm.mbtiles", "terrella cut");
   write_mbtiles(folder / "srs.mbtiles", grid, metadata("srs", "CRS:84"));
   EXPECT_TRUE(open_tile_set(folder / "srs.mbtiles"));
+}
+
+TEST(Mbtiles, TilesBeyondThePlanetAreOfAnotherGrid) {
+  const ScratchFolder folder;
+  const TileGrid grid{.root_span_deg = 180.0, .tile_px = kMbtilePx, .max_level = 1};
+  const auto png = *encode_png(test::gradient(kMbtilePx, kMbtilePx));
+  struct Place {
+    int column, row;
+  };
+  for (const Place place : {Place{4, 0}, Place{0, 2}, Place{-1, 0}, Place{0, -1}}) {
+    const fs::path file = folder / (std::to_string(place.column) + "_" + std::to_string(place.row) + ".mbtiles");
+    write_mbtiles(file, grid, metadata("profile", "geodetic"));
+    test::insert_tile(file, 1, place.column, place.row, png);
+    expect_mbtiles_refused(file, "a grid of its own");
+    expect_mbtiles_refused(file, "at most 4 and 2");
+    expect_mbtiles_refused(file, "terrella cut");
+  }
 }
 
 TEST(Mbtiles, BoundsOfItsMetadataNarrowIt) {
