@@ -38,6 +38,7 @@ class Run {
     if (end_ == PreloadEnd::complete) second_pass();
     wind_down();
     for (const auto& [id, why] : failed_) lack(id, Lack::failed, why);
+    last_asked_ = origin_->counts();
     origin_.reset();
     if (const Status flushed = cache_.flush(); !flushed && !tally_->failed()) return flushed.error();
     while (!tally_->settled()) std::this_thread::sleep_for(kLongestWait);

@@ -38,6 +38,7 @@ class Nginx(PreloadTest):
     def test_all_tiles_once_and_right(self):
         summary, _ = self.preload(self.server.template, "--levels", f"0-{LEVELS - 1}")
         self.assertEqual(summary["stored"], servers.tiles_in(LEVELS))
+        self.assertEqual(summary["requests"], servers.tiles_in(LEVELS))
         self.assertEqual(len(self.stored()), servers.tiles_in(LEVELS))
         self.assert_stored_are_right()
         self.assert_sound()
