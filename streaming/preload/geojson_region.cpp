@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "streaming/preload/geojson_text.h"
-#include "streaming/preload/great_circle.h"
+#include "geo/great_circle.h"
 
 namespace terrella {
 namespace {

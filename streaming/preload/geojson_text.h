@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "geo/result.h"
-#include "streaming/preload/map_plane.h"
+#include "geo/map_plane.h"
 
 namespace terrella {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geo/coordinates.h"
-#include "streaming/preload/map_plane.h"
+#include "geo/map_plane.h"
 
 namespace terrella {
 

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "geo/body.h"
-#include "streaming/preload/great_circle.h"
+#include "geo/great_circle.h"
 #include "streaming/tile_range.h"
 #include "tests/preload/plan_support.h"
 

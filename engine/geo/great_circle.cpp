@@ -1,4 +1,4 @@
-#include "streaming/preload/great_circle.h"
+#include "geo/great_circle.h"
 
 #include <fmt/format.h>
 
@@ -84,31 +84,14 @@ double mean_side(const MapRing& ring) {
   return ring.back().lon_deg > ring.front().lon_deg ? sum : -sum;
 }
 
-/// The part of a ring on one side of a meridian: `side` 1 keeps the east, -1 the west. (Sutherland and Hodgman 1974,
-/// doi:10.1145/360767.360802; what is joined along the meridian cancels out under even-odd filling.)
-MapRing clip(const MapRing& ring, double lon_deg, double side) {
-  MapRing kept;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const MapPoint& a = ring[i];
-    const MapPoint& b = ring[(i + 1) % ring.size()];
-    const bool a_in = side * (a.lon_deg - lon_deg) >= 0.0;
-    const bool b_in = side * (b.lon_deg - lon_deg) >= 0.0;
-    if (a_in) kept.push_back(a);
-    if (a_in != b_in) {
-      const double part = (lon_deg - a.lon_deg) / (b.lon_deg - a.lon_deg);
-      kept.push_back({lon_deg, a.lat_deg + part * (b.lat_deg - a.lat_deg)});
-    }
-  }
-  return kept;
-}
-
 /// Cuts a ring whose longitudes run on into its parts within [-180, 180].
 std::vector<MapRing> cut_at_antimeridian(const MapRing& ring) {
   const auto by_lon = [](const MapPoint& a, const MapPoint& b) { return a.lon_deg < b.lon_deg; };
   const auto [west, east] = std::ranges::minmax_element(ring, by_lon);
   std::vector<MapRing> parts;
   for (double turn = std::floor((west->lon_deg + 180.0) / 360.0); turn * 360.0 - 180.0 < east->lon_deg; turn += 1.0) {
-    MapRing part = clip(clip(ring, turn * 360.0 - 180.0, 1.0), turn * 360.0 + 180.0, -1.0);
+    MapRing part = clip_ring(ring, &MapPoint::lon_deg, turn * 360.0 - 180.0, 1.0);
+    part = clip_ring(part, &MapPoint::lon_deg, turn * 360.0 + 180.0, -1.0);
     for (MapPoint& p : part) p.lon_deg -= turn * 360.0;
     if (part.size() >= 2) parts.push_back(std::move(part));
   }
@@ -130,6 +113,17 @@ Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions) {
     ring.insert(ring.end(), {{ring.back().lon_deg, pole_deg}, {ring.front().lon_deg, pole_deg}});
   }
   return cut_at_antimeridian(ring);
+}
+
+double pieces_of(const std::vector<MapPoint>& positions) {
+  // An arc of angle s lies up to s²/8 off its chord: pieces are this long, or twice.
+  const double piece_deg = Angle::radians(std::sqrt(8.0 * Angle::degrees(kArcTolerance_deg).rad())).deg();
+  double turned_deg = 0.0;
+  for (std::size_t i = 1; i < positions.size(); ++i) {
+    const double east_deg = std::remainder(positions[i].lon_deg - positions[i - 1].lon_deg, 360.0);
+    turned_deg += std::abs(east_deg) + std::abs(positions[i].lat_deg - positions[i - 1].lat_deg);
+  }
+  return double(positions.size()) + turned_deg / piece_deg;
 }
 
 }  // namespace terrella

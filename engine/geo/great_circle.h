@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "geo/map_plane.h"
 #include "geo/result.h"
-#include "streaming/preload/map_plane.h"
 
 namespace terrella {
 
@@ -23,5 +23,8 @@ inline constexpr double kArcTolerance_deg = 1.0e-5;
 /// positions' latitudes must be in [-90, 90], their longitudes finite. The last position may repeat the first. thread:
 /// any
 [[nodiscard]] Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions);
+
+/// About how many pieces rings_of() makes of a ring, rather too many: what the memory it takes follows from.
+[[nodiscard]] double pieces_of(const std::vector<MapPoint>& positions);
 
 }  // namespace terrella

@@ -22,4 +22,9 @@ struct MapRect {
 /// A closed ring; the last point is joined to the first.
 using MapRing = std::vector<MapPoint>;
 
+/// The part of a ring on one side of a meridian or parallel, `axis` = `at_deg`: `side` 1 keeps the larger, -1 the
+/// smaller (Sutherland and Hodgman 1974, doi:10.1145/360767.360802). What is joined along the cut cancels out under
+/// even-odd filling; points on the cut have exactly its coordinate.
+[[nodiscard]] MapRing clip_ring(const MapRing& ring, double MapPoint::*axis, double at_deg, double side);
+
 }  // namespace terrella

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+
+#include "geo/camera.h"
+#include "geo/result.h"
+#include "render/gl_handle.h"
+#include "scene/object_batches.h"
+#include "scene/render_modes.h"
+
+namespace terrella {
+
+/// Draws the objects of a scene: areas, spheres, lines, markers. Everything is drawn relative to the eye. thread: main
+class ObjectPass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth);
+
+  /// Uploads a scene, once; it takes the place of the one before.
+  void set_objects(const ObjectBatches& batches);
+  void set_objects(const ObjectScene& scene, const Ellipsoid& ellipsoid) {
+    set_objects(make_batches(scene, ellipsoid));
+  }
+  [[nodiscard]] bool has(ObjectPart part) const;
+
+  /// Draws one part into the framebuffer that is bound. The caller has set the viewport (its size is `viewport`), the
+  /// frame's uniform block (binding 0), depth test and comparison, and stencil, all of which are left as they are; the
+  /// depth test must be on. Opaque objects write depth, translucent ones come after them and do not; whatever lies over
+  /// or on the ground is drawn a little towards the eye, what lies under it is not. Leaves blending and face culling
+  /// off and the depth mask on. Returns the draw calls made: at most one for each of areas, spheres, lines and markers,
+  /// opaque and translucent.
+  int draw(ObjectPart part, Viewport viewport, ObjectChoice choice = ObjectChoice::all) const;
+
+ private:
+  ObjectPass() = default;
+  Status build_programs(DepthMode depth);
+  void set_up_arrays();
+  [[nodiscard]] int draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_dots(const Batch<char>& batch, const gl::VertexArray& array, const gl::Program& program,
+                              ObjectPart part, bool opaque, ObjectChoice choice) const;
+
+  /// A batch without its things, which are on the GPU.
+  using Ranges = Batch<char>;
+  gl::Program fill_, sphere_, line_, marker_;
+  gl::VertexArray fill_array_, sphere_array_, line_array_, marker_array_;
+  gl::Buffer fill_vertices_, fill_indices_, spheres_, lines_, markers_;
+  Ranges fill_ranges_, sphere_ranges_, line_ranges_, marker_ranges_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,58 @@
+// What all objects share: places relative to the eye, and depth that may be drawn a little towards the eye, so that what
+// lies on the ground is not lost in it.
+layout(location = 0) uniform vec2 viewport_px;
+layout(location = 1) uniform float depth_bias;   // part of the distance, from 0
+
+// Earth-fixed axes, seen from the eye.
+vec3 from_eye(vec3 high_ecef, vec3 low_ecef) {
+  precise vec3 p = (high_ecef - eye_high_ecef.xyz) + (low_ecef - eye_low_ecef.xyz);
+  return p;
+}
+
+vec3 view_of(vec3 high_ecef, vec3 low_ecef) { return mat3(view_from_ecef) * from_eye(high_ecef, low_ecef); }
+
+// How far before the eye's plane.
+float w_of(vec3 from_eye_ecef) {
+  return -dot(vec3(view_from_ecef[0].z, view_from_ecef[1].z, view_from_ecef[2].z), from_eye_ecef);
+}
+
+// Pixels that a metre covers at one metre's distance.
+float focal_px() { return 0.5 * viewport_px.y * clip_scale.y; }
+
+// Depth as a vertex has it: times w.
+float clip_depth(float w, float depth_w) {
+#if defined(DEPTH_REVERSED)
+  return clip_scale.z * w / depth_w;
+#else
+  return (depth_w - clip_scale.z) * (clip_scale.w / (clip_scale.w - clip_scale.z)) * w / depth_w;
+#endif
+}
+
+vec4 clip_of(vec3 position_view, float pull) {
+  float w = -position_view.z;
+  return vec4(position_view.xy * clip_scale.xy, clip_depth(w, w * pull), w);
+}
+
+// Depth as a fragment has it.
+float window_depth(float w) {
+#if defined(DEPTH_REVERSED)
+  return clip_scale.z / w;
+#elif defined(DEPTH_LOGARITHMIC)
+  return log2(w / clip_scale.z + 1.0) / log2(clip_scale.w / clip_scale.z + 1.0);
+#else
+  return (1.0 - clip_scale.z / w) * (clip_scale.w / (clip_scale.w - clip_scale.z));
+#endif
+}
+
+// Logarithmic depth is written for each fragment; the others come out of the vertices.
+#if defined(DEPTH_LOGARITHMIC)
+#define WRITE_DEPTH(pull) gl_FragDepth = window_depth((pull) / gl_FragCoord.w)
+#else
+#define WRITE_DEPTH(pull)
+#endif
+
+// A triangle around the unit circle: half as many as two make a square of.
+vec2 corner_of(int vertex) {
+  const float s = 1.7320508;
+  return vertex == 0 ? vec2(0.0, 2.0) : vertex == 1 ? vec2(-s, -1.0) : vec2(s, -1.0);
+}

@@ -1,0 +1,61 @@
+// One piece of a line an instance: four corners around the way from `here` to `next`, mitred with the pieces before and
+// after, which are read from the same list of vertices, one further on each.
+layout(location = 0) in vec3 before_high_ecef;
+layout(location = 1) in vec3 before_low_ecef;
+layout(location = 2) in vec3 here_high_ecef;
+layout(location = 3) in vec3 here_low_ecef;
+layout(location = 4) in vec3 next_high_ecef;
+layout(location = 5) in vec3 next_low_ecef;
+layout(location = 6) in vec3 after_high_ecef;
+layout(location = 7) in vec3 after_low_ecef;
+layout(location = 8) in float width;         // pixels; 0: no piece begins here
+layout(location = 9) in vec4 color;
+
+out float across_w;                          // pixels from the middle, times w: so it comes out linear on the screen
+flat out float half_width_px;
+flat out vec4 line_color;
+flat out float pull;
+
+const float kMostMitre = 2.0;                // of half the width
+
+// Where the way from p to q comes before the eye's plane, so that both ends have a place on the screen.
+vec3 before_eye(vec3 p, vec3 q) {
+  float least = clip_scale.z;   // what lies before the near plane is not drawn
+  if (-p.z >= least || q.z >= p.z) return p;
+  return mix(p, q, clamp((-least - p.z) / (q.z - p.z), 0.0, 1.0));
+}
+
+vec2 screen_px(vec3 p) { return p.xy * clip_scale.xy / -p.z * 0.5 * viewport_px; }
+
+vec2 unit_or(vec2 v, vec2 otherwise) {
+  float l = length(v);
+  return l > 1e-3 ? v / l : otherwise;
+}
+
+void main() {
+  vec3 here = view_of(here_high_ecef, here_low_ecef), next = view_of(next_high_ecef, next_low_ecef);
+  half_width_px = 0.5 * width;
+  line_color = color;
+  pull = 1.0 - depth_bias;
+  across_w = 0.0;
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  float least = clip_scale.z;   // what lies before the near plane is not drawn
+  if (width <= 0.0 || (-here.z < least && -next.z < least)) return;
+  vec3 a = before_eye(here, next), b = before_eye(next, here);
+  vec3 before = before_eye(view_of(before_high_ecef, before_low_ecef), here);
+  vec3 after = before_eye(view_of(after_high_ecef, after_low_ecef), next);
+  bool at_b = gl_VertexID >= 2;
+  vec2 a_px = screen_px(a), b_px = screen_px(b);
+  vec2 way = unit_or(b_px - a_px, vec2(1.0, 0.0));
+  vec2 other = at_b ? unit_or(screen_px(after) - b_px, way) : unit_or(a_px - screen_px(before), way);
+  // An end that was moved to the eye's plane is nobody's corner.
+  if (at_b ? (-next.z < least || -after.z < least) : (-here.z < least || -before.z < least)) other = way;
+  vec2 mitre = unit_or(way + other, way);
+  float reach = min(1.0 / max(dot(mitre, way), 1e-3), kMostMitre);
+  float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
+  float across_px = side * (half_width_px + 1.0);
+  vec4 clip = clip_of(at_b ? b : a, pull);
+  clip.xy += vec2(-mitre.y, mitre.x) * (across_px * reach) * (2.0 / viewport_px) * clip.w;
+  across_w = across_px * clip.w;
+  gl_Position = clip;
+}

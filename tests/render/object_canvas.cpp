@@ -1,0 +1,103 @@
+#include "object_canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "scene/patch_mesh.h"
+
+namespace terrella::test {
+namespace {
+
+void APIENTRY note_object_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+                                  const void* list) {
+  if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
+  static_cast<std::vector<std::string>*>(const_cast<void*>(list))->emplace_back(text, static_cast<std::size_t>(length));
+}
+
+}  // namespace
+
+void ObjectCanvas::SetUp() {
+  Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
+  ASSERT_TRUE(context) << context.error().message;
+  context_ = std::move(*context);
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(note_object_message, &gl_errors_);
+  frame_block_ = gl::make_buffer();
+  glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  use(DepthMode::reversed, {200, 200});
+}
+
+void ObjectCanvas::TearDown() {
+  if (!context_) return;
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  for (const std::string& error : gl_errors_) ADD_FAILURE() << "OpenGL says: " << error;
+  pass_.reset();
+  color_ = {};
+  depth_ = {};
+  framebuffer_ = {};
+  frame_block_ = {};
+  glDebugMessageCallback(nullptr, nullptr);
+  context_.reset();
+}
+
+void ObjectCanvas::use(DepthMode depth, Viewport size) {
+  auto pass = ObjectPass::create(depth);
+  ASSERT_TRUE(pass) << pass.error().message;
+  pass_ = std::move(*pass);
+  depth_mode_ = depth;
+  size_ = size;
+  color_ = gl::make_texture(GL_TEXTURE_2D);
+  depth_ = gl::make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(color_.name(), 1, GL_RGBA8, size.width_px, size.height_px);
+  glTextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size.width_px, size.height_px);
+  framebuffer_ = gl::make_framebuffer();
+  glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
+  glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+}
+
+void ObjectCanvas::upload_frame(const View& view) const {
+  const double height = std::abs(ellipsoid_.to_geodetic(view.eye).height_m);
+  const double near_m = std::max(0.1 * height, 0.05);
+  const double far_m = glm::length(view.eye.xyz_m) + 1.5 * ellipsoid_.a_m();
+  const SplitPosition eye = split_position(view.eye.xyz_m);
+  FrameBlock block{};
+  block.view_from_ecef = glm::mat4(glm::mat3(view_from_ecef_rotation(view)));
+  block.eye_high_ecef = glm::vec4(eye.high, 0.0F);
+  block.eye_low_ecef = glm::vec4(eye.low, 0.0F);
+  block.clip_scale = glm::vec4(1.0 / (view.tan_half_fov_y * view.aspect()), 1.0 / view.tan_half_fov_y, near_m, far_m);
+  block.sun_ecef = glm::vec4(glm::vec3(glm::normalize(view.eye.xyz_m)), lit_ ? 1.0F : 0.0F);
+  glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
+}
+
+ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
+  upload_frame(view);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, size_.width_px, size_.height_px);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  const bool reversed = depth_mode_ == DepthMode::reversed;
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(reversed ? GL_GREATER : GL_LESS);
+  glDepthMask(GL_TRUE);
+  glClearDepth(reversed ? 0.0 : 1.0);
+  glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
+  pass_->set_objects(scene, ellipsoid_);
+  draw_calls_ = pass_->draw(ObjectPart::underground, size_) + pass_->draw(ObjectPart::above_ground, size_);
+  const auto row = static_cast<std::size_t>(size_.width_px) * 4;
+  std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_.height_px));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(color_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bottom_up.size()),
+                    bottom_up.data());
+  ObjectPicture picture{size_, std::vector<std::uint8_t>(bottom_up.size())};
+  for (int y = 0; y < size_.height_px; ++y) {
+    std::copy_n(bottom_up.data() + row * static_cast<std::size_t>(size_.height_px - 1 - y), row,
+                picture.rgba.data() + row * static_cast<std::size_t>(y));
+  }
+  return picture;
+}
+
+}  // namespace terrella::test

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geo/body.h"
+#include "render/frame_block.h"
+#include "render/object_pass.h"
+#include "render/offscreen.h"
+
+namespace terrella::test {
+
+/// A picture of objects alone: RGBA8, rows from the top.
+struct ObjectPicture {
+  Viewport size;
+  std::vector<std::uint8_t> rgba;
+  [[nodiscard]] ObjectColor at(int x, int y) const {
+    const std::size_t k =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width_px) + static_cast<std::size_t>(x));
+    return {rgba[k], rgba[k + 1], rgba[k + 2], rgba[k + 3]};
+  }
+  [[nodiscard]] bool shown(int x, int y) const { return at(x, y).alpha > 127; }
+};
+
+/// Draws objects on nothing: a transparent picture with depth, without a planet. What GL complains of fails the test.
+class ObjectCanvas : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  void use(DepthMode depth, Viewport size);
+  /// Draws both parts of a scene, unlit.
+  ObjectPicture draw(const ObjectScene& scene, const Camera& camera) { return draw(scene, view(camera)); }
+  ObjectPicture draw(const ObjectScene& scene, const View& view);
+  [[nodiscard]] View view(const Camera& camera) const { return make_view(camera, ellipsoid_, size_); }
+  [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
+
+  int draw_calls_ = 0;  ///< of the last picture
+  bool lit_ = false;
+
+ private:
+  void upload_frame(const View& view) const;
+
+  std::unique_ptr<HeadlessContext> context_;
+  std::unique_ptr<ObjectPass> pass_;
+  DepthMode depth_mode_ = DepthMode::reversed;
+  Ellipsoid ellipsoid_ = earth().ellipsoid;
+  Viewport size_{0, 0};
+  gl::Texture color_, depth_;
+  gl::Framebuffer framebuffer_;
+  gl::Buffer frame_block_;
+  std::vector<std::string> gl_errors_;
+};
+
+}  // namespace terrella::test
