@@ -41,13 +41,18 @@ std::string geojson_type(const json& object) {
 }
 
 std::string feature_name(const json& feature, std::size_t index) {
-  std::string number = fmt::format("feature {}", index + 1);
+  const std::string number = fmt::format("feature {}", index + 1);
+  const auto named = [&number](const json& object, const char* member) {
+    if (!object.is_object()) return std::string();
+    const auto name = object.find(member);
+    const bool is_text = name != object.end() && name->is_string();
+    return is_text ? fmt::format("{} ({})", number, in_quotes(name->get<std::string>())) : std::string();
+  };
   if (!feature.is_object()) return number;
   const auto properties = feature.find("properties");
-  if (properties == feature.end() || !properties->is_object()) return number;
-  const auto name = properties->find("name");
-  if (name == properties->end() || !name->is_string()) return number;
-  return fmt::format("{} ({})", number, in_quotes(name->get<std::string>()));
+  std::string name = properties == feature.end() ? std::string() : named(*properties, "name");
+  if (name.empty()) name = named(feature, "id");
+  return name.empty() ? number : name;
 }
 
 Result<MapPoint> geojson_position(const json& position) {

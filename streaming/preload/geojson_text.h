@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
 #include "geo/map_plane.h"
+#include "geo/result.h"
 
 namespace terrella {
 
@@ -17,7 +17,7 @@ namespace terrella {
 
 /// The `type` of an object; empty if it has none.
 [[nodiscard]] std::string geojson_type(const nlohmann::json& object);
-/// "feature 3 ("Alps")": how an error names one, counted from 1.
+/// "feature 3 ("Alps")": how an error names one, counted from 1, with its name or else its id.
 [[nodiscard]] std::string feature_name(const nlohmann::json& feature, std::size_t index);
 /// Longitude and latitude of a position; finite, |longitude| ≤ 540, |latitude| ≤ 90.
 [[nodiscard]] Result<MapPoint> geojson_position(const nlohmann::json& position);

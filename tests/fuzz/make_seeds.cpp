@@ -144,6 +144,13 @@ int main(int argc, char** argv) {
   write(folder / "geojson/a.geojson",
         R"({"type":"Feature","properties":{"name":"a"},"geometry":{"type":"Polygon","coordinates":[[[170,10],)"
         R"([-170,10],[-170,80],[170,10]]]}})");
+  write(
+      folder / "geojson_objects/a.geojson",
+      R"({"type":"FeatureCollection","metadata":{"url":"https://earthquake.usgs.gov/"},"features":[{"type":"Feature",)"
+      R"("id":"q","properties":{"mag":3,"stroke":"#f00","fill-opacity":0.5,"radius_m":5},"geometry":{"type":"Point",)"
+      R"("coordinates":[170,10,35]}},{"type":"Feature","properties":null,"geometry":{"type":"GeometryCollection",)"
+      R"("geometries":[{"type":"MultiLineString","coordinates":[[[170,10],[-170,80]]]},{"type":"Polygon",)"
+      R"("coordinates":[[[170,10],[-170,10],[0,80],[170,10]],[[1,2],[2,2],[2,3],[1,2]]]}]}}]})");
   const std::string ours =
       std::string(kTables) +
       "CREATE TABLE terrella_tileset (key, value); INSERT INTO terrella_tileset VALUES "

@@ -1,0 +1,129 @@
+#include "streaming/objects/geojson_objects.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "streaming/objects/feature_objects.h"
+#include "streaming/objects/quake_catalogue.h"
+#include "streaming/preload/geojson_text.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+/// Ends the parse.
+struct TooMuch : std::exception {};
+
+/// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
+class FeatureTaker {
+ public:
+  FeatureTaker(std::string where, ObjectFile& file) : where_(std::move(where)), file_(file) {}
+
+  /// What the parser asks after each piece: keep it? Depth 0 is the document, 1 its members, 2 the features.
+  bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    constexpr int kMostDepth = 64;
+    if (++values_ > kMaxFeatureValues || depth > kMostDepth) throw TooMuch();
+    if (depth == 1 && event == json::parse_event_t::key) member_ = parsed.get<std::string>();
+    const bool complete = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end ||
+                          event == json::parse_event_t::value;
+    if (!complete) return true;
+    if (depth == 1 && member_ == "metadata" && is_quake_catalogue(parsed)) quakes_ = true;
+    if (depth != 2 || member_ != "features") return true;
+    take(parsed, count_++);
+    values_ = 0;
+    return false;
+  }
+
+  void take(const json& feature, std::size_t index) {
+    const Complain complain = [&](const std::string& what) {
+      complain_of(fmt::format("{}: {}", feature_name(feature, index), what));
+    };
+    if (geojson_type(feature) != "Feature") return complain("not a Feature; it is left out");
+    const auto geometry = feature.find("geometry");
+    if (geometry == feature.end()) return complain("it has no \"geometry\"");
+    if (geometry->is_null()) return;
+    const auto properties = feature.find("properties");
+    ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
+    if (quakes_) style_quake(feature, style);
+    add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,
+                 complain);
+  }
+
+  void complain_of(const std::string& what) {
+    if (file_.complaints.size() < kMostComplaints) {
+      file_.complaints.push_back(fmt::format("{}: {}", where_, what));
+    } else {
+      ++file_.complaints_left_out;
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  std::string where_;
+  ObjectFile& file_;
+  std::string member_;
+  std::size_t count_ = 0;
+  std::size_t values_ = 0;
+  bool quakes_ = false;
+};
+
+/// What is left of a document when its features have been taken.
+Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
+  const std::string type = geojson_type(document);
+  if (type.empty()) return Error{"JSON, but no GeoJSON: it has no \"type\"; see RFC 7946"};
+  if (type == "FeatureCollection") {
+    const auto features = document.find("features");
+    if (features == document.end() || !features->is_array()) return Error{"a FeatureCollection without \"features\""};
+    return Done{};
+  }
+  if (type == "Feature") return taker.take(document, 0), Done{};
+  add_geometry(document, ObjectStyle{}, ThirdCoordinate::height_m, file.scene,
+               [&taker](const std::string& what) { taker.complain_of(what); });
+  return Done{};
+}
+
+}  // namespace
+
+Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where) {
+  ObjectFile file;
+  FeatureTaker taker(where, file);
+  const auto broken = [&](const std::string& what) -> Result<ObjectFile> {
+    if (file.scene.empty()) return Error{fmt::format("{}: {}", where, what)};
+    taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
+    return std::move(file);
+  };
+  json document;
+  try {
+    document = json::parse(
+        text, [&taker](int depth, json::parse_event_t event, json& parsed) { return taker(depth, event, parsed); });
+  } catch (const json::parse_error& error) {
+    return broken(fmt::format("not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", error.byte));
+  } catch (const json::exception&) {
+    return broken(fmt::format("a number after feature {} is too large", taker.count()));
+  } catch (const TooMuch&) {
+    return broken(fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
+  }
+  if (const Status rest = take_rest(document, taker, file); !rest) return broken(rest.error().message);
+  return file;
+}
+
+Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path) {
+  std::error_code problem;
+  const auto bytes = std::filesystem::file_size(path, problem);
+  if (problem) return Error{fmt::format("{}: {}", path.string(), problem.message())};
+  if (bytes > kMaxObjectFileBytes) {
+    return Error{fmt::format("{}: {} bytes are more than the {} that are read; divide it", path.string(), bytes,
+                             kMaxObjectFileBytes)};
+  }
+  std::ifstream text(path, std::ios::binary);
+  if (!text) return Error{fmt::format("{}: it cannot be opened", path.string())};
+  return parse_geojson_objects(text, path.string());
+}
+
+}  // namespace terrella

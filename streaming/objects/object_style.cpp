@@ -1,0 +1,123 @@
+#include "streaming/objects/object_style.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geo/number.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+/// The properties of one feature. One that is wrong is complained of and is as if it were not there.
+class StyleReader {
+ public:
+  StyleReader(const json& properties, const Complain& complain) : properties_(properties), complain_(complain) {}
+
+  std::optional<ObjectColor> color(const char* name) const {
+    const json* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    const auto color = value->is_string() ? read_color(value->get_ref<const std::string&>()) : std::nullopt;
+    if (!color) complain_(fmt::format("\"{}\" is not a colour; #rrggbb is needed", name));
+    return color;
+  }
+
+  std::optional<double> number(const char* name, double least, double most) const {
+    const json* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (value->is_number()) {
+      const double number = value->get<double>();
+      if (number >= least && number <= most) return number;
+    }
+    complain_(fmt::format("\"{}\" must be a number from {} to {}", name, least, most));
+    return std::nullopt;
+  }
+
+  bool flag(const char* name) const {
+    const json* value = find(name);
+    if (value == nullptr) return false;
+    if (value->is_boolean()) return value->get<bool>();
+    complain_(fmt::format("\"{}\" must be true or false", name));
+    return false;
+  }
+
+  std::optional<float> marker_size() const {
+    const json* value = find("marker-size");
+    if (value == nullptr) return std::nullopt;
+    constexpr std::array<std::pair<const char*, float>, 3> kSizes_px{{{"small", 7}, {"medium", 10}, {"large", 14}}};
+    for (const auto& [name, size] : kSizes_px) {
+      if (*value == name) return size;
+    }
+    complain_("\"marker-size\" must be small, medium or large");
+    return std::nullopt;
+  }
+
+  std::string text(const char* name) const {
+    const json* value = find(name);
+    return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+  }
+
+ private:
+  const json* find(const char* name) const {
+    if (!properties_.is_object()) return nullptr;
+    const auto found = properties_.find(name);
+    return found == properties_.end() || found->is_null() ? nullptr : &*found;
+  }
+
+  const json& properties_;
+  const Complain& complain_;
+};
+
+void set_opacity(ObjectColor& color, std::optional<double> opacity) {
+  if (opacity) color.alpha = static_cast<std::uint8_t>(std::lround(255.0 * *opacity));
+}
+
+/// Sets a colour, but not how opaque it is.
+void set_color(ObjectColor& color, std::optional<ObjectColor> said) {
+  if (said) color = {said->red, said->green, said->blue, color.alpha};
+}
+
+}  // namespace
+
+std::optional<ObjectColor> read_color(std::string_view text) {
+  if (text.starts_with('#')) text.remove_prefix(1);
+  unsigned value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const auto part = [value](unsigned shift, unsigned mask, unsigned scale) {
+    return static_cast<std::uint8_t>((value >> shift & mask) * scale);
+  };
+  if (text.size() == 3) return ObjectColor{part(8, 15, 17), part(4, 15, 17), part(0, 15, 17)};
+  if (text.size() == 6) return ObjectColor{part(16, 255, 1), part(8, 255, 1), part(0, 255, 1)};
+  return std::nullopt;
+}
+
+ObjectStyle read_object_style(const json& properties, const Complain& complain) {
+  constexpr double kMostRadius_m = 1.0e9, kMostWidth_px = 256.0;
+  const StyleReader reader(properties, complain);
+  ObjectStyle style;
+  set_color(style.point.color, reader.color("marker-color"));
+  if (const auto size = reader.marker_size()) style.point.size_px = *size;
+  if (const auto radius = reader.number("radius_m", 0.0, kMostRadius_m)) style.point.radius_m = *radius;
+  const auto stroke = reader.color("stroke");
+  const auto stroke_opacity = reader.number("stroke-opacity", 0.0, 1.0);
+  const auto stroke_width = reader.number("stroke-width", 0.0, kMostWidth_px);
+  for (ObjectColor* color : {&style.line.color, &style.polygon.stroke}) {
+    set_color(*color, stroke);
+    set_opacity(*color, stroke_opacity);
+  }
+  if (stroke_width) style.line.width_px = style.polygon.stroke_width_px = static_cast<float>(*stroke_width);
+  set_color(style.polygon.fill, reader.color("fill"));
+  set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
+  const bool through = reader.flag("through_surface");
+  style.point.through_surface = style.line.through_surface = style.polygon.through_surface = through;
+  style.title = reader.text("title");
+  return style;
+}
+
+}  // namespace terrella

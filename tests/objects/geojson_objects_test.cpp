@@ -1,0 +1,212 @@
+#include "streaming/objects/geojson_objects.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace terrella {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Result<ObjectFile> parsed(const std::string& text) {
+  std::istringstream stream(text);
+  return parse_geojson_objects(stream, "f.geojson");
+}
+
+ObjectFile good(const std::string& text) {
+  auto file = parsed(text);
+  EXPECT_TRUE(file) << file.error().message;
+  return file ? *std::move(file) : ObjectFile{};
+}
+
+std::string feature(const std::string& geometry, const std::string& properties = "{}") {
+  return fmt::format(R"({{"type":"Feature","properties":{},"geometry":{}}})", properties, geometry);
+}
+std::string geometry(const std::string& type, const std::string& coordinates) {
+  return fmt::format(R"({{"type":"{}","coordinates":{}}})", type, coordinates);
+}
+std::string collection(const std::string& features, const std::string& more = "") {
+  return fmt::format(R"({{"type":"FeatureCollection",{}"features":[{}]}})", more, features);
+}
+const std::string kPoint = geometry("Point", "[8.5,47.25,-1200.5]");
+
+TEST(GeojsonObjects, ReadsEveryKindOfGeometryWithHeightsInMetres) {
+  const ObjectFile file = good(collection(
+      feature(kPoint) + "," + feature(geometry("MultiPoint", "[[1,2],[3,4,5]]")) + "," +
+      feature(geometry("LineString", "[[0,0,10],[1,1,20],[2,0]]")) + "," +
+      feature(geometry("MultiLineString", "[[[0,0],[1,1]],[[5,5],[6,6]]]")) + "," +
+      feature(geometry("Polygon", "[[[0,0],[9,0],[9,9],[0,0]],[[5,1],[6,1],[6,2],[5,1]]]")) + "," +
+      feature(geometry("MultiPolygon", "[[[[0,0],[9,0],[9,9],[0,0]]],[[[20,0],[29,0],[29,9],[20,0]]]]")) + "," +
+      feature(R"({"type":"GeometryCollection","geometries":[)" + kPoint + "]}") + "," + feature("null")));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  ASSERT_EQ(file.scene.points.size(), 4U);
+  EXPECT_DOUBLE_EQ(file.scene.points[0].place.lat.deg(), 47.25);
+  EXPECT_DOUBLE_EQ(file.scene.points[0].place.lon.deg(), 8.5);
+  EXPECT_EQ(file.scene.points[0].place.height_m, -1200.5);
+  EXPECT_TRUE(is_underground(file.scene.points[0]));
+  EXPECT_FALSE(is_underground(file.scene.points[1]));
+  ASSERT_EQ(file.scene.lines.size(), 3U);
+  EXPECT_EQ(file.scene.lines[0].places[1].height_m, 20.0);
+  ASSERT_EQ(file.scene.polygons.size(), 3U);
+  EXPECT_EQ(file.scene.polygons[0].rings.size(), 2U);
+  EXPECT_EQ(file.scene.polygons[0].rings[0].size(), 3U);
+}
+
+TEST(GeojsonObjects, ReadsAGeometryOrAFeatureThatIsTheWholeDocument) {
+  EXPECT_EQ(good(kPoint).scene.points.size(), 1U);
+  EXPECT_EQ(good(feature(kPoint)).scene.points.size(), 1U);
+}
+
+TEST(GeojsonObjects, StylesAreSimplestyleRadiusAndThroughSurface) {
+  const ObjectFile file = good(collection(
+      feature(kPoint, R"({"marker-color":"#1E90ff","marker-size":"large","title":"Here","through_surface":true})") +
+      "," + feature(kPoint, R"({"radius_m":2500,"marker-color":"0f0"})") + "," +
+      feature(geometry("LineString", "[[0,0],[1,1]]"),
+              R"({"stroke":"#123456","stroke-width":3.5,"stroke-opacity":0.2})") +
+      "," +
+      feature(geometry("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]"),
+              R"({"fill":"#010203","fill-opacity":1,"stroke":"#fff","stroke-width":0})")));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0x1e, 0x90, 0xff}));
+  EXPECT_EQ(file.scene.points[0].size_px, 14.0F);
+  EXPECT_EQ(file.scene.points[0].radius_m, 0.0);
+  EXPECT_TRUE(file.scene.points[0].through_surface);
+  EXPECT_EQ(file.scene.points[1].color, (ObjectColor{0, 255, 0}));
+  EXPECT_EQ(file.scene.points[1].radius_m, 2500.0);
+  EXPECT_FALSE(file.scene.points[1].through_surface);
+  EXPECT_EQ(file.scene.lines[0].color, (ObjectColor{0x12, 0x34, 0x56, 51}));
+  EXPECT_EQ(file.scene.lines[0].width_px, 3.5F);
+  EXPECT_EQ(file.scene.polygons[0].fill, (ObjectColor{1, 2, 3, 255}));
+  EXPECT_EQ(file.scene.polygons[0].stroke_width_px, 0.0F);
+  ASSERT_EQ(file.scene.labels.size(), 1U);
+  EXPECT_EQ(file.scene.labels[0].text, "Here");
+}
+
+TEST(GeojsonObjects, AStyleThatIsWrongIsComplainedOfAndTheObjectDrawnWithoutIt) {
+  const ObjectFile file = good(collection(feature(
+      kPoint,
+      R"({"name":"Alps","marker-color":"zzz","marker-size":7,"radius_m":-1,"through_surface":"yes","stroke-width":1e9})")));
+  EXPECT_EQ(file.scene.points.size(), 1U);
+  EXPECT_EQ(file.scene.points[0].color, PointObject{}.color);
+  ASSERT_EQ(file.complaints.size(), 5U);
+  for (const std::string& complaint : file.complaints) {
+    EXPECT_THAT(complaint, HasSubstr("f.geojson: feature 1 (\"Alps\"): "));
+  }
+  EXPECT_THAT(file.complaints[0], HasSubstr("\"marker-color\" is not a colour"));
+}
+
+TEST(GeojsonObjects, WhatIsWrongIsLeftOutAndNamedAndTheRestStays) {
+  struct Case {
+    const char* bad;
+    const char* says;
+  };
+  const Case cases[] = {
+      {R"({"type":"Point","coordinates":[8,91]})", "8,91 is not on the planet"},
+      {R"({"type":"Point","coordinates":[1e300,0]})", "is not on the planet"},
+      {R"({"type":"Point","coordinates":["a",0]})", "not [longitude, latitude]"},
+      {R"({"type":"Point","coordinates":[null,0]})", "not [longitude, latitude]"},
+      {R"({"type":"Point","coordinates":[0]})", "not [longitude, latitude]"},
+      {R"({"type":"Point","coordinates":[0,0,"x"]})", "third coordinate"},
+      {R"({"type":"Point","coordinates":[0,0,1e12]})", "height"},
+      {R"({"type":"Point"})", "no \"coordinates\""},
+      {R"({"type":"LineString","coordinates":[[0,0]]})", "fewer than 2"},
+      {R"({"type":"Polygon","coordinates":[]})", "without rings"},
+      {R"({"type":"Polygon","coordinates":[[[0,0],[1,1],[0,0]]]})", "ring 1: it has fewer than 4"},
+      {R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1]]]})", "ring 1: it is not closed: it begins at 0,0"},
+      {R"({"type":"Polygon","coordinates":[[[0,0],[180,0],[90,5],[0,0]]]})", "antipodal"},
+      {R"({"type":"Circle","coordinates":[0,0]})", "\"Circle\" is not a geometry"},
+      {R"({"coordinates":[0,0]})", "no \"type\""},
+      {"7", "no \"type\""},
+  };
+  for (const Case& c : cases) {
+    const ObjectFile file = good(collection(feature(kPoint) + "," + feature(c.bad) + "," + feature(kPoint)));
+    EXPECT_EQ(file.scene.points.size(), 2U) << c.bad;
+    ASSERT_EQ(file.complaints.size(), 1U) << c.bad;
+    EXPECT_THAT(file.complaints[0], AllOf(HasSubstr("f.geojson: feature 2: "), HasSubstr(c.says))) << c.bad;
+  }
+  const ObjectFile parts = good(collection(feature(geometry("MultiPoint", "[[1,2],[3,400],[5,6]]"))));
+  EXPECT_EQ(parts.scene.points.size(), 2U);
+  EXPECT_THAT(parts.complaints, ElementsAre(HasSubstr("feature 1: part 2: ")));
+  const ObjectFile odd = good(collection(feature(kPoint) + R"(,3,[1],{"type":"Point"},)" + feature(kPoint)));
+  EXPECT_EQ(odd.scene.points.size(), 2U);
+  EXPECT_EQ(odd.complaints.size(), 3U);
+}
+
+TEST(GeojsonObjects, ADocumentThatIsNoGeojsonIsAnError) {
+  const auto message = [](const std::string& text) {
+    const auto file = parsed(text);
+    EXPECT_FALSE(file) << text;
+    return file ? std::string() : file.error().message;
+  };
+  EXPECT_THAT(message("<kml/>"), AllOf(HasSubstr("f.geojson: not JSON at byte 1"), HasSubstr("RFC 7946")));
+  EXPECT_THAT(message(""), HasSubstr("not JSON"));
+  EXPECT_THAT(message("{}"), HasSubstr("no GeoJSON"));
+  EXPECT_THAT(message("[1,2]"), HasSubstr("no GeoJSON"));
+  EXPECT_THAT(message(R"({"type":"FeatureCollection"})"), HasSubstr("without \"features\""));
+  EXPECT_THAT(message(collection(feature("{\"type\":\"Point\",\"coordinates\":[NaN,0]}"))),
+              HasSubstr("not JSON at byte"));
+  EXPECT_THAT(message(std::string(100'000, '[')), HasSubstr("holds more"));
+  const auto missing = read_geojson_objects("no/such/file.geojson");
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message, HasSubstr("no/such/file.geojson"));
+}
+
+TEST(GeojsonObjects, WhatCameBeforeTheTextBreaksOffStays) {
+  const std::string whole = collection(feature(kPoint) + "," + feature(kPoint));
+  const ObjectFile file = good(whole.substr(0, whole.size() - 20));
+  EXPECT_EQ(file.scene.points.size(), 1U);
+  EXPECT_THAT(file.complaints, ElementsAre(AllOf(HasSubstr("not JSON at byte"), HasSubstr("the 1 features before"))));
+  const ObjectFile large = good(collection(feature(kPoint) + "," + feature(geometry("Point", "[1e999,0]"))));
+  EXPECT_EQ(large.scene.points.size(), 1U);
+  EXPECT_EQ(large.complaints.size(), 1U);
+}
+
+TEST(GeojsonObjects, ComplaintsEndAtAHundred) {
+  std::string features = feature(kPoint);
+  for (int k = 0; k < 150; ++k) features += "," + feature("3");
+  const ObjectFile file = good(collection(features));
+  EXPECT_EQ(file.complaints.size(), kMostComplaints);
+  EXPECT_EQ(file.complaints_left_out, 50U);
+}
+
+TEST(GeojsonObjects, AreasOverTheAntimeridianAndAPoleAreTaken) {
+  const ObjectFile file = good(collection(feature(geometry("Polygon", "[[[170,-10],[-170,-10],[-170,10],[170,-10]]]")) +
+                                          "," + feature(geometry("Polygon", "[[[0,70],[120,70],[-120,70],[0,70]]]"))));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  EXPECT_EQ(file.scene.polygons.size(), 2U);
+}
+
+TEST(GeojsonObjects, DepthsOfAnEarthquakeCatalogueAreKilometresDown) {
+  const std::string metadata =
+      R"("metadata":{"url":"https://earthquake.usgs.gov/earthquakes/feed/v1.0/summary/all_week.geojson"},)";
+  const std::string quakes = feature(geometry("Point", "[142,38,35]"), R"({"mag":4.0,"title":"M 4.0"})") + "," +
+                             feature(geometry("Point", "[-155,19,-2.79]"), R"({"mag":null,"radius_m":7})");
+  const ObjectFile file = good(collection(quakes, metadata));
+  ASSERT_EQ(file.scene.points.size(), 2U);
+  EXPECT_EQ(file.scene.points[0].place.height_m, -35.0e3);
+  EXPECT_DOUBLE_EQ(file.scene.points[0].radius_m, 40.0e3);
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{255, 140, 40}));
+  EXPECT_DOUBLE_EQ(file.scene.points[1].place.height_m, 2790.0);
+  EXPECT_EQ(file.scene.points[1].radius_m, 7.0);
+  EXPECT_TRUE(file.scene.labels.empty());
+  EXPECT_EQ(good(collection(quakes)).scene.points[0].place.height_m, 35.0) << "metres, where nothing says otherwise";
+}
+
+TEST(GeojsonObjects, TheCatalogueOfAWeekIsAllThere) {
+  const auto file = read_geojson_objects(TERRELLA_DATA_FOLDER "/points/earthquakes.geojson");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(file->scene.points.size(), 1707U);
+  EXPECT_THAT(file->complaints, ElementsAre());
+  double deepest_m = 0.0;
+  for (const PointObject& point : file->scene.points) deepest_m = std::min(deepest_m, point.place.height_m);
+  EXPECT_DOUBLE_EQ(deepest_m, -573'760.0);
+}
+
+}  // namespace
+}  // namespace terrella
