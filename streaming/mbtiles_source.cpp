@@ -134,7 +134,8 @@ double root_span_of(const std::optional<TileRange>& finest, const TileGrid& grid
 }
 
 constexpr const char* kCutThePicture =
-    "Cut the picture that it was made from instead: `gdalwarp -t_srs EPSG:4326 PICTURE new.tif` if that is not in "
+    "Cut the picture that it was made from instead: `gdalwarp -t_srs EPSG:4326 PICTURE new.tif -tr 0.1 0.1 -tap` if "
+    "that is not in "
     "EPSG:4326, then `terrella cut new.tif -o new.gpkg`";
 
 /// Tiles beyond the last column or row of the planet are of a grid of their own, or counted in another way.
@@ -160,12 +161,13 @@ Error not_geodetic(const Metadata& metadata, const std::string& where) {
     return Error{fmt::format("{}: its {} is {}; only longitude and latitude (EPSG:4326, CRS84) can be drawn. {}", where,
                              name, crs.substr(0, 100), kCutThePicture)};
   }
-  return Error{fmt::format(
-      "{}: an MBTiles file that does not say it is geodetic, so it is in Web Mercator, which cannot be "
-      "drawn: `gdalwarp -t_srs EPSG:4326 '{}' new.tif`, then `terrella cut new.tif -o new.gpkg` makes of it "
-      "what can. If it is in EPSG:4326, its metadata should say so: INSERT INTO metadata VALUES "
-      "('profile', 'geodetic')",
-      where, where)};
+  return Error{
+      fmt::format("{}: an MBTiles file that does not say it is geodetic, so it is in Web Mercator, which cannot be "
+                  "drawn: `gdalwarp -t_srs EPSG:4326 '{}' new.tif -tr 0.1 0.1 -tap`, then `terrella cut new.tif -o "
+                  "new.gpkg` makes of it "
+                  "what can. If it is in EPSG:4326, its metadata should say so: INSERT INTO metadata VALUES "
+                  "('profile', 'geodetic')",
+                  where, where)};
 }
 
 /// The size of the tiles, and their format, from one of them.
