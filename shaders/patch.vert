@@ -19,6 +19,9 @@ flat out vec4 row;
 
 // Soft light from the sun's side; the night side keeps a quarter.
 float light_of(vec3 normal_ecef) {
+#if defined(NIGHT_LIGHTS)
+  return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl makes day and night of it
+#endif
   float day = smoothstep(-0.35, 0.75, dot(normal_ecef, sun_ecef.xyz));
   return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
 }

@@ -29,8 +29,28 @@ vec3 tap(vec4 cell, vec2 p) {
   return textureLod(tiles, vec3(p * cell.x + cell.yz, cell.w), 0.0).rgb;
 }
 
+#if defined(NIGHT_LIGHTS)
+layout(binding = 6) uniform samplerCube night_lights;
+
+// Day and night as the Sun makes them, and the lights of cities. `light` is here the sine of the Sun's height.
+vec3 by_day_and_night(vec3 imagery_srgb) {
+  if (sun_ecef.w == 0.0) return imagery_srgb;
+  // A cube looked up by direction has no seam and no pole, and takes no arc tangent.
+  vec3 normal = (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
+  vec3 dx = dFdx(normal), dy = dFdy(normal);
+  vec3 color = imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
+  float night = 1.0 - smoothstep(-0.16, 0.02, light);
+  if (night > 0.0) color += textureGrad(night_lights, normal, dx, dy).r * night * vec3(1.0, 0.84, 0.54);
+  return color;
+}
+#endif
+
 void finish(vec3 imagery_srgb) {
+#if defined(NIGHT_LIGHTS)
+  color_srgb = vec4(by_day_and_night(imagery_srgb), 1.0);
+#else
   color_srgb = vec4(imagery_srgb * light, 1.0);
+#endif
 #if defined(DEPTH_LOGARITHMIC)
   float w = 1.0 / gl_FragCoord.w;
   gl_FragDepth = log2(w / clip_scale.z + 1.0) / log2(clip_scale.w / clip_scale.z + 1.0);
