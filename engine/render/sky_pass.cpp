@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "render/shader_library.h"
@@ -23,8 +24,25 @@ constexpr double kSunStep = 0.0005;
 // The body made a sphere of radius 1: places, and directions.
 glm::dvec3 scaled(const Ellipsoid& e, const glm::dvec3& p) { return p / glm::dvec3(e.a_m(), e.a_m(), e.b_m()); }
 
+/// Rows and columns of shaders/sky_air.vert.
+struct AirMesh {
+  int rows, columns;
+};
+// From outside the air is a thin ring: its chords must not leave it by more than a hundredth of its height, 512 do.
+// From inside it is a dome, whose brightest part around the Sun wants steps of a few degrees.
+constexpr AirMesh kRing{20, 512};
+constexpr AirMesh kDome{40, 120};
+
 glm::dvec3 scaled_direction(const Ellipsoid& e, const glm::dvec3& d) {
   return glm::normalize(glm::dvec3(d.x, d.y, d.z * e.a_m() / e.b_m()));
+}
+
+// x towards the Sun's azimuth, z up.
+glm::dmat3 horizon_axes(const glm::dvec3& up, const glm::dvec3& sun) {
+  glm::dvec3 x = sun - glm::dot(sun, up) * up;
+  if (glm::dot(x, x) < 1e-12) x = glm::cross(up, std::abs(up.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));
+  x = glm::normalize(x);
+  return {x, glm::cross(up, x), up};
 }
 
 double sun_cosine(const Body& body, const View& view, const Almanac& almanac) {
@@ -43,9 +61,9 @@ void set(GLint location, const glm::dmat3& m) {
 }
 
 Result<gl::Program> sky_program(std::string_view vertex, std::string_view fragment) {
-  return build_program(
-      {{GL_VERTEX_SHADER, {"frame.glsl", vertex}}, {GL_FRAGMENT_SHADER, {"frame.glsl", "sky_color.glsl", fragment}}},
-      {});
+  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
+                        {GL_FRAGMENT_SHADER, {"frame.glsl", "sky_color.glsl", fragment}}},
+                       {});
 }
 
 }  // namespace
@@ -178,22 +196,22 @@ int SkyPass::draw_air(const View& view, const SkyInput& input) {
   const double radius = glm::length(eye);
   if (!(radius > 0.0)) return 0;
   update_table(radius, sun_cosine(body_, view, input.almanac));
+  const glm::dvec3 up = eye / radius, sun = scaled_direction(e, input.almanac.sun.xyz);
+  const glm::dmat3 axes = horizon_axes(up, sun);
+  const glm::dmat3 ecef_from_scaled(glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0),
+                                    glm::dvec3(0.0, 0.0, e.b_m() / e.a_m()));
+  const AirMesh mesh = table_.outside ? kRing : kDome;
   glUseProgram(air_program_.name());
-  const glm::dmat3 view_from_ndc(glm::dvec3(view.tan_half_fov_y * view.aspect(), 0.0, 0.0),
-                                 glm::dvec3(0.0, view.tan_half_fov_y, 0.0), glm::dvec3(0.0, 0.0, -1.0));
-  set(0, glm::inverse(view_from_ecef_rotation(view)) * view_from_ndc);
-  set(1, eye / radius, radius);
-  set(2, scaled_direction(e, input.almanac.sun.xyz), e.a_m() / e.b_m());
-  const double dip = std::acos(1.0 / std::max(1.0, radius));
-  glUniform4f(3, table_.outside ? 1.0F : 0.0F, static_cast<float>(e.a_m() / air_->top_m), static_cast<float>(dip),
-              static_cast<float>(1.0 / (1.5707963267948966 + dip)));
+  set(0, ecef_from_scaled * axes);
+  set(1, glm::transpose(axes) * sun, radius);
+  set(2, glm::dvec3(table_.outside ? 1.0 : 0.0, air_->top_m / e.a_m(), table_.horizon_dip_rad), mesh.rows);
   const double g = air_->dust_forwardness;
-  set(4, glm::dvec3(air_->exposure, g, g * g));
+  set(3, glm::dvec3(air_->exposure, g, g * g), mesh.columns);
   glBindTextureUnit(0, table_texture_.name());
   glBindSampler(0, 0);
   glBindVertexArray(empty_array_.name());
   glBlendFunc(GL_ONE, GL_SRC1_COLOR);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (mesh.columns + 1), mesh.rows);
   return 1;
 }
 
