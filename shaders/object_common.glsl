@@ -2,6 +2,7 @@
 // lies on the ground is not lost in it.
 layout(location = 0) uniform vec2 viewport_px;
 layout(location = 1) uniform float depth_bias;   // part of the distance, from 0
+layout(location = 2) uniform float hiding_radius; // of a sphere around the planet's centre that hides what is behind it; 0: none
 
 // Earth-fixed axes, seen from the eye.
 vec3 from_eye(vec3 high_ecef, vec3 low_ecef) {
@@ -14,6 +15,15 @@ vec3 view_of(vec3 high_ecef, vec3 low_ecef) { return mat3(view_from_ecef) * from
 // How far before the eye's plane.
 float w_of(vec3 from_eye_ecef) {
   return -dot(vec3(view_from_ecef[0].z, view_from_ecef[1].z, view_from_ecef[2].z), from_eye_ecef);
+}
+
+// Whether all of a ball lies behind the hiding sphere: the way to its centre passes that sphere's centre by less than the
+// difference of their radii, and before it ends.
+bool is_hidden(vec3 center_from_eye, float away, float radius) {
+  float within = 0.999 * hiding_radius - radius;
+  float passes = -dot(eye_high_ecef.xyz, center_from_eye) / away;
+  if (within <= 0.0 || passes <= 0.0 || passes >= away) return false;
+  return dot(eye_high_ecef.xyz, eye_high_ecef.xyz) - passes * passes < within * within;
 }
 
 // Pixels that a metre covers at one metre's distance.

@@ -10,7 +10,8 @@ flat out vec4 marker_color;
 flat out float pull;
 
 void main() {
-  vec3 c = view_of(center_high_ecef, center_low_ecef);
+  vec3 center = from_eye(center_high_ecef, center_low_ecef);
+  vec3 c = mat3(view_from_ecef) * center;
   radius_px = 0.5 * size;
   marker_color = color;
   offset_px = corner_of(gl_VertexID) * (radius_px + 1.0);
@@ -18,5 +19,5 @@ void main() {
   pull = 1.0 - (depth_bias > 0.0 ? depth_bias + min(4.0 * radius_px / focal_px(), 0.5) : 0.0);
   vec4 clip = clip_of(c, pull);
   if (clip.w > 0.0) clip.xy += offset_px * (2.0 / viewport_px) * clip.w;
-  gl_Position = clip;
+  gl_Position = is_hidden(center, length(center), 0.0) ? vec4(2.0, 2.0, 2.0, 1.0) : clip;
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr float kGroundBias = 1.0e-4F;
 constexpr GLint kViewportUniform = 0;
 constexpr GLint kBiasUniform = 1;
+constexpr GLint kHidingUniform = 2;
 
 void float_attribute(GLuint array, GLuint index, GLuint binding, GLint size, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);
@@ -119,11 +120,14 @@ bool ObjectPass::has(ObjectPart part) const {
   return false;
 }
 
-int ObjectPass::draw(ObjectPart part, Viewport viewport, ObjectChoice choice) const {
+int ObjectPass::draw(ObjectPart part, Viewport viewport, ObjectChoice choice, double hiding_radius_m) const {
   if (!has(part)) return 0;
   for (const gl::Program* program : {&fill_, &sphere_, &line_, &marker_}) {
     glProgramUniform2f(program->name(), kViewportUniform, float(viewport.width_px), float(viewport.height_px));
     glProgramUniform1f(program->name(), kBiasUniform, part == ObjectPart::above_ground ? kGroundBias : 0.0F);
+  }
+  for (const gl::Program* program : {&sphere_, &marker_}) {
+    glProgramUniform1f(program->name(), kHidingUniform, static_cast<float>(hiding_radius_m));
   }
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);

@@ -27,8 +27,10 @@ class ObjectPass {
   /// depth test must be on. Opaque objects write depth, translucent ones come after them and do not; whatever lies over
   /// or on the ground is drawn a little towards the eye, what lies under it is not. Leaves blending and face culling
   /// off and the depth mask on. Returns the draw calls made: at most one for each of areas, spheres, lines and markers,
-  /// opaque and translucent.
-  int draw(ObjectPart part, Viewport viewport, ObjectChoice choice = ObjectChoice::all) const;
+  /// opaque and translucent. Where the caller knows of an opaque sphere around the planet's centre, `hiding_radius_m`,
+  /// spheres and markers behind it are not even begun: on software GL they would cost as much as those in sight.
+  int draw(ObjectPart part, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
+           double hiding_radius_m = 0.0) const;
 
  private:
   ObjectPass() = default;

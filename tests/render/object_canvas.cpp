@@ -86,7 +86,10 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   pass_->set_objects(scene, ellipsoid_);
-  draw_calls_ = pass_->draw(ObjectPart::underground, size_) + pass_->draw(ObjectPart::above_ground, size_);
+  draw_calls_ = 0;
+  for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
+    draw_calls_ += pass_->draw(part, size_, ObjectChoice::all, hiding_radius_m_);
+  }
   const auto row = static_cast<std::size_t>(size_.width_px) * 4;
   std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_.height_px));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

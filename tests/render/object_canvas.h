@@ -41,6 +41,7 @@ class ObjectCanvas : public testing::Test {
 
   int draw_calls_ = 0;  ///< of the last picture
   bool lit_ = false;
+  double hiding_radius_m_ = 0.0;
 
  private:
   void upload_frame(const View& view) const;

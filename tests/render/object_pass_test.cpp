@@ -129,6 +129,34 @@ TEST_F(ObjectPassTest, HundredThousandSpheresAreOneDraw) {
   EXPECT_EQ(draw(scene, over(10.0, 20.0, 1.0e7)).rgba, first.rgba) << "the same scene gives other pixels";
 }
 
+TEST_F(ObjectPassTest, WhatASphereHidesIsNotDrawnAndAllElseIs) {
+  // Spheres all round, with and without the hiding sphere drawn as an object that hides them: the same picture.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> lat(-90.0, 90.0), lon(-180.0, 180.0), height(-900.0e3, 300.0e3);
+  ObjectScene scene;
+  for (int k = 0; k < 3000; ++k) {
+    scene.points.push_back(sphere(at(lat(random), lon(random), height(random)), 60.0e3, kRed));
+  }
+  const double hiding_m = ellipsoid().a_m() - 1.0e6;
+  const auto ball = [&](double part) { return sphere(at(0.0, 0.0, -ellipsoid().a_m()), part * hiding_m, kBlue); };
+  scene.points.insert(scene.points.begin(), ball(1.0));
+  for (const Camera& camera : {over(30.0, 60.0, 2.0e7), over(-50.0, 10.0, 5.0e5, -30.0)}) {
+    hiding_radius_m_ = 0.0;
+    const ObjectPicture all = draw(scene, camera);
+    hiding_radius_m_ = hiding_m;
+    EXPECT_EQ(draw(scene, camera).rgba, all.rgba);
+  }
+  scene.points.erase(scene.points.begin());
+  const auto covered = [](const ObjectPicture& picture) {
+    int count = 0;
+    for (std::size_t k = 3; k < picture.rgba.size(); k += 4) count += picture.rgba[k] > 127 ? 1 : 0;
+    return count;
+  };
+  const int fewer = covered(draw(scene, over(30.0, 60.0, 2.0e7)));
+  hiding_radius_m_ = 0.0;
+  EXPECT_GT(covered(draw(scene, over(30.0, 60.0, 2.0e7))), fewer + 100) << "nothing was spared";
+}
+
 TEST_F(ObjectPassTest, MarkerKeepsItsSizeWhateverTheDistance) {
   const PointObject marker{.place = at(10.0, 20.0), .size_px = 24.0F, .color = kGreen};
   for (const double height_m : {10.0, 1.0e4, 1.0e7, 1.0e8}) {
