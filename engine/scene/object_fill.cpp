@@ -251,7 +251,7 @@ Rings rings_on_map(const PolygonObject& polygon) {
     if (ring.size() < 3) continue;
     const std::vector<MapPoint> positions = on_map(ring);
     arc_pieces += pieces_of(positions);
-    if (arc_pieces > kMostArcPieces) return {};
+    if (!(arc_pieces <= kMostArcPieces)) return {};  // nor what is not finite
     auto parts = rings_of(positions);
     if (!parts) return {};
     for (MapRing& part : *parts) rings.push_back(std::move(part));

@@ -43,7 +43,12 @@ Angle between(const Geodetic& a, const Geodetic& b) {
   return Angle::radians(std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)));
 }
 
-int pieces(Angle way, Angle step) { return std::max(1, static_cast<int>(std::ceil(way / step))); }
+/// 1 for what is not finite.
+int pieces(Angle way, Angle step) {
+  constexpr double kMost = 1.0e6;
+  const double pieces = std::ceil(way / step);
+  return pieces > 1.0 ? static_cast<int>(std::min(pieces, kMost)) : 1;
+}
 
 dvec3 lifted(const Geodetic& place, const Ellipsoid& ellipsoid, double lift_m) {
   Geodetic higher = place;
