@@ -32,7 +32,9 @@ void write_tall_tiff(const std::filesystem::path& path, int width_px, int height
 }
 
 /// What stands in a row of a tile or strip of write_wide_bigtiff().
-std::uint8_t value_of(std::uint32_t block, std::size_t row) { return static_cast<std::uint8_t>(block * 31 + row * 7); }
+std::uint8_t value_of(std::uint32_t block, std::size_t row) {
+  return static_cast<std::uint8_t>(std::size_t{block} * 31 + row * 7);
+}
 
 /// Each row of each tile of one colour; 0 px: strips of a row.
 void write_wide_bigtiff(const std::filesystem::path& path, int width_px, int height_px, int tile_px) {
