@@ -69,7 +69,7 @@ auto progress_lines() {
 int run_info(const InfoOptions& options) {
   SceneOptions scene;
   scene.tile_set = options.tile_set;
-  const Result<std::shared_ptr<TileSource>> source = open_imagery(scene);
+  const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
   if (!source) return fail("info", source.error().message);
   TileSetReport report{
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};

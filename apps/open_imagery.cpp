@@ -157,7 +157,7 @@ Status find_imagery(const SceneOptions& options) {
   return Done{};
 }
 
-Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options) {
   auto tiles = open_named(options);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
@@ -165,6 +165,15 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   info.grid.latitude = options.latitude.value_or(info.grid.latitude);
   if (info.grid == (*tiles)->info().grid) return tiles;
   return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
+}
+
+Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+  auto tiles = open_any_tiles(options);
+  if (!tiles || !(*tiles)->info().elevation) return tiles;
+  return Error{
+      fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
+                  "--elevation {0}",
+                  options.tile_set)};
 }
 
 }  // namespace terrella

@@ -8,10 +8,14 @@
 
 namespace terrella {
 
-/// Opens what TILESET names: nothing is the Earth that the program carries; a picture is cut into the cache, with a
-/// progress bar on standard error, unless it was before; anything else is opened as a tile set. --projection and
+/// Opens what TILESET names, pictures or heights: nothing is the Earth that the program carries; a picture is cut into
+/// the cache, with a progress bar on standard error, unless it was before; anything else is opened as a tile set.
+/// --projection and
 /// --latitude, if given, overrule what the tile set says of itself. The error names the input. Throws
 /// BrokenInstallation. thread: main
+[[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options);
+
+/// The same for pictures to draw: tiles of heights are refused, with what they are for. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
 
 /// Fails if what TILESET names is not there at all: a quick look before anything slow. Throws BrokenInstallation.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "streaming/geopackage_matrix.h"
+#include "streaming/gpkg_coverage.h"
 #include "streaming/tile_range.h"
 #include "streaming/tileset_check.h"
 #include "streaming/tileset_json.h"
@@ -24,6 +25,7 @@ struct TileTable {
   std::int64_t srs_id = 0;
   Extent set;
   std::optional<Extent> data;
+  bool is_coverage = false;
 };
 
 std::optional<Extent> get_extent(const SqliteQuery& query, int first_column) {
@@ -55,7 +57,8 @@ Result<TileTable> get_table(const SqliteQuery& query, const std::string& where) 
                    .description = query.text(2).value_or(""),
                    .srs_id = *srs_id,
                    .set = *set,
-                   .data = get_extent(query, 4)};
+                   .data = get_extent(query, 4),
+                   .is_coverage = query.text(12) == kCoverageDataType};
 }
 
 /// What an SRS is called, for example "EPSG:4326".
@@ -76,26 +79,14 @@ bool is_epsg_4326(SqliteReader& reader, std::int64_t srs_id) {
   return srs_id == 4326 || srs_name(reader, srs_id) == "EPSG:4326";
 }
 
-Error no_tiles(SqliteReader& reader, const std::string& where) {
-  Result<SqliteQuery, SqlError> query =
-      reader.prepare("SELECT 1 FROM gpkg_contents WHERE data_type = '2d-gridded-coverage'");
-  if (query) {
-    const Result<bool, SqlError> row = query->step();
-    if (row && *row) return Error{where + ": a GeoPackage of elevation, which is not imagery"};
-  }
-  return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
-}
-
-/// The first tile table that can be used: any if `any_srs` (one of ours, which may hold heights), else pictures in
-/// EPSG:4326.
+/// The first tile table that can be used, pictures before heights: any if `any_srs` (one of ours), else in EPSG:4326.
 Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
       "m.min_y, "
-      "m.max_x, m.max_y FROM gpkg_contents c JOIN gpkg_tile_matrix_set m ON m.table_name = c.table_name WHERE "
-      "c.data_type = 'tiles' OR (?1 AND c.data_type = '2d-gridded-coverage')");
+      "m.max_x, m.max_y, c.data_type FROM gpkg_contents c JOIN gpkg_tile_matrix_set m ON m.table_name = c.table_name "
+      "WHERE c.data_type IN ('tiles', '2d-gridded-coverage') ORDER BY c.data_type DESC");
   if (!query) return Error{fmt::format("{}: not a GeoPackage with tiles: {}", where, query.error().message)};
-  query->bind(1, any_srs ? 1 : 0);
   std::optional<Error> refused;
   for (int i = 0; i < kMaxTables; ++i) {
     const Result<bool, SqlError> more = query->step();
@@ -111,7 +102,8 @@ Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::stri
                             where, table->name, srs_name(reader, table->srs_id))};
     }
   }
-  return refused ? *refused : no_tiles(reader, where);
+  if (refused) return *refused;
+  return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
 }
 
 /// Longitudes that go on beyond 180° (0 to 360 is common for planets) come back at the other side.
@@ -200,6 +192,7 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
 
   GeoPackageTiles tiles;
   tiles.table = table->name;
+  tiles.is_coverage = table->is_coverage;
   if (ours) {
     Result<TileSetInfo> info = parse_tileset_json(**description, fmt::format("{}: {}", where, kTileSetTable));
     if (!info) return info.error();
@@ -211,6 +204,11 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   tiles.info.attribution = table->description;
   tiles.info.grid.bounds = bounds_of(table->data.value_or(table->set));
   tiles.info.format = format_of(reader, table->name);
+  if (table->is_coverage) {
+    const Result<ElevationInfo> elevation = read_coverage(reader, table->name, where);
+    if (!elevation) return elevation.error();
+    tiles.info.elevation = *elevation;
+  }
   if (Status placed = place_on_grid(*matrices, table->set, tiles, where); !placed) return placed.error();
   if (Status grid = check_grid(tiles.info.grid, where); !grid) return grid.error();
   if (Status filled = drop_empty_levels(reader, tiles, where); !filled) return filled.error();

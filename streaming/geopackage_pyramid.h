@@ -25,12 +25,14 @@ struct GeoPackageLevel {
 struct GeoPackageTiles {
   TileSetInfo info;
   std::string table;
+  bool is_coverage = false;
   std::map<int, GeoPackageLevel> levels;
 };
 
-/// Finds the tiles in a GeoPackage: those that its table `terrella_tileset` describes, else the first tile table in
-/// EPSG:4326 whose zoom levels halve and whose corner is a whole number of tiles from (-180°, 90°); coarse levels for
-/// which it is not are left out. OGC 12-128r18, clauses 2.2.6 to 2.2.8. The error begins with `where`.
+/// Finds the tiles in a GeoPackage: those that its table `terrella_tileset` describes, else the first tile table, or if
+/// there is none the first gridded coverage (heights), in EPSG:4326 whose zoom levels halve and whose corner is a whole
+/// number of tiles from (-180°, 90°); coarse levels for which it is not are left out. OGC 12-128r18, clauses 2.2.6
+/// to 2.2.8. The error begins with `where`.
 [[nodiscard]] Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where);
 
 }  // namespace terrella

@@ -87,7 +87,8 @@ Result<std::unique_ptr<TileSource>> open_geopackage(const fs::path& path, bool g
   }
   Result<GeoPackageTiles> tiles = read_geopackage(*reader, where);
   if (!tiles) return tiles.error();
-  Result<std::unique_ptr<SqliteTiles>, SqlError> table = SqliteTiles::open(path, tiles->table);
+  Result<std::unique_ptr<SqliteTiles>, SqlError> table =
+      SqliteTiles::open(path, tiles->table, tiles->is_coverage ? TileExtras::coverage : TileExtras::none);
   if (!table) return Error{fmt::format("{}: the tile table \"{}\": {}", where, tiles->table, table.error().message)};
   return std::unique_ptr<TileSource>(std::make_unique<GeoPackageSource>(*std::move(tiles), *std::move(table)));
 }

@@ -1,7 +1,9 @@
 #include "streaming/png_codec.h"
 
+#include <fmt/format.h>
 #include <png.h>
 
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <memory>
@@ -78,6 +80,38 @@ bool read_pixels(Decoder& decoder, std::uint8_t* rgba, std::size_t row_bytes, st
   return true;
 }
 
+bool read_values(Decoder& decoder, std::uint16_t* values, std::size_t width, std::size_t rows) {
+  png_structp png = decoder.png;
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  // PNG is big-endian.
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+  const int passes = png_set_interlace_handling(png);
+  png_read_update_info(png, decoder.info);
+  if (png_get_rowbytes(png, decoder.info) != width * 2) png_error(png, "the rows are of an unexpected size");
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      png_read_row(png, reinterpret_cast<png_bytep>(values + row * width), nullptr);
+    }
+  }
+  png_read_end(png, nullptr);
+  return true;
+}
+
+const char* name_of_colour(int colour_type) {
+  switch (colour_type) {
+    case PNG_COLOR_TYPE_GRAY:
+      return "gray";
+    case PNG_COLOR_TYPE_GRAY_ALPHA:
+      return "gray with alpha";
+    case PNG_COLOR_TYPE_PALETTE:
+      return "a palette";
+    case PNG_COLOR_TYPE_RGB:
+      return "RGB";
+    default:
+      return "RGBA";
+  }
+}
+
 Error png_failure(const std::string& message) { return Error{"PNG: " + message}; }
 
 bool has_no_alpha(const Image& image) {
@@ -110,6 +144,25 @@ Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& l
   image.rgba.resize(row_bytes * height);
   if (!read_pixels(decoder, image.rgba.data(), row_bytes, height)) return png_failure(decoder.message);
   return image;
+}
+
+Result<Gray16> decode_gray16_png(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+  Decoder decoder;
+  decoder.rest = bytes;
+  if (!set_up(decoder)) return png_failure("out of memory");
+  if (!read_header(decoder)) return png_failure(decoder.message);
+  const int colour = png_get_color_type(decoder.png, decoder.info);
+  const int bits = png_get_bit_depth(decoder.png, decoder.info);
+  if (colour != PNG_COLOR_TYPE_GRAY || bits != 16) {
+    return Error{fmt::format("PNG: {} of {} bits, heights are gray of 16 bits", name_of_colour(colour), bits)};
+  }
+  const png_uint_32 width = png_get_image_width(decoder.png, decoder.info);
+  const png_uint_32 height = png_get_image_height(decoder.png, decoder.info);
+  if (Status fits = check_size(width, height, limits); !fits) return png_failure(fits.error().message);
+  Gray16 gray{.width_px = static_cast<int>(width), .height_px = static_cast<int>(height), .values = {}};
+  gray.values.resize(std::size_t{width} * height);
+  if (!read_values(decoder, gray.values.data(), width, height)) return png_failure(decoder.message);
+  return gray;
 }
 
 Result<PictureSize> png_size(std::span<const std::byte> bytes) {

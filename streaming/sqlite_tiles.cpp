@@ -13,13 +13,24 @@ Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
   const auto blob = query.blob(0);
   if (!blob) return TileFailure{Absence::broken, "tile_data is not a blob"};
   if (blob->empty()) return TileFailure{Absence::blank, "tile_data is empty"};
-  return EncodedTile{{blob->begin(), blob->end()}};
+  return EncodedTile{.bytes = {blob->begin(), blob->end()},
+                     .number_scale = query.number(1).value_or(1.0),
+                     .number_offset = query.number(2).value_or(0.0)};
+}
+
+/// A tile without a row of its own in the side table has a scale of 1 and an offset of 0.
+std::string select_tile(const std::string& quoted_table, TileExtras extras) {
+  const std::string place = " WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3";
+  if (extras == TileExtras::none) return "SELECT tile_data, NULL, NULL FROM " + quoted_table + place;
+  return "SELECT tile_data, a.scale, a.\"offset\" FROM " + quoted_table +
+         " t LEFT JOIN gpkg_2d_gridded_tile_ancillary a ON a.tpudt_name = ?4 AND a.tpudt_id = t.id" + place;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<SqliteTiles>, SqlError> SqliteTiles::open(std::filesystem::path path, std::string table) {
-  std::unique_ptr<SqliteTiles> tiles(new SqliteTiles(std::move(path), std::move(table)));
+Result<std::unique_ptr<SqliteTiles>, SqlError> SqliteTiles::open(std::filesystem::path path, std::string table,
+                                                                 TileExtras extras) {
+  std::unique_ptr<SqliteTiles> tiles(new SqliteTiles(std::move(path), std::move(table), extras));
   Result<Connection, SqlError> first = tiles->connect();
   if (!first) return first.error();
   tiles->give_back(*std::move(first));
@@ -30,8 +41,7 @@ Result<SqliteTiles::Connection, SqlError> SqliteTiles::connect() const {
   Result<SqliteReader, SqlError> reader = SqliteReader::open(path_, kMaxTileBytes);
   if (!reader) return reader.error();
   const std::string name = quote_identifier(table_);
-  Result<SqliteQuery, SqlError> tile = reader->prepare("SELECT tile_data FROM " + name +
-                                                       " WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3");
+  Result<SqliteQuery, SqlError> tile = reader->prepare(select_tile(name, extras_));
   if (!tile) return tile.error();
   Result<SqliteQuery, SqlError> count = reader->prepare("SELECT count(*) FROM " + name + " WHERE zoom_level = ?1");
   if (!count) return count.error();
@@ -45,6 +55,7 @@ Result<EncodedTile, TileFailure> SqliteTiles::read(const SqlitePlace& place) {
   connection->tile.bind(1, place.zoom);
   connection->tile.bind(2, place.column);
   connection->tile.bind(3, place.row);
+  if (extras_ == TileExtras::coverage) connection->tile.bind(4, table_);
   const Result<bool, SqlError> row = connection->tile.step(kMaxTileSteps);
   Result<EncodedTile, TileFailure> tile = row ? tile_of(connection->tile, *row) : failure_of(row.error());
   connection->tile.reset();

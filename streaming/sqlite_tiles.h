@@ -24,12 +24,16 @@ struct SqlitePlace {
   std::int64_t row = 0;
 };
 
+/// With the tiles of a gridded coverage come their own scales and offsets (OGC 17-066r1, table 3).
+enum class TileExtras { none, coverage };
+
 /// The tiles in one table (zoom_level, tile_column, tile_row, tile_data) of a GeoPackage or an MBTiles file. Several
 /// threads read at once, each on a connection of its own. thread: any
 class SqliteTiles {
  public:
   [[nodiscard]] static Result<std::unique_ptr<SqliteTiles>, SqlError> open(std::filesystem::path path,
-                                                                           std::string table);
+                                                                           std::string table,
+                                                                           TileExtras extras = TileExtras::none);
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const SqlitePlace& place);
   [[nodiscard]] std::optional<std::int64_t> count(std::int64_t zoom);
@@ -42,7 +46,8 @@ class SqliteTiles {
     SqliteQuery count;
   };
 
-  SqliteTiles(std::filesystem::path path, std::string table) : path_(std::move(path)), table_(std::move(table)) {}
+  SqliteTiles(std::filesystem::path path, std::string table, TileExtras extras)
+      : path_(std::move(path)), table_(std::move(table)), extras_(extras) {}
   [[nodiscard]] Result<Connection, SqlError> connect() const;
   [[nodiscard]] Result<Connection, SqlError> take();
   void give_back(Connection connection);
@@ -50,6 +55,7 @@ class SqliteTiles {
 
   const std::filesystem::path path_;
   const std::string table_;
+  const TileExtras extras_;
   std::atomic<bool> given_up_ = false;
   std::mutex mutex_;
   std::vector<Connection> idle_;  ///< as many as there were readers at once; guarded by mutex_

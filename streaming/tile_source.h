@@ -15,11 +15,12 @@
 
 namespace terrella {
 
-/// What the whole numbers of 16-bit tiles mean.
+/// What the numbers of tiles of heights mean.
 struct ElevationInfo {
-  double scale = 1.0;         ///< metres = number · scale + offset; not 0
-  double offset = 0.0;        ///< metres
-  std::optional<int> nodata;  ///< the number that says that there is no height, [0, 65535]
+  double scale = 1.0;            ///< metres = number · scale + offset; not 0
+  double offset = 0.0;           ///< metres
+  std::optional<double> nodata;  ///< the number that says that there is no height; of whole ones in [0, 65535]
+  bool floats = false;           ///< tiles are TIFFs of 32-bit floats; else gray PNGs of 16 bits
   bool operator==(const ElevationInfo&) const = default;
 };
 
@@ -30,7 +31,7 @@ struct TileSetInfo {
   std::string body;  ///< preset name or "A,F"; empty: not said
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
-  std::optional<ElevationInfo> elevation = {};  ///< the tiles are heights, 16-bit gray PNG; none: pictures
+  std::optional<ElevationInfo> elevation = {};  ///< the tiles are heights; none: pictures
 };
 
 /// Why a tile is not there (DESIGN 11). Each kind has its own lifetime.
@@ -49,6 +50,9 @@ struct TileFailure {
 /// The bytes of one tile as stored.
 struct EncodedTile {
   std::vector<std::byte> bytes;
+  /// Of heights: what is decoded counts as decoded · scale + offset among the set's numbers (ElevationInfo).
+  double number_scale = 1.0;
+  double number_offset = 0.0;
 };
 
 /// The far side of a source behind a network: what read() does not have here is fetched without blocking.

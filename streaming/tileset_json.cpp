@@ -31,8 +31,8 @@ std::optional<ElevationInfo> read_elevation(const json& object, JsonFields& fiel
   if (inner.error())
     return fields.fail<std::optional<ElevationInfo>>("elevation", "takes the numbers scale, offset, nodata");
   if (info.scale == 0.0) return fields.fail<std::optional<ElevationInfo>>("elevation", "has a scale of 0");
-  const int nodata = info.nodata.value_or(0);
-  if (nodata < 0 || nodata > 65535) fields.fail<int>("elevation", "has a nodata beyond 0 to 65535");
+  const double nodata = info.nodata.value_or(0.0);
+  if (nodata < 0.0 || nodata > 65535.0) fields.fail<int>("elevation", "has a nodata beyond 0 to 65535");
   return info;
 }
 
@@ -90,7 +90,7 @@ std::string to_tileset_json(const TileSetInfo& info) {
   object["format"] = name_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
-    if (info.elevation->nodata) object["elevation"]["nodata"] = *info.elevation->nodata;
+    if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
   }
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -10,9 +10,15 @@ def png(width, height, colour=(40, 90, 160)):
     return png_of(width, height, zlib.compress(row * height))
 
 
-def png_of(width, height, compressed):
+def heights_png(width, height, number=33768):
+    """A PNG of one number, gray of 16 bits."""
+    row = b"\0" + struct.pack(">H", number) * width
+    return png_of(width, height, zlib.compress(row * height), bits=16, colour=0)
+
+
+def png_of(width, height, compressed, bits=8, colour=2):
     """A PNG that claims a size and carries any compressed rows: the truth of the claim is up to the caller."""
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"IDAT", compressed) + _chunk(b"IEND", b"")
 
 

@@ -6,7 +6,7 @@ import unittest
 import zlib
 
 import geopackages
-from pictures import png_of
+from pictures import heights_png, png_of
 from program import DONE_IN_PART, FAILED, NATURAL_EARTH, ProgramTest
 
 # The least that a render of a broken tile set may leave: said and exit 3, or refused and exit 1.
@@ -105,3 +105,27 @@ class Folders(ProgramTest):
 
 if __name__ == "__main__":
     unittest.main()
+
+
+class Heights(ProgramTest):
+    """Sets of heights are no pictures to draw: said, with what to do with them."""
+
+    def assert_told_apart(self, tiles):
+        self.assert_fails(FAILED, "render", tiles, *RENDER, says=[tiles, "heights, not pictures", "--elevation"])
+        self.assertFalse((self.folder / "shot.png").exists())
+        self.assertIn("elevation", self.assert_done("info", tiles).stdout)
+
+    def test_what_cut_writes(self):
+        self.write("in.png", heights_png(512, 256))
+        for output in ("relief.gpkg", "relief"):
+            with self.subTest(output):
+                self.assert_done("cut", "in.png", "--elevation", "--offset", "-32768", "-o", output)
+                self.assert_told_apart(output)
+
+    def test_coverages_of_other_programs(self):
+        self.write("in.png", heights_png(512, 256))
+        self.assert_done("cut", "in.png", "--elevation", "-o", "relief.gpkg")
+        with sqlite3.connect(self.folder / "relief.gpkg") as base:
+            base.execute("DROP TABLE terrella_tileset")
+        base.close()
+        self.assert_told_apart("relief.gpkg")

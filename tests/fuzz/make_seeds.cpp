@@ -1,4 +1,5 @@
 #include <sqlite3.h>
+#include <tiffio.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "streaming/cut/gray16_png.h"
 #include "streaming/image.h"
 #include "streaming/tileset_json.h"
 
@@ -72,6 +74,16 @@ constexpr const char* kTables =
     "CREATE TABLE t (zoom_level, tile_column, tile_row, tile_data);"
     "INSERT INTO t VALUES (0, 0, 0, x'FFD8FF'), (1, 3, 1, x'89'), (1, 0, 0, NULL);";
 
+/// The tables as those of heights.
+constexpr const char* kCoverage =
+    "UPDATE gpkg_contents SET data_type = '2d-gridded-coverage';"
+    "CREATE TABLE gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, offset, data_null, uom, "
+    "grid_cell_encoding);"
+    "INSERT INTO gpkg_2d_gridded_coverage_ancillary VALUES ('t', 'integer', 1.0, -32768, 5, 'm', 'grid-value-is-area');"
+    "CREATE TABLE gpkg_2d_gridded_tile_ancillary (tpudt_name, tpudt_id, scale, offset);"
+    "INSERT INTO gpkg_2d_gridded_tile_ancillary VALUES ('t', 1, 2.0, 1.0);"
+    "ALTER TABLE t ADD COLUMN id; UPDATE t SET id = rowid;";
+
 constexpr const char* kCapabilities =
     "<Capabilities><Contents><Layer><Title>t</Title><Identifier>l</Identifier><Style isDefault=\"true\"><Identifier>d"
     "</Identifier></Style><Format>image/png</Format><WGS84BoundingBox><LowerCorner>-180 -90</LowerCorner><UpperCorner>"
@@ -98,6 +110,24 @@ constexpr const char* kMbtiles =
     "CREATE TABLE metadata (name, value); INSERT INTO metadata VALUES ('profile', 'geodetic'), ('bounds', "
     "'-180,-90,180,90');"
     "CREATE TABLE tiles (zoom_level, tile_column, tile_row, tile_data);";
+
+/// A tile of 16 × 16 floats.
+void write_float_tiff(const fs::path& path) {
+  fs::create_directories(path.parent_path());
+  TIFF* tiff = TIFFOpen(path.c_str(), "w");
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 16);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 16);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+  for (std::uint32_t y = 0; y < 16; ++y) {
+    std::vector<float> row(16, static_cast<float>(y) * 100.5F);
+    TIFFWriteScanline(tiff, row.data(), y, 0);
+  }
+  TIFFClose(tiff);
+}
 
 /// A tile as SQL writes a blob.
 std::string blob_of(const std::vector<std::byte>& bytes) {
@@ -131,6 +161,10 @@ int main(int argc, char** argv) {
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));
+  std::vector<std::uint16_t> heights;
+  for (int i = 0; i < 256; ++i) heights.push_back(static_cast<std::uint16_t>(i * 257));
+  write(folder / "heights/a.png", *encode_gray16_png(heights, 16));
+  write_float_tiff(folder / "heights/a.tif");
   write(folder / "http_headers/content", kFields);
   write(folder / "http_headers/refusal", kRefusal);
   write(folder / "http_headers/header", "X-Key: value");
@@ -157,6 +191,7 @@ int main(int argc, char** argv) {
       "('tileset', '{\"root_span_deg\": 180, \"tile_px\": 16, \"max_level\": 1, \"format\": \"png\"}');";
   const bool written = write_database(folder / "geopackage/foreign.gpkg", kTables) &&
                        write_database(folder / "geopackage/ours.gpkg", ours) &&
+                       write_database(folder / "geopackage/heights.gpkg", std::string(kTables) + kCoverage) &&
                        write_database(folder / "mbtiles/a.mbtiles", mbtiles);
   return written ? 0 : 1;
 }

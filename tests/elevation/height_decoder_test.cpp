@@ -1,0 +1,120 @@
+#include "streaming/elevation/height_decoder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "../streaming/streaming_test_support.h"
+#include "elevation_files.h"
+
+namespace terrella::test {
+namespace {
+
+constexpr int kSide_px = 16;
+constexpr TileId kId{.level = 3, .x = 5, .y = 2};
+
+std::vector<std::uint16_t> ramp() {
+  std::vector<std::uint16_t> values;
+  for (int i = 0; i < kSide_px * kSide_px; ++i) values.push_back(static_cast<std::uint16_t>(i * 257));
+  return values;
+}
+
+Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const ElevationInfo& info, double tile_scale = 1.0,
+                                       double tile_offset = 0.0) {
+  return decode_heights(kId, {std::move(bytes), tile_scale, tile_offset}, info, kSide_px);
+}
+
+void expect_broken(const Result<HeightTile, TileFailure>& tile, const std::string& says) {
+  ASSERT_FALSE(tile);
+  EXPECT_EQ(tile.error().kind, Absence::broken);
+  EXPECT_NE(tile.error().why.find(says), std::string::npos) << tile.error().why;
+}
+
+TEST(HeightDecoder, NumbersBecomeMetresByTheTileThenTheSet) {
+  const auto tile = decode(gray16_png(ramp()), {.scale = 2.0, .offset = -100.0}, 0.5, 10.0);
+  ASSERT_TRUE(tile) << tile.error().why;
+  EXPECT_EQ(tile->id, kId);
+  EXPECT_EQ(tile->side_px, kSide_px);
+  for (std::size_t i = 0; i < tile->heights_m.size(); ++i) {
+    EXPECT_EQ(tile->heights_m[i], static_cast<float>((static_cast<double>(i) * 257.0 * 0.5 + 10.0) * 2.0 - 100.0));
+  }
+  EXPECT_EQ(tile->min_m, -80.0F);
+  EXPECT_EQ(tile->max_m, 65535.0F - 80.0F);
+  EXPECT_EQ(tile->unknown, 0U);
+}
+
+TEST(HeightDecoder, NodataBeyondTheNumbersIsNone) {
+  for (const double nodata : {-32768.0, 70000.0, 0.5, 1e300}) {
+    EXPECT_EQ(decode(gray16_png(ramp()), {.nodata = nodata})->unknown, 0U) << nodata;
+  }
+  EXPECT_EQ(decode(gray16_png(ramp()), {.nodata = 257.0})->unknown, 1U);
+}
+
+TEST(HeightDecoder, FloatsThatAreNoHeightsAreUnknown) {
+  std::vector<float> values(kSide_px * kSide_px, 12.5F);
+  values[0] = std::numeric_limits<float>::quiet_NaN();
+  values[1] = std::numeric_limits<float>::infinity();
+  values[2] = -9999.1F;
+  values[3] = std::numeric_limits<float>::lowest();
+  const auto tile = decode(float_tiff(values), {.nodata = -9999.1, .floats = true});
+  expect_broken(tile, "beyond");  // the lowest float is nodata only where it is said to be
+  values[3] = 0.0F;
+  const auto good = decode(float_tiff(values), {.nodata = -9999.1, .floats = true}, 2.0, 1.0);
+  ASSERT_TRUE(good) << good.error().why;
+  EXPECT_EQ(good->unknown, 3U);
+  EXPECT_EQ(good->heights_m[2], 0.0F);
+  EXPECT_EQ(good->heights_m[3], 1.0F);
+  EXPECT_EQ(good->max_m, 26.0F);
+  EXPECT_EQ(good->min_m, 0.0F);
+}
+
+TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
+  const ElevationInfo whole;
+  const ElevationInfo floats{.floats = true};
+  expect_broken(decode(bytes_of("junk"), whole), "no PNG picture");
+  expect_broken(decode({}, whole), "no PNG picture");
+  expect_broken(decode(*encode_png(gradient(kSide_px, kSide_px)), whole), "RGB of 8 bits");
+  expect_broken(decode(gray16_png(std::vector<std::uint16_t>(64)), whole), "8×8");
+  expect_broken(decode(gray16_png(ramp()), {.scale = 1e9}), "scale or offset is wrong");
+  expect_broken(decode(gray16_png(ramp()), floats), "TIFF");
+  expect_broken(decode(float_tiff(std::vector<float>(64)), floats), "8×8");
+  auto half = gray16_png(ramp());
+  half.resize(half.size() / 2);
+  expect_broken(decode(half, whole), "PNG");
+}
+
+/// Every prefix, and bits flipped: whatever comes out, it must come out, and be finite.
+void feed_damaged(const std::vector<std::byte>& whole, const ElevationInfo& info) {
+  const auto check = [&info](const std::vector<std::byte>& bytes) {
+    const auto tile = decode(bytes, info);
+    if (!tile) {
+      EXPECT_FALSE(tile.error().why.empty());
+      return;
+    }
+    ASSERT_EQ(tile->heights_m.size(), static_cast<std::size_t>(kSide_px * kSide_px));
+    for (const float height_m : tile->heights_m) ASSERT_TRUE(std::isfinite(height_m));
+  };
+  for (std::size_t size = 0; size < whole.size(); size += 3) {
+    check({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+  }
+  std::mt19937 random(5);
+  for (int i = 0; i < 400; ++i) {
+    std::vector<std::byte> damaged = whole;
+    for (std::uint32_t flips = 1 + random() % 4; flips > 0; --flips) {
+      damaged[random() % damaged.size()] ^= static_cast<std::byte>(1U << (random() % 8));
+    }
+    check(damaged);
+  }
+}
+
+TEST(HeightDecoder, DamagedBytesNeverCrash) {
+  feed_damaged(gray16_png(ramp()), {});
+  std::vector<float> values;
+  for (const std::uint16_t value : ramp()) values.push_back(static_cast<float>(value) * 0.1F);
+  feed_damaged(float_tiff(values), {.floats = true});
+}
+
+}  // namespace
+}  // namespace terrella::test
