@@ -64,6 +64,8 @@ void report(const RenderCommand& command, const Rendered& rendered) {
 Result<Rendered> render_picture(const RenderCommand& command) {
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
+  Result<std::optional<ElevationSource>> elevation = open_elevation(command.scene);
+  if (!elevation) return elevation.error();
   const Result<Body> body = scene_body(command.scene, (*imagery)->info());
   if (!body) return body.error();
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
@@ -72,7 +74,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   // Nobody watches the frames in between: as much as has come goes up at once.
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
-  Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery);
+  Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
   (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
   const OffscreenTarget target(command.scene.size);

@@ -37,10 +37,12 @@ int view(const ViewOptions& options) {
   if (!window) return fail("view", window.error().message);
   auto imagery = open_imagery(options.scene);
   if (!imagery) return fail("view", imagery.error().message);
+  auto elevation = open_elevation(options.scene);
+  if (!elevation) return fail("view", elevation.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
   const std::string attribution = (*imagery)->info().attribution;
-  auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery));
+  auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
   (*window)->show();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),

@@ -176,4 +176,17 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
                   options.tile_set)};
 }
 
+Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
+  if (options.elevation.empty()) return std::optional<ElevationSource>();
+  SceneOptions heights = options;
+  heights.tile_set = options.elevation;
+  heights.projection.reset();
+  heights.latitude.reset();
+  auto tiles = open_any_tiles(heights);
+  if (!tiles) return tiles.error();
+  auto source = ElevationSource::open(*std::move(tiles), options.elevation);
+  if (!source) return source.error();
+  return std::optional<ElevationSource>(*std::move(source));
+}
+
 }  // namespace terrella

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "apps/scene_options.h"
 #include "geo/result.h"
+#include "streaming/elevation/elevation_source.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -17,6 +19,10 @@ namespace terrella {
 
 /// The same for pictures to draw: tiles of heights are refused, with what they are for. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
+
+/// What --elevation names; nothing if it names nothing. The error names the input. Throws BrokenInstallation.
+/// thread: main
+[[nodiscard]] Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options);
 
 /// Fails if what TILESET names is not there at all: a quick look before anything slow. Throws BrokenInstallation.
 /// thread: any

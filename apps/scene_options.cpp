@@ -61,6 +61,17 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       ->default_str("reversed");
 }
 
+void add_relief_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--elevation", options.elevation,
+                  "Heights that raise the ground: a tile set of 16-bit heights, as terrella cut --elevation and GDAL's "
+                  "gridded coverages are")
+      ->type_name("TILESET");
+  command.add_option("--exaggeration", options.exaggeration, "How many times as high heights are drawn")
+      ->check(number_in(0.0, 100.0))
+      ->capture_default_str();
+}
+
 void add_translucency_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--surface-alpha", options.surface.alpha, "How opaque the surface is: 0 not at all, 1 wholly")
       ->check(number_in(0.0, 1.0))
@@ -140,6 +151,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_drawing_options(command, options);
+  add_relief_options(command, options);
   add_translucency_options(command, options);
   add_stereo_options(command, options);
   add_cache_options(command, options);
@@ -171,6 +183,7 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.depth = options.depth;
   globe.unlit = options.unlit;
   globe.surface = options.surface;
+  globe.exaggeration = options.exaggeration;
   globe.stereo = options.stereo;
   globe.gpu_bytes = options.memory_mb << 20;
   return globe;

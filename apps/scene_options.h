@@ -27,6 +27,8 @@ struct SceneOptions {
   double paper_a = 4.0;
   double band = 0.05;
   DepthMode depth = DepthMode::reversed;
+  std::string elevation;      ///< tile set of heights; empty: none
+  double exaggeration = 1.0;  ///< of heights
   SurfaceLook surface;
   StereoLook stereo;
   std::string cache;                 ///< --cache as given; empty: the default place; "off": none

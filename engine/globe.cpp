@@ -5,12 +5,15 @@
 #include <glm/geometric.hpp>
 
 #include "render/globe_renderer.h"
+#include "scene/relief.h"
+#include "streaming/elevation/height_loader.h"
 
 namespace terrella {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kHeightBytesPerFrame = 2UL << 20;
 constexpr int kSegments = 24;
 constexpr int kMips = 4;
 constexpr int kGutter_px = 8;
@@ -33,22 +36,30 @@ Status check_context() {
 }  // namespace
 
 struct Globe::Impl {
-  Impl(const GlobeOptions& o, std::shared_ptr<TileSource> imagery)
+  Impl(const GlobeOptions& o, std::shared_ptr<TileSource> imagery, const std::optional<ElevationSource>& elevation)
       : options(o),
         grid(imagery->info().grid),
         roots(root_tiles(grid)),
         layout{grid.tile_px, kGutter_px},
         tree(o.body.ellipsoid, grid, kSegments),
         tiles(grid, layout, kMips, o.gpu_bytes),
-        loader(std::move(imagery), {.workers = o.workers, .gutter = kGutter_px, .mips = kMips}) {}
+        loader(std::move(imagery), {.workers = o.workers, .gutter = kGutter_px, .mips = kMips}) {
+    if (!elevation) return;
+    relief = std::make_unique<Relief>(o.body.ellipsoid, elevation->grid(), o.exaggeration);
+    heights = std::make_unique<HeightLoader>(*elevation);
+    tree.set_relief(*relief);
+  }
 
   [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
   void select(Viewport viewport);
   void ask();
+  void take_heights();
+  void ask_heights();
   std::size_t take_finished();
   void note_lacking(const TileId& id, const TileFailure& failure);
   void retry_failed();
   FrameStats draw(unsigned framebuffer, Viewport viewport);
+  [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
   bool roots_decided();
 
   GlobeOptions options;
@@ -56,6 +67,8 @@ struct Globe::Impl {
   std::vector<TileId> roots;
   SlotLayout layout;
   Camera camera;
+  std::unique_ptr<Relief> relief;         ///< none: the ellipsoid
+  std::unique_ptr<HeightLoader> heights;  ///< there if relief is
   PatchTree tree;
   TileTextures tiles;
   TileLoader loader;
@@ -124,6 +137,26 @@ std::size_t Globe::Impl::take_finished() {
   return bytes;
 }
 
+void Globe::Impl::take_heights() {
+  if (!heights) return;
+  for (LoadedHeights& tile : heights->poll(kHeightBytesPerFrame)) {
+    if (tile.heights) {
+      relief->add(std::move(*tile.heights));
+    } else {
+      relief->set_lacking(tile.id);
+    }
+  }
+}
+
+void Globe::Impl::ask_heights() {
+  if (!heights) return;
+  const std::vector<WantedTile> wanted = relief->want(tree, patches);
+  std::vector<TileRequest> requests;
+  for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
+  heights->request(requests);
+  stats.heights_missing = static_cast<int>(wanted.size());
+}
+
 void Globe::Impl::note_lacking(const TileId& id, const TileFailure& failure) {
   tiles.set_state(id, TileState::lacking);
   if (failure.kind == Absence::failed) failed.emplace_back(Clock::now() + kRetryFailed, id);
@@ -143,6 +176,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   ++frame;
   retry_failed();
   stats.uploaded_bytes = take_finished();
+  take_heights();
   const auto start = Clock::now();
   select(viewport);
   // Slot 0 and those of the root tiles are never given up.
@@ -154,6 +188,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   }
   stats.selection_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   ask();
+  ask_heights();
   const FrameInput input{.size = viewport,
                          .view = view,
                          .eyes = eyes,
@@ -163,7 +198,8 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
                          .surface = options.surface,
                          .lit = !options.unlit,
                          .sun = sun_over_the_shoulder(view),
-                         .frame = frame};
+                         .frame = frame,
+                         .ground_m = ground_m()};
   const FrameCounts counts = renderer->draw(input, tiles, framebuffer);
   stats.patches = static_cast<int>(patches.size());
   for (const SelectedPatch& patch : patches) stats.band_patches += patch.in_band ? 1 : 0;
@@ -187,9 +223,10 @@ bool Globe::Impl::roots_decided() {
 Globe::Globe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Globe::~Globe() = default;
 
-Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery) {
+Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery,
+                                             std::optional<ElevationSource> elevation) {
   if (const Status context = check_context(); !context) return context.error();
-  auto impl = std::make_unique<Impl>(options, std::move(imagery));
+  auto impl = std::make_unique<Impl>(options, std::move(imagery), elevation);
   const RenderOptions render{options.texturing, options.depth, options.paper_a, options.paper_band};
   Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(render, impl->tree);
   if (!renderer) return renderer.error();
@@ -210,7 +247,7 @@ void Globe::set_stereo(const StereoLook& stereo) { impl_->options.stereo = stere
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
 
 bool Globe::settled() const {
-  if (impl_->frame == 0 || !impl_->coverage.wanted.empty()) return false;
+  if (impl_->frame == 0 || !impl_->coverage.wanted.empty() || impl_->stats.heights_missing > 0) return false;
   return impl_->stats.patches_uncovered == 0 || impl_->roots_decided();
 }
 
@@ -221,6 +258,10 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
     if (Clock::now() >= deadline) return false;
     impl_->loader.wait(std::min(deadline, Clock::now() + kPoll));
   }
+}
+
+double Globe::ground_height_m(Angle lat, Angle lon) const {
+  return impl_->relief ? impl_->relief->height_m(lat, lon) : 0.0;
 }
 
 const std::deque<LackingTile>& Globe::lacking() const { return impl_->lacking; }

@@ -9,6 +9,7 @@
 #include "geo/camera.h"
 #include "geo/result.h"
 #include "scene/render_modes.h"
+#include "streaming/elevation/elevation_source.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_source.h"
 
@@ -22,6 +23,7 @@ struct GlobeOptions {
   DepthMode depth = DepthMode::reversed;
   bool unlit = false;  ///< imagery alone: no light, no sky, black background
   SurfaceLook surface;
+  double exaggeration = 1.0;  ///< of heights, [0, 100]
   StereoLook stereo;
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
@@ -40,6 +42,7 @@ struct FrameStats {
   int tiles_lacked = 0;       ///< of those, finally failed
   int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
+  int heights_missing = 0;  ///< elevation tiles that the view wants and that have not come or failed
   double selection_ms = 0.0;
 };
 
@@ -55,7 +58,8 @@ class Globe {
  public:
   /// Fails if no context is current, it is older than 4.5, or a shader does not compile.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
-                                                             std::shared_ptr<TileSource> imagery);
+                                                             std::shared_ptr<TileSource> imagery,
+                                                             std::optional<ElevationSource> elevation = {});
   ~Globe();
   Globe(const Globe&) = delete;
   Globe& operator=(const Globe&) = delete;
@@ -82,6 +86,9 @@ class Globe {
 
   /// View of the camera at a picture size: picks and projections (geo/camera.h) take it.
   [[nodiscard]] View view(Viewport viewport) const;
+  /// Height of the drawn ground over the ellipsoid, exaggerated, where the heights that are there say it; 0 without
+  /// any.
+  [[nodiscard]] double ground_height_m(Angle lat, Angle lon) const;
 
  private:
   struct Impl;

@@ -7,6 +7,9 @@ layout(location = 4) in vec4 patch_center_and_scale;
 layout(location = 5) in vec4 patch_frame;
 layout(location = 6) in vec4 patch_row;
 layout(location = 7) in uvec4 patch_window;
+#if defined(RELIEF)
+layout(location = 8) in vec2 slope;  // of the ground: rise a metre towards east and north
+#endif
 
 invariant gl_Position;
 out vec2 window_point;
@@ -40,7 +43,14 @@ void main() {
   row_direction = direction;
   vec3 center = vec3(patch_frame.xy * patch_frame.z, patch_frame.w);
   vec3 m = center + direction;
-  light = light_of(normalize(vec3(m.xy, m.z / texels.w)));
+  vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
+  light = light_of(normal);
+#if defined(RELIEF)
+  vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
+  vec3 ground = normalize(normal - slope.x * east - slope.y * cross(normal, east));
+  // Slopes towards the sun are brighter, those away from it darker, than level ground in the same light.
+  light *= clamp(1.0 + 1.3 * sun_ecef.w * (dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz)), 0.3, 1.6);
+#endif
   window = patch_window;
   center_and_scale = patch_center_and_scale;
   frame = patch_frame;

@@ -5,17 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "render/stencil_bits.h"
+#include "scene/relief.h"
 
 namespace terrella {
-namespace {
-
-bool inside_body(const Ellipsoid& e, const Ecef& eye) {
-  const glm::dvec3 q = eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
-  return glm::dot(q, q) < 1.0;
-}
-
-}  // namespace
-
 Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& options, PatchTree& tree) {
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, tree));
   const auto keep = [](auto& place, auto made) -> Status {
@@ -53,7 +45,7 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
 void GlobeRenderer::draw_picture(const Pass& pass) {
   upload_frame(pass);
   begin_picture(pass);
-  if (inside_body(tree_.ellipsoid(), pass.eye.view.eye)) {
+  if (under_ground(pass)) {
     draw_from_below(pass);
   } else {
     draw_from_above(pass);
@@ -84,7 +76,7 @@ void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
 
 // Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
 void GlobeRenderer::draw_surface(const Pass& pass, bool translucent) const {
-  glCullFace(inside_body(tree_.ellipsoid(), pass.eye.view.eye) ? GL_FRONT : GL_BACK);
+  glCullFace(under_ground(pass) ? GL_FRONT : GL_BACK);
   if (translucent) {
     if (!pass.input.naive_translucency) {
       color_mask(pass.eye, false);
@@ -105,7 +97,13 @@ void GlobeRenderer::draw_surface(const Pass& pass, bool translucent) const {
   stencil(pass.eye, 0, 0);
 }
 
+// The ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
 void GlobeRenderer::draw_limb(const Pass& pass, GLuint picture) const {
+  if (tree_.relief() != nullptr) {
+    const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = tree_.ellipsoid().a_m();
+    const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
+    if (tree_.relief()->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m) return;
+  }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   pass.counts.draw_calls +=
@@ -198,12 +196,16 @@ double GlobeRenderer::inner_radius_m(const FrameInput& input) const {
   return inner_sphere_radius_m(e.a_m(), e.b_m(), *input.surface.inner_sphere_below_m);
 }
 
+bool GlobeRenderer::under_ground(const Pass& pass) const {
+  return tree_.ellipsoid().to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
+}
+
 // A tenth of the way to the nearest thing that is drawn; the sky has no part in it (paper 2, 2.3).
 double GlobeRenderer::near_m(const Pass& pass) const {
   const Ecef& eye = pass.eye.view.eye;
-  double free_m = std::abs(tree_.ellipsoid().to_geodetic(eye).height_m);
+  double free_m = std::abs(tree_.ellipsoid().to_geodetic(eye).height_m - pass.input.ground_m);
   const double radius_m = inner_radius_m(pass.input);
-  if (inside_body(tree_.ellipsoid(), eye) && radius_m > 0.0) {
+  if (under_ground(pass) && radius_m > 0.0) {
     const double over_m = glm::length(eye.xyz_m) - radius_m;
     if (over_m > 0.0) free_m = std::min(free_m, over_m);
   }

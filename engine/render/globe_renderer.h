@@ -34,6 +34,7 @@ struct FrameInput {
   bool lit = true;
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
   std::uint64_t frame = 0;
+  double ground_m = 0.0;  ///< height of the ground under the eye
   /// For tests: a translucent surface without what paper 2 does about it, to show what that prevents.
   bool naive_translucency = false;
 };
@@ -78,6 +79,7 @@ class GlobeRenderer {
   void depth_test(GLenum test) const;
   void upload_frame(const Pass& pass) const;
   [[nodiscard]] double near_m(const Pass& pass) const;
+  [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
 
   RenderOptions options_;

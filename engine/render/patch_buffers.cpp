@@ -1,5 +1,7 @@
 #include "render/patch_buffers.h"
 
+#include <utility>
+
 namespace terrella {
 namespace {
 constexpr int kFirstCapacity = 512;
@@ -17,13 +19,17 @@ PatchBuffers::PatchBuffers(PatchTree& tree)
 
 void PatchBuffers::grow() {
   const int capacity = capacity_ == 0 ? kFirstCapacity : 2 * capacity_;
-  const auto bytes = [this](int patches) {
-    return static_cast<GLsizeiptr>(patches) * vertices_per_patch_ * static_cast<GLsizeiptr>(sizeof(PatchVertex));
+  const auto enlarge = [&](gl::Buffer& buffer, std::size_t vertex_bytes) {
+    const auto bytes = [&](int patches) {
+      return static_cast<GLsizeiptr>(patches) * vertices_per_patch_ * static_cast<GLsizeiptr>(vertex_bytes);
+    };
+    gl::Buffer larger = gl::make_buffer();
+    glNamedBufferStorage(larger.name(), bytes(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (buffer) glCopyNamedBufferSubData(buffer.name(), larger.name(), 0, 0, bytes(used_));
+    buffer = std::move(larger);
   };
-  gl::Buffer larger = gl::make_buffer();
-  glNamedBufferStorage(larger.name(), bytes(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  if (vertices_) glCopyNamedBufferSubData(vertices_.name(), larger.name(), 0, 0, bytes(used_));
-  vertices_ = std::move(larger);
+  enlarge(vertices_, sizeof(PatchVertex));
+  if (tree_.relief() != nullptr) enlarge(slopes_, sizeof(glm::vec2));
   capacity_ = capacity;
 }
 
@@ -39,17 +45,26 @@ int PatchBuffers::free_place(std::uint64_t frame) {
   return oldest.place;
 }
 
+void PatchBuffers::fill(const PatchNode& node, int place) {
+  const std::vector<PatchVertex> vertices = patch_vertices(tree_, node);
+  const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
+  glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
+  if (!slopes_) return;
+  const auto slope_bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec2));
+  glNamedBufferSubData(slopes_.name(), place * slope_bytes, slope_bytes, node.relief.slopes.data());
+}
+
 int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {
   if (const auto found = places_.find(&node); found != places_.end()) {
     by_age_.splice(by_age_.begin(), by_age_, found->second);
     found->second->last_drawn = frame;
+    if (std::exchange(found->second->relief_made, node.relief.made) != node.relief.made)
+      fill(node, found->second->place);
     return found->second->place;
   }
   const int place = free_place(frame);
-  const std::vector<PatchVertex> vertices = patch_vertices(tree_, node);
-  const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
-  glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
-  by_age_.push_front({&node, place, frame});
+  fill(node, place);
+  by_age_.push_front({&node, place, frame, node.relief.made});
   places_[&node] = by_age_.begin();
   return place;
 }

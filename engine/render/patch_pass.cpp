@@ -24,11 +24,6 @@ constexpr double kPlainFootprint_texels = 12.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 
-Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment, DepthMode depth) {
-  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                       {depth_define(depth)});
-}
-
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
   glSamplerParameteri(s.name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
@@ -53,14 +48,19 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
   return pass;
 }
 
+Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment) const {
+  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID"});
+}
+
 Status PatchPass::build_programs() {
   const auto build = [this](PatchProgram which, std::initializer_list<std::string_view> files) -> Status {
-    Result<gl::Program> program = patch_program(files, options_.depth);
+    Result<gl::Program> program = patch_program(files);
     if (!program) return program.error();
     programs_[which] = std::move(*program);
     return Done{};
   };
-  Result<gl::Program> depth = patch_program({"frame.glsl", "patch_depth.frag"}, options_.depth);
+  Result<gl::Program> depth = patch_program({"frame.glsl", "patch_depth.frag"});
   if (!depth) return depth.error();
   depth_program_ = std::move(*depth);
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
@@ -100,6 +100,7 @@ void PatchPass::set_up_vertex_array() {
   glEnableVertexArrayAttrib(array, 7);
   glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
   glVertexArrayAttribBinding(array, 7, 1);
+  if (has_relief_) attribute(8, 2, 2, 0);
 }
 
 void PatchPass::set_up_samplers() {
@@ -154,6 +155,7 @@ void PatchPass::upload(const std::vector<SelectedPatch>& patches, const TileCove
 
 void PatchPass::bind_vertices() const {
   glVertexArrayVertexBuffer(vertex_array_.name(), 0, patches_.vertex_buffer(), 0, sizeof(PatchVertex));
+  if (has_relief_) glVertexArrayVertexBuffer(vertex_array_.name(), 2, patches_.slope_buffer(), 0, sizeof(glm::vec2));
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
 }

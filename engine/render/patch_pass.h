@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "geo/camera.h"
@@ -45,8 +47,10 @@ class PatchPass {
   /// Programs in the order they are drawn.
   enum PatchProgram { magnified, plain, oblique, polar, paper, kPatchPrograms };
 
-  PatchPass(const RenderOptions& options, PatchTree& tree) : options_(options), patches_(tree) {}
+  PatchPass(const RenderOptions& options, PatchTree& tree)
+      : options_(options), has_relief_(tree.relief() != nullptr), patches_(tree) {}
   Status build_programs();
+  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices() const;
@@ -54,6 +58,7 @@ class PatchPass {
   [[nodiscard]] PatchProgram program_for(const SelectedPatch& patch) const;
 
   RenderOptions options_;
+  bool has_relief_;
   PatchBuffers patches_;
   gl::Program programs_[kPatchPrograms];
   gl::Program depth_program_;

@@ -74,7 +74,9 @@ std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& 
       const bool at_pole = normal.xyz.x == 0.0 && normal.xyz.y == 0.0;
       const double lon = at_pole ? 0.0 : wrapped_deg(Ellipsoid::lat_lon(normal).lon.deg() - node.lon_center_deg);
       const double row = row_latitude_deg(tree.grid(), tree.ellipsoid(), normal);
-      const SplitPosition p = split_position(tree.ellipsoid().position(normal).xyz_m);
+      glm::dvec3 position_m = tree.ellipsoid().position(normal).xyz_m;
+      if (!node.relief.heights_m.empty()) position_m += node.relief.heights_m[vertices.size()] * normal.xyz;
+      const SplitPosition p = split_position(position_m);
       const glm::dvec3 direction = (row_direction(tree.grid(), tree.ellipsoid(), normal.xyz) - direction0) / length0;
       vertices.push_back({p.high, p.low, glm::vec3(direction), glm::vec2(lon, row - row0)});
     }

@@ -28,7 +28,8 @@ struct SplitPosition {
 [[nodiscard]] SplitPosition split_position(const glm::dvec3& p_m);
 
 /// The (segments + 1)² vertices of a patch, row-major in (i, j). Longitude unwraps around the patch's centre; a vertex
-/// on the antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. thread: any
+/// on the antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. Raised by
+/// the node's heights, if it has any. thread: any
 [[nodiscard]] std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& node);
 
 /// Triangles for all patches: 2 diagonals (paper 1, (2)) × 16 sets of coarse sides, each a range of one list.

@@ -6,12 +6,20 @@
 #include <numbers>
 #include <optional>
 
+#include "scene/relief.h"
+
 namespace terrella {
 namespace {
 
 // A bent patch stands with coordinates per fragment only if it is not much larger than the band: each of its pixels
 // pays for them.
 constexpr double kMostOverBand = 4.0;
+// How far the ground may lie from the mesh: with what the heights' own level leaves out, under a pixel.
+constexpr double kMostReliefError_px = 0.5;
+// Vertices closer than this would follow heights that no pixel shows.
+constexpr double kLeastSegment_px = 1.5;
+// Deeper, a patch's vertices are centimetres apart.
+constexpr int kMostReliefLevel = 20;
 
 class Selector {
  public:
@@ -21,7 +29,7 @@ class Selector {
     const Ellipsoid& e = tree.ellipsoid();
     find_horizon(e);
     // No surface point is nearer than the height; 1 % off for the mesh, which sags.
-    least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
+    if (tree.relief() == nullptr) least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     // Off the axis a perspective picture magnifies: the corner of the picture is where a metre is most pixels.
     const double corner = view.tan_half_fov_y * std::hypot(1.0, view.aspect());
@@ -31,6 +39,7 @@ class Selector {
   }
 
   void visit(PatchNode& node, bool inside) {
+    if (tree_.relief() != nullptr) tree_.relief()->refresh_bounds(tree_, node);
     if (behind_horizon(node)) return;
     if (!inside) {
       const int side = classify(planes_, view_, node.sphere);
@@ -136,11 +145,12 @@ class Selector {
            span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
       --patch.tile_level;
     }
+    patch.pixel_m = pixel.short_m;
     patch.footprint_texels = longest_m / std::ldexp(texel0_m, -patch.tile_level);
     return patch;
   }
 
-  [[nodiscard]] bool needs_split(const PatchNode& node, SelectedPatch& patch) const {
+  [[nodiscard]] bool needs_split(PatchNode& node, SelectedPatch& patch) const {
     if (node.id.level < 1) return true;
     if (node.id.level >= kMaxPatchLevel) return false;
     const double px = error_scale_px_ / nearest_m(node);
@@ -148,7 +158,19 @@ class Selector {
     const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
     patch.in_band = bent && node.min_colatitude_rad < band_rad_;
     if (bent && (!patch.in_band || node.max_colatitude_rad > kMostOverBand * band_rad_)) return true;
-    return window_too_wide(node, patch) || reaches_to_the_eye(node, patch);
+    return window_too_wide(node, patch) || reaches_to_the_eye(node, patch) || follows_ground_badly(node, patch);
+  }
+
+  // Heights move points along the normal: looked at from above they move less on the screen.
+  [[nodiscard]] bool follows_ground_badly(PatchNode& node, const SelectedPatch& patch) const {
+    if (tree_.relief() == nullptr || node.id.level >= kMostReliefLevel) return false;
+    if (2.0 * node.relief.flat.radius_m < kLeastSegment_px * tree_.segments() * patch.pixel_m) return false;
+    tree_.relief()->refresh_mesh(tree_, node);
+    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
+    const double distance = std::max(glm::length(to_eye), 1e-9);
+    const double up = glm::dot(to_eye, node.normal) / distance;
+    const double sine = std::min(1.0, std::sqrt(std::max(0.0, 1.0 - up * up)) + node.sphere.radius_m / distance);
+    return node.relief.error_m * sine * error_scale_px_ / nearest_m(node) > kMostReliefError_px;
   }
 
   // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
@@ -176,6 +198,7 @@ class Selector {
 
   void emit(PatchNode& node, SelectedPatch patch, bool inside) {
     node.leaf_stamp = stamp_;
+    if (tree_.relief() != nullptr) tree_.relief()->refresh_mesh(tree_, node);
     patch.cut_by_view = !inside || nearly_behind_horizon(node);
     out_.push_back(patch);
   }

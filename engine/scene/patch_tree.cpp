@@ -143,6 +143,8 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
   node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z)
                                 : glm::dvec4(1.0, 0.0, 0.0, m.z);
   measure_extent(node, ellipsoid_, grid_, segments_, mapping_);
+  node.relief.flat = node.sphere;
+  node.relief.flat_cone_rad = std::acos(node.cos_cone);
 
   // A segment spans at most π/2 / (2^level n), under the plain mapping 4/π as much; over the diagonal of a quad the
   // chord sags (√2 Δ)²/8 of the radius of curvature, which is at most a²/b.

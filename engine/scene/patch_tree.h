@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
@@ -45,6 +46,19 @@ struct TileWindow {
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
 [[nodiscard]] double wrapped_deg(double deg);
 
+/// What heights make of a patch; scene/relief.h. Without relief all of it stays as it is.
+struct PatchRelief {
+  BoundingSphere flat;         ///< that holds the patch without heights
+  double flat_cone_rad = 0.0;  ///< half angle of the cone that does
+  double middle_m = 0.0;       ///< its heights lie within half_m of this
+  double half_m = 0.0;
+  std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
+  std::vector<glm::vec2> slopes;  ///< of the ground there: rise a metre towards east and north
+  double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
+  std::uint64_t made = 0;         ///< counts up as heights_m changes
+  std::size_t bounds_seen = 0, mesh_seen = 0;
+};
+
 /// What never changes about a patch, worked out once and kept in the tree.
 struct PatchNode {
   PatchId id;
@@ -73,11 +87,14 @@ struct PatchNode {
   std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
   std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
   TileWindow window;                     ///< of the level last asked for
+  PatchRelief relief;
 };
 
 /// The direction whose latitude the grid's rows count, not normalised: the geodetic normal, or for planetocentric
 /// grids the radius vector of the surface point, (n.x, n.y, (1 - e²) n.z).
 [[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
+
+class Relief;
 
 /// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited.
 /// thread: main
@@ -94,6 +111,11 @@ class PatchTree {
   /// Of cell (x, y) of the node's window as it is, counted from its north-west corner.
   const SurfaceLattice& cell_lattice(PatchNode& node, int x, int y);
 
+  /// The ground that patches follow; none: the ellipsoid. Set once, before the first selection; it must outlive the
+  /// tree.
+  void set_relief(Relief& relief) { relief_ = &relief; }
+  [[nodiscard]] Relief* relief() const { return relief_; }
+
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   [[nodiscard]] int segments() const { return segments_; }
@@ -109,6 +131,7 @@ class PatchTree {
   TileGrid grid_;
   int segments_;
   CubeMapping mapping_;
+  Relief* relief_ = nullptr;
   std::deque<PatchNode> nodes_;
   std::array<PatchNode*, kCubeFaces> roots_{};
   std::uint64_t stamp_ = 0;

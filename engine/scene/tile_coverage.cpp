@@ -68,8 +68,9 @@ class Coverer {
     const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m;
     eye_over_axes2_ = eye_scaled / axes_m;
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
+    least_radius_per_m_ = 2.0 / e.b_m();
     horizon_ = 1.0 - view.eye_spread_m / e.b_m();
-    if (glm::dot(eye_scaled, eye_scaled) <= 1.0) limits_ &= ~kHorizon;
+    if (glm::dot(eye_scaled, eye_scaled) <= 1.0 || tree.relief() != nullptr) limits_ &= ~kHorizon;
   }
 
   // First which tile each cell would take, then the tiles: a cell that could do with a coarser one takes the finer one
@@ -192,18 +193,24 @@ class Coverer {
 
   [[nodiscard]] bool in_view(const SelectedPatch& patch, int x, int y) {
     if (!patch.cut_by_view) return true;
-    const BoundingSphere& whole = patch.node->window.cells[index(patch.node->window, x, y)].whole;
+    const PatchNode& node = *patch.node;
+    const CellExtent& cell = node.window.cells[index(node.window, x, y)];
+    const PatchRelief& relief = node.relief;
+    const BoundingSphere whole{
+        cell.whole.center_m + relief.middle_m * cell.up,
+        cell.whole.radius_m * (1.0 + std::abs(relief.middle_m) * least_radius_per_m_) + relief.half_m};
     const unsigned cut = beyond(whole.center_m, -whole.radius_m, limits_);
     if (cut == 0 || beyond(whole.center_m, 0.0, cut) == 0) return true;
-    return beyond(whole.center_m, whole.radius_m, cut) == 0 && part_in_view(tree_.cell_lattice(*patch.node, x, y), cut);
+    if (beyond(whole.center_m, whole.radius_m, cut) != 0) return false;
+    return part_in_view(tree_.cell_lattice(*patch.node, x, y), std::abs(relief.middle_m) + relief.half_m, cut);
   }
 
   // A quad is out of view if one limit has all its corners beyond it.
-  [[nodiscard]] bool part_in_view(const SurfaceLattice& lattice, unsigned limits) const {
+  [[nodiscard]] bool part_in_view(const SurfaceLattice& lattice, double relief_m, unsigned limits) const {
     constexpr int kSide = kLatticeQuads + 1;
     std::array<unsigned, static_cast<std::size_t>(kSide * kSide)> sides{};
     for (std::size_t k = 0; k < sides.size(); ++k) {
-      sides[k] = beyond(lattice.points_m[k], lattice.bulge_m, limits);
+      sides[k] = beyond(lattice.points_m[k], lattice.bulge_m + relief_m, limits);
       if (sides[k] == 0) return true;
       const bool ends_a_quad = k > kSide && k % kSide != 0;
       if (ends_a_quad && (sides[k] & sides[k - 1] & sides[k - kSide] & sides[k - kSide - 1]) == 0) return true;
@@ -298,6 +305,7 @@ class Coverer {
   TileCoverage& out_;
   ViewPlanes planes_;
   glm::dvec3 eye_over_axes2_{0.0};
+  double least_radius_per_m_ = 0.0;
   double horizon_ = 1.0;        ///< what the dot product is, at least, of what some eye sees
   double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
   unsigned limits_ = kAllLimits;
