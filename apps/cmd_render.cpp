@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
+#include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/write_file.h"
 #include "engine/globe.h"
@@ -74,8 +75,10 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   // Nobody watches the frames in between: as much as has come goes up at once.
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
+  add_sky_data(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  if (const Status added = add_objects(**globe, command.scene); !added) return added.error();
   (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
   const OffscreenTarget target(command.scene.size);
   const auto limit =

@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
+#include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/viewer/viewer.h"
 
@@ -42,8 +43,11 @@ int view(const ViewOptions& options) {
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
   const std::string attribution = (*imagery)->info().attribution;
-  auto globe = Globe::create(globe_options(options.scene, *body), std::move(*imagery), *std::move(elevation));
+  GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
+  add_sky_data(globe_options_with_sky);
+  auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
+  if (const Status added = add_objects(**globe, options.scene); !added) return fail("view", added.error().message);
   (*window)->show();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,

@@ -9,7 +9,7 @@ void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer", remote.layer, "Of a WMTS");
   app.add_option("--matrix-set", remote.matrix_set, "Of a WMTS layer that has several");
   app.add_option("--style", remote.style, "Of a WMTS layer");
-  app.add_option("--time", remote.time, "Of a WMTS layer that has several times, ISO 8601");
+  app.add_option("--layer-time", remote.time, "Of a WMTS layer that has several times, ISO 8601");
   app.add_option("--root-span", remote.root_span_deg, "Of a URL template: degrees that a level-0 tile spans (180)")
       ->check(number_in(0.001, 1e4));
   app.add_option("--tile-size", remote.tile_px, "Of a URL template: pixels a side (256)")

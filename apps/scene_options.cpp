@@ -4,6 +4,7 @@
 
 #include "apps/option_checks.h"
 #include "apps/remote_set_options.h"
+#include "scene/almanac.h"
 #include "scene/view_limits.h"
 
 namespace terrella {
@@ -104,6 +105,27 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
       ->default_str("auto");
 }
 
+// The almanac's years are part of what the option takes.
+Result<UtcTime> parse_time(std::string_view text) {
+  const Result<UtcTime> time = parse_utc(text);
+  if (!time) return time;
+  if (const Result<Almanac> almanac = almanac_at(*time); !almanac) return almanac.error();
+  return time;
+}
+
+void add_sky_options(CLI::App& command, SceneOptions& options) {
+  add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}}, "Stars, Sun, Moon and atmosphere")
+      ->default_str("on");
+  command
+      .add_option_function<std::string>(
+          "--time", [&options](const std::string& text) { options.time = parsed_or_throw("--time", parse_time(text)); },
+          "Where Sun, Moon and stars stand, 1950 to 2050: for example 2026-06-21T12:00Z (default: light over the "
+          "viewer's shoulder)")
+      ->type_name("UTC");
+  command.add_option("--objects", options.objects, "Points, lines and areas to draw, over and under the ground")
+      ->type_name("F.geojson");
+}
+
 void add_stereo_options(CLI::App& command, SceneOptions& options) {
   add_choice<Stereo>(command, "--stereo", options.stereo.mode,
                      {{"off", Stereo::off},
@@ -153,6 +175,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_drawing_options(command, options);
   add_relief_options(command, options);
   add_translucency_options(command, options);
+  add_sky_options(command, options);
   add_stereo_options(command, options);
   add_cache_options(command, options);
   add_remote_set_options(command, options.remote);
@@ -184,6 +207,8 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.unlit = options.unlit;
   globe.surface = options.surface;
   globe.exaggeration = options.exaggeration;
+  globe.sky = options.sky && !options.unlit;
+  globe.time = options.time;
   globe.stereo = options.stereo;
   globe.gpu_bytes = options.memory_mb << 20;
   return globe;

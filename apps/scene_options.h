@@ -31,6 +31,9 @@ struct SceneOptions {
   double exaggeration = 1.0;  ///< of heights
   SurfaceLook surface;
   StereoLook stereo;
+  std::string objects;               ///< GeoJSON file; empty: none
+  bool sky = true;                   ///< stars, Sun, Moon and atmosphere
+  std::optional<UtcTime> time;       ///< of the sky
   std::string cache;                 ///< --cache as given; empty: the default place; "off": none
   std::size_t cache_size_mb = 4096;  ///< of the cache's file, 10^6 bytes each
   std::size_t memory_mb = 512;       ///< memory for tiles, 2^20 bytes each

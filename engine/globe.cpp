@@ -15,6 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kHeightBytesPerFrame = 2UL << 20;
 constexpr int kSegments = 24;
+// Any day will do for stars without a time: noon of an equinox.
+constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
 constexpr int kMips = 4;
 constexpr int kGutter_px = 8;
 constexpr std::chrono::milliseconds kPoll{20};
@@ -59,6 +61,8 @@ struct Globe::Impl {
   void note_lacking(const TileId& id, const TileFailure& failure);
   void retry_failed();
   FrameStats draw(unsigned framebuffer, Viewport viewport);
+  [[nodiscard]] std::optional<SkyInput> sky() const;
+  [[nodiscard]] glm::dvec3 sun() const;
   [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
   bool roots_decided();
 
@@ -77,6 +81,8 @@ struct Globe::Impl {
   std::optional<EyePair> eyes;
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;
+  std::optional<Almanac> almanac;  ///< there if a sky can be drawn
+  bool sky_on = false;
   std::uint64_t frame = 0;
   double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
   FrameStats stats;
@@ -171,6 +177,19 @@ void Globe::Impl::retry_failed() {
   }
 }
 
+// Without a time there is no Sun to draw: its light comes over the viewer's shoulder.
+std::optional<SkyInput> Globe::Impl::sky() const {
+  if (!almanac || !sky_on || options.unlit) return std::nullopt;
+  SkyInput input{.almanac = *almanac};
+  if (!options.time) {
+    input.almanac.sun = EcefDir{sun()};
+    input.sun = input.moon = false;
+  }
+  return input;
+}
+
+glm::dvec3 Globe::Impl::sun() const { return almanac && options.time ? almanac->sun.xyz : sun_over_the_shoulder(view); }
+
 FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats = {};
   ++frame;
@@ -196,8 +215,9 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
                          .patches = &patches,
                          .coverage = &coverage,
                          .surface = options.surface,
+                         .sky = sky(),
                          .lit = !options.unlit,
-                         .sun = sun_over_the_shoulder(view),
+                         .sun = sun(),
                          .frame = frame,
                          .ground_m = ground_m()};
   const FrameCounts counts = renderer->draw(input, tiles, framebuffer);
@@ -227,8 +247,21 @@ Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::s
                                              std::optional<ElevationSource> elevation) {
   if (const Status context = check_context(); !context) return context.error();
   auto impl = std::make_unique<Impl>(options, std::move(imagery), elevation);
-  const RenderOptions render{options.texturing, options.depth, options.paper_a, options.paper_band};
-  Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(render, impl->tree);
+  RenderOptions render;
+  render.texturing = options.texturing;
+  render.depth = options.depth;
+  render.paper_a = options.paper_a;
+  render.paper_band = options.paper_band;
+  SkyAssets sky{.body = options.body, .stars = options.stars, .night_lights = {}};
+  if (options.sky) {
+    const Result<Almanac> almanac = almanac_at(options.time.value_or(kQuietSky));
+    if (!almanac) return almanac.error();
+    impl->almanac = *almanac;
+    impl->sky_on = true;
+    if (options.time && options.body.name == "earth") sky.night_lights = options.night_lights;
+  }
+  Result<std::unique_ptr<GlobeRenderer>> renderer =
+      GlobeRenderer::create(render, impl->tree, options.sky ? &sky : nullptr);
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
@@ -242,6 +275,8 @@ const Camera& Globe::camera() const { return impl_->camera; }
 const GlobeOptions& Globe::options() const { return impl_->options; }
 void Globe::set_unlit(bool unlit) { impl_->options.unlit = unlit; }
 void Globe::set_surface(const SurfaceLook& surface) { impl_->options.surface = surface; }
+void Globe::set_sky(bool on) { impl_->sky_on = on; }
+Status Globe::set_objects(const ObjectScene& objects) { return impl_->renderer->set_objects(objects); }
 void Globe::set_stereo(const StereoLook& stereo) { impl_->options.stereo = stereo; }
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }

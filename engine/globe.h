@@ -7,8 +7,12 @@
 
 #include "geo/body.h"
 #include "geo/camera.h"
+#include "geo/objects.h"
 #include "geo/result.h"
+#include "scene/cube_picture.h"
 #include "scene/render_modes.h"
+#include "scene/star_catalogue.h"
+#include "scene/utc_time.h"
 #include "streaming/elevation/elevation_source.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_source.h"
@@ -25,6 +29,10 @@ struct GlobeOptions {
   SurfaceLook surface;
   double exaggeration = 1.0;  ///< of heights, [0, 100]
   StereoLook stereo;
+  bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
+  std::optional<UtcTime> time;  ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
+  std::vector<Star> stars;      ///< of the sky
+  GreyPicture night_lights;     ///< of the Earth's night side, with a sky and a time; may be empty
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
@@ -56,7 +64,8 @@ struct LackingTile {
 /// thread: main (the thread of the context) for every call.
 class Globe {
  public:
-  /// Fails if no context is current, it is older than 4.5, or a shader does not compile.
+  /// Fails if no context is current, it is older than 4.5, a shader does not compile, or the time is outside the
+  /// almanac's years.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});
@@ -70,6 +79,9 @@ class Globe {
   void set_unlit(bool unlit);
   void set_surface(const SurfaceLook& surface);
   void set_stereo(const StereoLook& stereo);
+  void set_sky(bool on);  ///< nothing if the globe was made without one
+  /// In place of those before. Fails if their programs cannot be made.
+  Status set_objects(const ObjectScene& objects);
 
   /// Draws one frame into `framebuffer` (a GL name, 0 the window) and uploads what has arrived, within the budget.
   /// Returns what the frame did. The GL state is changed.

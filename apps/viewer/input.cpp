@@ -153,6 +153,9 @@ void Input::on_character(unsigned character) {
     case 'u':
     case 'U':
       return actions_.push_back(ViewerAction::next_alpha);
+    case 'b':
+    case 'B':
+      return actions_.push_back(ViewerAction::toggle_sky);
     case 's':
     case 'S':
       return actions_.push_back(ViewerAction::next_stereo);

@@ -17,6 +17,7 @@ enum class ViewerAction {
   save_screenshot,
   next_alpha,
   next_stereo,
+  toggle_sky,
   toggle_underground,
   leave
 };

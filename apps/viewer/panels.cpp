@@ -30,6 +30,7 @@ constexpr const char* kHelp[][2] = {
     {"G", "graticule"},
     {"U", "translucent surface"},
     {"X", "eye under the ground, and back"},
+    {"B", "sky"},
     {"S", "stereo: anaglyph, side by side, interlaced"},
     {"F", "full screen"},
     {"F12", "save a picture of the window"},

@@ -72,6 +72,11 @@ void Viewer::act(ViewerAction action) {
       return next_alpha();
     case ViewerAction::next_stereo:
       return next_stereo();
+    case ViewerAction::toggle_sky:
+      sky_ = !sky_;
+      globe_.set_sky(sky_);
+      say(sky_ ? "Sky" : "No sky");
+      return;
     case ViewerAction::toggle_underground:
       return toggle_underground();
     case ViewerAction::leave:

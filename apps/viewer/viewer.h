@@ -49,6 +49,7 @@ class Viewer {
   Navigator navigator_;
   Input input_;
   std::optional<Camera> above_;  ///< where the eye was before it went under the ground
+  bool sky_ = true;
   bool help_ = false;
   bool graticule_ = false;
   bool screenshot_wanted_ = false;

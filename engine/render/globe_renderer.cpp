@@ -8,7 +8,10 @@
 #include "scene/relief.h"
 
 namespace terrella {
-Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& options, PatchTree& tree) {
+Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& asked, PatchTree& tree,
+                                                             const SkyAssets* sky) {
+  RenderOptions options = asked;
+  options.night_lights = sky != nullptr && !sky->night_lights.values.empty();
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, tree));
   const auto keep = [](auto& place, auto made) -> Status {
     if (!made) return made.error();
@@ -19,14 +22,33 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   if (Status s = keep(renderer->limb_, LimbPass::create()); !s) return s.error();
   if (Status s = keep(renderer->inner_sphere_, InnerSpherePass::create(options.depth)); !s) return s.error();
   if (Status s = keep(renderer->interlace_, InterlacePass::create()); !s) return s.error();
+  if (sky != nullptr) {
+    if (Status s = keep(renderer->sky_, SkyPass::create(sky->body, sky->stars)); !s) return s.error();
+  }
+  if (options.night_lights) {
+    Result<NightLights> lights = NightLights::create(sky->night_lights);
+    if (!lights) return lights.error();
+    renderer->night_lights_ = std::move(*lights);
+  }
   renderer->frame_block_ = gl::make_buffer();
   glNamedBufferStorage(renderer->frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   return renderer;
 }
 
+Status GlobeRenderer::set_objects(const ObjectScene& scene) {
+  if (!objects_) {
+    Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
+    if (!made) return made.error();
+    objects_ = std::move(*made);
+  }
+  objects_->set_objects(scene, tree_.ellipsoid());
+  return Done{};
+}
+
 FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer) {
   FrameCounts counts;
-  targets_.fit(input.size, input.stereo == Stereo::interlaced);
+  const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
+  targets_.fit(input.size, input.sky || selective || input.stereo == Stereo::interlaced);
   patches_->upload(*input.patches, *input.coverage, input.frame);
   const std::vector<EyePicture> pictures = pictures_of(input);
   begin_frame(input, counts);
@@ -34,7 +56,8 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
   targets_.copy_to(framebuffer);
-  if (pictures.size() == 1) {  // of one eye's picture the limb can be drawn as it is copied
+  if (pictures.size() == 1 &&
+      !objects_) {  // where nothing goes over it, the limb can be drawn as the picture is copied
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_STENCIL_TEST);
     draw_limb({input, pictures.front(), tiles, counts}, targets_.color());
@@ -52,18 +75,46 @@ void GlobeRenderer::draw_picture(const Pass& pass) {
   }
 }
 
-// Paper 2, 2.2.
+// Paper 2, 2.2, in its order.
 void GlobeRenderer::draw_from_above(const Pass& pass) {
   const bool translucent = pass.input.surface.alpha < 1.0;
   if (translucent) draw_inner_sphere(pass);
-  draw_surface(pass, translucent);
-  if (pass.input.eyes) draw_limb(pass, targets_.copy_of_color());
+  draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  draw_surface(pass, translucent ? SurfaceFromBelow::translucent : SurfaceFromBelow::opaque);
+  draw_sky(pass);
+  if (pass.input.eyes || objects_) draw_limb(pass, targets_.copy_of_color());
+  draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
-// Paper 2, 2.9.
+// Paper 2, 2.9: what is over the ground lies behind the surface, what is under it before.
 void GlobeRenderer::draw_from_below(const Pass& pass) {
+  const SurfaceLook& surface = pass.input.surface;
   draw_inner_sphere(pass);
-  draw_surface(pass, pass.input.surface.alpha < 1.0 && pass.input.surface.from_below != SurfaceFromBelow::opaque);
+  draw_objects(pass, ObjectPart::above_ground, ObjectChoice::others, 0);
+  draw_objects(pass, ObjectPart::above_ground, ObjectChoice::chosen, kThroughBit);
+  draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  draw_surface(pass, surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque);
+}
+
+void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) const {
+  if (!objects_ || !objects_->has(part)) return;
+  stencil(pass.eye, 0, mark);
+  depth_test(GL_GREATER);
+  pass.counts.draw_calls += objects_->draw(part, pass.eye.view.viewport, choice);
+  glEnable(GL_CULL_FACE);
+  stencil(pass.eye, 0, 0);
+}
+
+// Where no surface is; neither reads nor writes depth, so it moves no plane (paper 2, 2.3).
+void GlobeRenderer::draw_sky(const Pass& pass) {
+  if (!pass.input.sky || !sky_) return;
+  stencil(pass.eye, pass.input.naive_translucency ? 0 : kSurfaceBit, 0);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky);
+  glEnable(GL_CULL_FACE);
+  depth_test(GL_GREATER);
+  stencil(pass.eye, 0, 0);
 }
 
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
@@ -75,26 +126,38 @@ void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
 }
 
 // Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
-void GlobeRenderer::draw_surface(const Pass& pass, bool translucent) const {
+void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const {
   glCullFace(under_ground(pass) ? GL_FRONT : GL_BACK);
-  if (translucent) {
-    if (!pass.input.naive_translucency) {
-      color_mask(pass.eye, false);
-      patches_->draw_depth(pass.counts);
-      color_mask(pass.eye, true);
-      glDepthFunc(GL_EQUAL);
-      glDepthMask(GL_FALSE);
-    }
-    glEnable(GL_BLEND);
-    glBlendColor(0.0F, 0.0F, 0.0F, static_cast<float>(pass.input.surface.alpha));
-    const GLenum below = pass.input.surface.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE;
-    glBlendFuncSeparate(GL_CONSTANT_ALPHA, below, GL_ZERO, GL_ONE);
+  const bool translucent = look != SurfaceFromBelow::opaque;
+  if (translucent && !pass.input.naive_translucency) {
+    color_mask(pass.eye, false);
+    patches_->draw_depth(pass.counts);
+    color_mask(pass.eye, true);
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
   }
-  stencil(pass.eye, 0, kSurfaceBit);
+  if (night_lights_) night_lights_->bind();
+  if (look == SurfaceFromBelow::selective) {
+    stencil(pass.eye, kThroughBit, 0);
+    patches_->draw(pass.tiles, pass.counts);
+    stencil(pass.eye, 0, 0, kThroughBit);
+  } else {
+    stencil(pass.eye, 0, kSurfaceBit);
+  }
+  if (translucent) blend(pass.input.surface);
   patches_->draw(pass.tiles, pass.counts);
   glDisable(GL_BLEND);
   depth_test(GL_GREATER);
   stencil(pass.eye, 0, 0);
+}
+
+// Paper 2, (2.7) and (2.9).
+void GlobeRenderer::blend(const SurfaceLook& look) const {
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendColor(0.0F, 0.0F, 0.0F, static_cast<float>(look.alpha));
+  const GLenum below = look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE;
+  glBlendFuncSeparate(GL_CONSTANT_ALPHA, below, GL_ZERO, GL_ONE);
 }
 
 // The ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
@@ -169,15 +232,15 @@ void GlobeRenderer::color_mask(const EyePicture& eye, bool on) const {
   glColorMask(on && eye.red, on && eye.green, on && eye.blue, on);
 }
 
-// Draws where the bits `must_be_clear` are, in the eye's rows, and sets the bits `set` there.
-void GlobeRenderer::stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set) const {
+// Draws where bits are clear or set as they must be, in the eye's rows, and sets bits there.
+void GlobeRenderer::stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set) const {
   const GLuint rows = eye.interlaced ? kRightEyeBit : 0U;
-  if (rows == 0 && must_be_clear == 0 && (set == 0 || !targets_.has_stencil())) {
+  if (!targets_.has_stencil() || (rows | must_be_clear | set | must_be_set) == 0) {
     glDisable(GL_STENCIL_TEST);
     return;
   }
   glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_EQUAL, static_cast<GLint>(eye.row_bits | set), rows | must_be_clear);
+  glStencilFunc(GL_EQUAL, static_cast<GLint>(eye.row_bits | set | must_be_set), rows | must_be_clear | must_be_set);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glStencilMask(set);
 }

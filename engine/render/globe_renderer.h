@@ -13,7 +13,10 @@
 #include "render/inner_sphere_pass.h"
 #include "render/interlace_pass.h"
 #include "render/limb_pass.h"
+#include "render/night_lights.h"
+#include "render/object_pass.h"
 #include "render/patch_pass.h"
+#include "render/sky_pass.h"
 #include "render/tile_textures.h"
 #include "scene/patch_selection.h"
 #include "scene/render_modes.h"
@@ -31,6 +34,7 @@ struct FrameInput {
   const std::vector<SelectedPatch>* patches = nullptr;
   const TileCoverage* coverage = nullptr;  ///< draws belong to patches, one to one
   SurfaceLook surface;
+  std::optional<SkyInput> sky;  ///< none: black
   bool lit = true;
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
   std::uint64_t frame = 0;
@@ -39,10 +43,21 @@ struct FrameInput {
   bool naive_translucency = false;
 };
 
+/// What the sky is made of; programs for it exist only if this is given.
+struct SkyAssets {
+  Body body;
+  std::vector<Star> stars;
+  GreyPicture night_lights;  ///< empty: no day and night on the surface
+};
+
 /// Draws frames: the list of passes, and the state each of them needs. thread: main (of the context)
 class GlobeRenderer {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options, PatchTree& tree);
+  [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options, PatchTree& tree,
+                                                                     const SkyAssets* sky);
+
+  /// In place of those before; the program for objects is made with the first.
+  Status set_objects(const ObjectScene& scene);
 
   /// Both eyes' pictures, or the one, into `framebuffer`. What the eyes share is uploaded once.
   FrameCounts draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer);
@@ -70,12 +85,15 @@ class GlobeRenderer {
   void draw_from_above(const Pass& pass);
   void draw_from_below(const Pass& pass);
   void draw_inner_sphere(const Pass& pass) const;
-  void draw_surface(const Pass& pass, bool translucent) const;
+  void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
+  void blend(const SurfaceLook& look) const;
+  void draw_sky(const Pass& pass);
+  void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) const;
   void draw_limb(const Pass& pass, GLuint picture) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts) const;
   void begin_picture(const Pass& pass) const;
   void color_mask(const EyePicture& eye, bool on) const;
-  void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set) const;
+  void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
   void depth_test(GLenum test) const;
   void upload_frame(const Pass& pass) const;
   [[nodiscard]] double near_m(const Pass& pass) const;
@@ -88,6 +106,9 @@ class GlobeRenderer {
   std::unique_ptr<LimbPass> limb_;
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
+  std::unique_ptr<SkyPass> sky_;
+  std::optional<NightLights> night_lights_;
+  std::unique_ptr<ObjectPass> objects_;
   FrameTargets targets_;
   gl::Buffer frame_block_;
 };

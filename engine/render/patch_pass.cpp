@@ -50,7 +50,8 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 
 Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment) const {
   return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID"});
+                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
+                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT"});
 }
 
 Status PatchPass::build_programs() {

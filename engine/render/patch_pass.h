@@ -22,6 +22,7 @@ struct RenderOptions {
   DepthMode depth = DepthMode::reversed;
   double paper_a = 4.0;
   double paper_band = 0.05;
+  bool night_lights = false;  ///< the surface by day and night; the caller binds NightLights
 };
 
 struct FrameCounts {

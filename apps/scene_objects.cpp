@@ -1,0 +1,29 @@
+#include "apps/scene_objects.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+
+#include "apps/sky_data.h"
+#include "streaming/objects/geojson_objects.h"
+
+namespace terrella {
+
+void add_sky_data(GlobeOptions& options) {
+  if (!options.sky) return;
+  SkyData data = load_sky_data();
+  for (const std::string& problem : data.problems) fmt::print(stderr, "{}\n", problem);
+  options.stars = std::move(data.stars);
+  options.night_lights = std::move(data.night_lights);
+}
+
+Status add_objects(Globe& globe, const SceneOptions& options) {
+  if (options.objects.empty()) return Done{};
+  const Result<ObjectFile> file = read_geojson_objects(options.objects);
+  if (!file) return file.error();
+  for (const std::string& complaint : file->complaints) fmt::print(stderr, "{}\n", complaint);
+  if (file->complaints_left_out > 0) fmt::print(stderr, "and {} more\n", file->complaints_left_out);
+  return globe.set_objects(file->scene);
+}
+
+}  // namespace terrella

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "apps/scene_options.h"
+#include "engine/globe.h"
+
+namespace terrella {
+
+/// Gives the globe's options the stars and lights that the program carries, if they ask for a sky; what is missing or
+/// damaged is said on standard error, and left out. thread: main
+void add_sky_data(GlobeOptions& options);
+
+/// Gives the globe the objects that --objects names; what is wrong in the file is said on standard error, and the rest
+/// drawn. Fails if nothing of it can be read. thread: main
+[[nodiscard]] Status add_objects(Globe& globe, const SceneOptions& options);
+
+}  // namespace terrella
