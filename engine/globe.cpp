@@ -219,7 +219,8 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
                          .lit = !options.unlit,
                          .sun = sun(),
                          .frame = frame,
-                         .ground_m = ground_m()};
+                         .ground_m = ground_m(),
+                         .naive_translucency = options.naive_translucency};
   const FrameCounts counts = renderer->draw(input, tiles, framebuffer);
   stats.patches = static_cast<int>(patches.size());
   for (const SelectedPatch& patch : patches) stats.band_patches += patch.in_band ? 1 : 0;

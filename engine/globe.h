@@ -29,6 +29,8 @@ struct GlobeOptions {
   SurfaceLook surface;
   double exaggeration = 1.0;  ///< of heights, [0, 100]
   StereoLook stereo;
+  /// For tests: a translucent surface drawn without what paper 2 does about it, to show what that prevents.
+  bool naive_translucency = false;
   bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
   std::optional<UtcTime> time;  ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
   std::vector<Star> stars;      ///< of the sky
