@@ -134,8 +134,8 @@ void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const 
     patches_->draw_depth(pass.counts);
     color_mask(pass.eye, true);
     glDepthFunc(GL_EQUAL);
-    glDepthMask(GL_FALSE);
   }
+  if (translucent) glDepthMask(GL_FALSE);
   if (night_lights_) night_lights_->bind();
   if (look == SurfaceFromBelow::selective) {
     stencil(pass.eye, kThroughBit, 0);

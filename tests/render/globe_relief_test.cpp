@@ -171,7 +171,7 @@ TEST_F(GlobeRelief, ThroughATranslucentMountainNoOtherMountainShows) {
     options.surface.alpha = 0.5;
     options.naive_translucency = naive;
     const auto globe = mountains(options);
-    globe->set_camera(camera_at(10, 20, 4.0e5, 40, -15, 40));
+    globe->set_camera(camera_at(10, 20, 1.2e5, 90, -5, 70));
     settle(*globe, kReliefPicture);
     const Picture seen = picture();
     int twice = 0;
