@@ -21,14 +21,14 @@ const TileGrid kPictureGrid{.tile_px = 64, .max_level = 1};
 const TileGrid kHeightGrid{.tile_px = 64, .max_level = 3};
 
 /// Mountains 20° apart, which a grid of a third of a degree follows within 8 m.
-double height_m(double lat_rad, double lon_rad) {
-  return 0.5 * kMost_m * (std::sin(18.0 * lat_rad) + std::cos(18.0 * lon_rad) * std::cos(lat_rad));
+double height_m(double lat_rad, double lon_rad, double waves = 18.0) {
+  return 0.5 * kMost_m * (std::sin(waves * lat_rad) + std::cos(waves * lon_rad) * std::cos(lat_rad));
 }
 
 /// The heights as 16-bit tiles, as the cutter writes them: number - 32768 is the height in quarters of a metre.
 class Mountains : public TileSource {
  public:
-  Mountains() {
+  explicit Mountains(double waves) : waves_(waves) {
     info_.grid = kHeightGrid;
     info_.format = ImageFormat::png;
     info_.elevation = ElevationInfo{.scale = 0.25, .offset = -8192.0, .nodata = {}, .floats = false};
@@ -44,7 +44,7 @@ class Mountains : public TileSource {
       for (int x = 0; x < side; ++x) {
         const double lat = (b.north_deg - (y + 0.5) * pixel_deg) * to_rad,
                      lon = (b.west_deg + (x + 0.5) * pixel_deg) * to_rad;
-        values.push_back(static_cast<std::uint16_t>(std::lround(4.0 * (height_m(lat, lon) + 8192.0))));
+        values.push_back(static_cast<std::uint16_t>(std::lround(4.0 * (height_m(lat, lon, waves_) + 8192.0))));
       }
     }
     return EncodedTile{*encode_gray16_png(values, side)};
@@ -52,12 +52,13 @@ class Mountains : public TileSource {
 
  private:
   TileSetInfo info_;
+  double waves_;
 };
 
 class GlobeRelief : public GlTest {
  protected:
-  static std::unique_ptr<Globe> mountains(GlobeOptions options) {
-    auto heights = ElevationSource::open(std::make_shared<Mountains>(), "mountains");
+  static std::unique_ptr<Globe> mountains(const GlobeOptions& options, double waves = 18.0) {
+    auto heights = ElevationSource::open(std::make_shared<Mountains>(waves), "mountains");
     EXPECT_TRUE(heights) << (heights ? "" : heights.error().message);
     auto globe = Globe::create(options, one_colour(kPictureGrid, kGround), *heights);
     EXPECT_TRUE(globe);
@@ -170,7 +171,7 @@ TEST_F(GlobeRelief, ThroughATranslucentMountainNoOtherMountainShows) {
     options.exaggeration = 20.0;
     options.surface.alpha = 0.5;
     options.naive_translucency = naive;
-    const auto globe = mountains(options);
+    const auto globe = mountains(options, 90.0);  // 4° apart: one behind the other before the horizon
     globe->set_camera(camera_at(10, 20, 1.2e5, 90, -5, 70));
     settle(*globe, kReliefPicture);
     const Picture seen = picture();
