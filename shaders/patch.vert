@@ -49,7 +49,11 @@ void main() {
   vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
   vec3 ground = normalize(normal - slope.x * east - slope.y * cross(normal, east));
   // Slopes towards the sun are brighter, those away from it darker, than level ground in the same light.
+#if defined(NIGHT_LIGHTS)
+  light += dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz);
+#else
   light *= clamp(1.0 + 1.3 * sun_ecef.w * (dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz)), 0.3, 1.6);
+#endif
 #endif
   window = patch_window;
   center_and_scale = patch_center_and_scale;

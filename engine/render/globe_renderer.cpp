@@ -96,11 +96,17 @@ void GlobeRenderer::draw_from_below(const Pass& pass) {
   draw_surface(pass, surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque);
 }
 
+// Of the inner sphere where it is drawn: what it hides need not be begun.
+double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
+  const bool drawn = under_ground(pass) || pass.input.surface.alpha < 1.0;
+  return drawn && !pass.input.naive_translucency ? inner_radius_m(pass.input) : 0.0;
+}
+
 void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) const {
   if (!objects_ || !objects_->has(part)) return;
   stencil(pass.eye, 0, mark);
   depth_test(GL_GREATER);
-  pass.counts.draw_calls += objects_->draw(part, pass.eye.view.viewport, choice);
+  pass.counts.draw_calls += objects_->draw(part, pass.eye.view.viewport, choice, hiding_radius_m(pass));
   glEnable(GL_CULL_FACE);
   stencil(pass.eye, 0, 0);
 }

@@ -98,6 +98,7 @@ class GlobeRenderer {
   void upload_frame(const Pass& pass) const;
   [[nodiscard]] double near_m(const Pass& pass) const;
   [[nodiscard]] bool under_ground(const Pass& pass) const;
+  [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
 
   RenderOptions options_;

@@ -9,10 +9,10 @@
 namespace terrella {
 namespace {
 
-constexpr double kLowest_m = 0.1;  // heights are interpolated by their logarithm
+constexpr double kLowestFlight_m = 0.1;  // heights are interpolated by their logarithm
 constexpr double kClimb = 0.4;     // of the way's length
 
-double log_height(double height_m) { return std::log(std::max(height_m, kLowest_m)); }
+double log_height(double height_m) { return std::log(std::max(height_m, kLowestFlight_m)); }
 
 }  // namespace
 
