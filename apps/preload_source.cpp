@@ -26,6 +26,10 @@ Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions
 Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
   auto tiles = open_tile_set(source);
   if (!tiles) return tiles.error();
+  // A cache has no place for what GeoPackages say of single tiles' heights.
+  if ((*tiles)->info().elevation) {
+    return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
+  }
   const std::shared_ptr<TileSource> shared = *std::move(tiles);
   std::error_code unknown;
   const std::filesystem::path whole = std::filesystem::weakly_canonical(source, unknown);

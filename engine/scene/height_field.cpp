@@ -141,9 +141,11 @@ double HeightField::pixel_in_tiles(const Held& own, std::int64_t x, std::int64_t
   if (held != nullptr) return value(*held, x % side, y % side);
   // The nearer border, also round the planet.
   const auto turn = static_cast<std::int64_t>(std::llround(turn_px(id.level)));
+  const auto beyond = [side](std::int64_t column) { return std::max({-column, column - (side - 1), std::int64_t{0}}); };
   std::int64_t column = x - id.x * side;
-  if (column > turn / 2) column -= turn;
-  if (column < -turn / 2) column += turn;
+  for (const std::int64_t around : {column - turn, column + turn}) {
+    if (beyond(around) < beyond(column)) column = around;
+  }
   return value(own, std::clamp<std::int64_t>(column, 0, side - 1),
                std::clamp<std::int64_t>(y - id.y * side, 0, side - 1));
 }

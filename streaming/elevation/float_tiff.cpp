@@ -25,7 +25,8 @@ struct MemoryFile {
 
 tmsize_t read_memory(thandle_t handle, void* to, tmsize_t size) {
   auto& file = *static_cast<MemoryFile*>(handle);
-  if (size < 0 || file.at > file.bytes.size()) return -1;
+  // Nothing beyond the end, as of a file: an error (-1) makes libtiff 4.5 clear memory before its buffer.
+  if (size < 0 || file.at > file.bytes.size()) return 0;
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(size), file.bytes.size() - file.at);
   std::memcpy(to, file.bytes.data() + file.at, count);
   file.at += count;

@@ -114,6 +114,7 @@ class Heights(ProgramTest):
         self.assert_fails(FAILED, "render", tiles, *RENDER, says=[tiles, "heights, not pictures", "--elevation"])
         self.assertFalse((self.folder / "shot.png").exists())
         self.assertIn("elevation", self.assert_done("info", tiles).stdout)
+        self.assert_fails(FAILED, "preload", tiles, "-o", "cache.gpkg", says=[tiles, "heights"])
 
     def test_what_cut_writes(self):
         self.write("in.png", heights_png(512, 256))

@@ -33,7 +33,7 @@ void expect_broken(const Result<HeightTile, TileFailure>& tile, const std::strin
 }
 
 TEST(HeightDecoder, NumbersBecomeMetresByTheTileThenTheSet) {
-  const auto tile = decode(gray16_png(ramp()), {.scale = 2.0, .offset = -100.0}, 0.5, 10.0);
+  const auto tile = decode(gray16_png(ramp()), {.scale = 2.0, .offset = -100.0, .nodata = {}}, 0.5, 10.0);
   ASSERT_TRUE(tile) << tile.error().why;
   EXPECT_EQ(tile->id, kId);
   EXPECT_EQ(tile->side_px, kSide_px);
@@ -72,12 +72,12 @@ TEST(HeightDecoder, FloatsThatAreNoHeightsAreUnknown) {
 
 TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
   const ElevationInfo whole;
-  const ElevationInfo floats{.floats = true};
+  const ElevationInfo floats{.nodata = {}, .floats = true};
   expect_broken(decode(bytes_of("junk"), whole), "no PNG picture");
   expect_broken(decode({}, whole), "no PNG picture");
   expect_broken(decode(*encode_png(gradient(kSide_px, kSide_px)), whole), "RGB of 8 bits");
   expect_broken(decode(gray16_png(std::vector<std::uint16_t>(64)), whole), "8×8");
-  expect_broken(decode(gray16_png(ramp()), {.scale = 1e9}), "scale or offset is wrong");
+  expect_broken(decode(gray16_png(ramp()), {.scale = 1e9, .nodata = {}}), "scale or offset is wrong");
   expect_broken(decode(gray16_png(ramp()), floats), "TIFF");
   expect_broken(decode(float_tiff(std::vector<float>(64)), floats), "8×8");
   auto half = gray16_png(ramp());
@@ -113,7 +113,7 @@ TEST(HeightDecoder, DamagedBytesNeverCrash) {
   feed_damaged(gray16_png(ramp()), {});
   std::vector<float> values;
   for (const std::uint16_t value : ramp()) values.push_back(static_cast<float>(value) * 0.1F);
-  feed_damaged(float_tiff(values), {.floats = true});
+  feed_damaged(float_tiff(values), {.nodata = {}, .floats = true});
 }
 
 }  // namespace

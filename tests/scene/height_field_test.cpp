@@ -20,7 +20,8 @@ constexpr int kTile_px = 20;  // no multiple of a block
 
 /// Any height for a pixel of a level, the same each time.
 float height_of(int level, std::int64_t x, std::int64_t y) {
-  const auto mixed = static_cast<std::uint64_t>(x * 7919 + y * 104729 + level * 1299709) * 0x9E3779B97F4A7C15ULL;
+  const auto mixed =
+      static_cast<std::uint64_t>(x * 7919 + y * 104729 + std::int64_t{level} * 1299709) * 0x9E3779B97F4A7C15ULL;
   return static_cast<float>(mixed >> 44) * (20000.0F / 1048576.0F) - 10000.0F;
 }
 
@@ -280,7 +281,8 @@ TEST(HeightField, RangesOfSmallBoxesAreThoseOfTheirBlocks) {
     for (const TileId& id : tiles_of(grid, level)) {
       HeightTile tile = tile_at(grid, id);
       for (std::size_t i = 0; i < tile.heights_m.size(); ++i) {
-        const double row = static_cast<double>(id.y) * kTile_px + static_cast<double>(i / kTile_px) + 0.5;
+        const std::size_t row_in_tile = i / kTile_px;
+        const double row = static_cast<double>(id.y) * kTile_px + static_cast<double>(row_in_tile) + 0.5;
         tile.heights_m[i] = static_cast<float>(row * tile_span_deg(grid, level) / kTile_px);  // degrees from the pole
       }
       field.add(std::move(tile));

@@ -239,7 +239,7 @@ TEST(GeoPackage, HostileOnesAreRefused) {
   const Damage damages[] = {
       {"DROP TABLE gpkg_contents", "gpkg_contents"},
       {"DELETE FROM gpkg_contents", "without tiles"},
-      {"UPDATE gpkg_contents SET data_type = '2d-gridded-coverage'", "elevation"},
+      {"UPDATE gpkg_contents SET data_type = '2d-gridded-coverage'", "gpkg_2d_gridded_coverage_ancillary"},
       {"UPDATE gpkg_contents SET table_name = NULL; UPDATE gpkg_tile_matrix_set SET table_name = NULL",
        "without tiles"},
       {"UPDATE gpkg_contents SET table_name = 5; UPDATE gpkg_tile_matrix_set SET table_name = 5", "table_name"},
