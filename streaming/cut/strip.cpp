@@ -1,29 +1,54 @@
 #include "streaming/cut/strip.h"
 
+#include <iterator>
+#include <utility>
+
 namespace terrella {
 
 std::shared_ptr<Strip> StripPool::lend(const Strip& shape) {
   const std::size_t bytes = shape.stride_bytes() * static_cast<std::size_t>(shape.tile_px);
   auto strip = std::make_unique<Strip>(shape);
+  std::vector<Pixels> dropped;
   {
     std::unique_lock lock(mutex_);
     returned_.wait(lock, [&] { return lent_bytes_ == 0 || lent_bytes_ + bytes <= max_bytes_; });
     lent_bytes_ += bytes;
     if (const auto found = free_.find(bytes); found != free_.end()) {
       strip->rgba = std::move(found->second);
+      free_bytes_ -= bytes;
       free_.erase(found);
     }
+    dropped = drop_free();
   }
+  dropped.clear();
   strip->rgba.resize(bytes);
   return {strip.release(), [this](Strip* done) { take_back(done); }};
+}
+
+std::size_t StripPool::held_bytes() const {
+  const std::scoped_lock lock(mutex_);
+  return lent_bytes_ + free_bytes_;
+}
+
+/// What the bound leaves no room for, the largest first.
+std::vector<StripPool::Pixels> StripPool::drop_free() {
+  std::vector<Pixels> dropped;
+  while (!free_.empty() && lent_bytes_ + free_bytes_ > max_bytes_) {
+    const auto largest = std::prev(free_.end());
+    free_bytes_ -= largest->first;
+    dropped.push_back(std::move(largest->second));
+    free_.erase(largest);
+  }
+  return dropped;
 }
 
 void StripPool::take_back(Strip* strip) {
   const std::unique_ptr<Strip> owner(strip);
   {
     const std::scoped_lock lock(mutex_);
-    lent_bytes_ -= owner->rgba.size();
     const std::size_t bytes = owner->rgba.size();
+    lent_bytes_ -= bytes;
+    free_bytes_ += bytes;
     free_.emplace(bytes, std::move(owner->rgba));
   }
   returned_.notify_all();

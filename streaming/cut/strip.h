@@ -28,8 +28,8 @@ struct Strip {
   }
 };
 
-/// Lends strips and takes their memory back for the next one: fresh pages cost as much as halving does. What is lent at
-/// a time is bounded, which is what bounds the cutter's memory.
+/// Lends strips and takes their memory back for the next one: fresh pages cost as much as halving does. What is lent
+/// and what is kept for the next ones are bounded together, which is what bounds the cutter's memory.
 /// thread: any. Outlives what it lends.
 class StripPool {
  public:
@@ -37,15 +37,20 @@ class StripPool {
 
   /// A strip of that shape, its pixels undefined. Waits until enough of what is lent has come back.
   [[nodiscard]] std::shared_ptr<Strip> lend(const Strip& shape);
+  /// Lent, and kept: at most `max_bytes`, or the one strip that is lent if it takes more.
+  [[nodiscard]] std::size_t held_bytes() const;
 
  private:
+  using Pixels = std::vector<std::uint8_t>;
   void take_back(Strip* strip);
+  [[nodiscard]] std::vector<Pixels> drop_free();
 
   std::size_t max_bytes_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable returned_;
   std::size_t lent_bytes_ = 0;
-  std::multimap<std::size_t, std::vector<std::uint8_t>> free_;
+  std::size_t free_bytes_ = 0;
+  std::multimap<std::size_t, Pixels> free_;
 };
 
 }  // namespace terrella

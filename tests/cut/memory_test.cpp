@@ -10,6 +10,7 @@
 #include "picture_files.h"
 #include "streaming/cut.h"
 #include "streaming/cut/row_reader.h"
+#include "streaming/cut/strip.h"
 
 namespace terrella::test {
 namespace {
@@ -99,12 +100,29 @@ TEST(MemoryTest, DoesNotGrowWithTheHeight) {
   EXPECT_LT(*peak, own_peak() + kMost_KiB);
 }
 
+TEST(MemoryTest, StripsThatAreKeptCountWithThoseThatAreLent) {
+  constexpr std::size_t kMost_bytes = 10 * 16 * 16 * 4;
+  StripPool pool(kMost_bytes);
+  const auto shape = [](std::int64_t tiles) {
+    return Strip{.level = 0, .tile_y = 0, .tile_x0 = 0, .tiles = tiles, .tile_px = 16, .rgba = {}};
+  };
+  for (const std::int64_t tiles : {4, 2, 4, 6, 3, 3, 3, 10, 1}) {
+    const auto first = pool.lend(shape(tiles));
+    EXPECT_LE(pool.held_bytes(), kMost_bytes) << tiles;
+    if (tiles > 5) continue;
+    const auto second = pool.lend(shape(tiles));
+    EXPECT_LE(pool.held_bytes(), kMost_bytes) << tiles;
+  }
+  const auto too_large = pool.lend(shape(12));
+  EXPECT_EQ(pool.held_bytes(), too_large->rgba.size());
+}
+
 /// A planet of 86400×43200 in 300 MB: its width decides, so a few rows of tiles tell.
 class WidePictureTest : public testing::TestWithParam<int> {};
 
 TEST_P(WidePictureTest, FitsInto300Megabytes) {
   constexpr int kWidth_px = 86400;
-  constexpr int kHeight_px = 264;  // the strips of all levels are held, and of the finest a second one
+  constexpr int kHeight_px = 1100;  // the strips of three levels are full once and begun anew
   constexpr double kPixel_deg = 360.0 / kWidth_px;
   // What a process of nothing holds is counted in; under a sanitizer that is much more than in a program to use.
   constexpr long kProgram_KiB = 16L << 10;
