@@ -10,7 +10,7 @@ namespace terrella {
 namespace {
 
 constexpr double kLowestFlight_m = 0.1;  // heights are interpolated by their logarithm
-constexpr double kClimb = 0.4;     // of the way's length
+constexpr double kClimb = 0.4;           // of the way's length
 
 double log_height(double height_m) { return std::log(std::max(height_m, kLowestFlight_m)); }
 

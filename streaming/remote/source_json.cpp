@@ -67,13 +67,13 @@ void read_kind(JsonFields& fields, SourceDescription& source) {
                                        : "cannot stand beside \"wmts\" or \"tms\": a source is one of the three");
     return;
   }
-  using Kind = SourceDescription::Kind;
-  source.kind = fields.has("url") ? Kind::url_template : fields.has("wmts") ? Kind::wmts : Kind::tms;
+  using SourceKind = SourceDescription::Kind;
+  source.kind = fields.has("url") ? SourceKind::url_template : fields.has("wmts") ? SourceKind::wmts : SourceKind::tms;
   for (const char* field : {"url", "wmts", "tms"}) {
     if (fields.has(field)) source.address = fields.text(field);
   }
   for (const char* field : {"layer", "matrix_set", "style", "time"}) {
-    if (fields.has(field) && source.kind != Kind::wmts) fields.fail<int>(field, "is for a \"wmts\" alone");
+    if (fields.has(field) && source.kind != SourceKind::wmts) fields.fail<int>(field, "is for a \"wmts\" alone");
   }
 }
 
