@@ -13,10 +13,6 @@ namespace {
 // A level is coarse enough if its texels are at most 2^0.02 pixels: a rounding of 1.4 % spares half of the borderline
 // tiles.
 constexpr double kLevelRounding = 0.02;
-// Around the pole bands tiles are thin and many, and their texels narrow: those may be up to so many pixels long along
-// the meridian as long as their area is that of so many. cos² of the latitudes 75.5° and 53°.
-constexpr double kLongestTexel_px = 1.5, kMeanTexel_px = 1.19;
-constexpr double kLeastEased_cos2 = 0.0625, kMostEased_cos2 = 0.36;
 // A cell larger than this part of its distance has pixels of too different size to be judged by its middle.
 constexpr double kLargeCell = 0.25;
 
@@ -153,15 +149,8 @@ class Coverer {
     // A pixel on the ground is `across` wide and across/up long, its length at an angle to the meridian of which sine2
     // is the sine squared; it resolves along an axis what the ellipse of its frequencies reaches there.
     const double north2 = (1.0 - sine2) * up * up + sine2, parallel2 = sine2 * up * up + 1.0 - sine2;
-    const double across2 = cos_lat2 * parallel2;
-    double most2 = std::max(north2, across2);
-    if (cos_lat2 > kLeastEased_cos2 && cos_lat2 < kMostEased_cos2) most2 = std::min(most2, eased2(north2, across2));
-    return texel0_m_ * std::sqrt(most2) / (distance_m * radians_per_pixel_);
-  }
-
-  [[nodiscard]] static double eased2(double north2, double across2) {
-    return std::max(std::max(north2, across2) / (kLongestTexel_px * kLongestTexel_px),
-                    std::sqrt(north2 * across2) / (kMeanTexel_px * kMeanTexel_px));
+    const double most = std::sqrt(std::max(north2, cos_lat2 * parallel2));
+    return texel0_m_ * most / (distance_m * radians_per_pixel_);
   }
 
   struct Found {
