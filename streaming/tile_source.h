@@ -17,10 +17,10 @@ namespace terrella {
 
 /// What the numbers of tiles of heights mean.
 struct ElevationInfo {
-  double scale = 1.0;            ///< metres = number · scale + offset; not 0
-  double offset = 0.0;           ///< metres
+  double scale = 1.0;                 ///< metres = number · scale + offset; not 0
+  double offset = 0.0;                ///< metres
   std::optional<double> nodata = {};  ///< the number that says that there is no height; of whole ones in [0, 65535]
-  bool floats = false;           ///< tiles are TIFFs of 32-bit floats; else gray PNGs of 16 bits
+  bool floats = false;                ///< tiles are TIFFs of 32-bit floats; else gray PNGs of 16 bits
   bool operator==(const ElevationInfo&) const = default;
 };
 

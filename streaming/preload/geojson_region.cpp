@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "streaming/preload/geojson_text.h"
 #include "geo/great_circle.h"
+#include "streaming/preload/geojson_text.h"
 
 namespace terrella {
 namespace {
