@@ -107,7 +107,7 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
 
 // The almanac's years are part of what the option takes.
 Result<UtcTime> parse_time(std::string_view text) {
-  const Result<UtcTime> time = parse_utc(text);
+  Result<UtcTime> time = parse_utc(text);
   if (!time) return time;
   if (const Result<Almanac> almanac = almanac_at(*time); !almanac) return almanac.error();
   return time;

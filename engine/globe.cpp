@@ -158,6 +158,7 @@ void Globe::Impl::ask_heights() {
   if (!heights) return;
   const std::vector<WantedTile> wanted = relief->want(tree, patches);
   std::vector<TileRequest> requests;
+  requests.reserve(wanted.size());
   for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
   heights->request(requests);
   stats.heights_missing = static_cast<int>(wanted.size());

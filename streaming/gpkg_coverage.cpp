@@ -51,7 +51,7 @@ Result<ElevationInfo> read_coverage(SqliteReader& reader, const std::string& tab
   const Result<bool, SqlError> row = query->step();
   if (!row) return refuse(row.error().message);
   if (!*row) return refuse("nothing is said of them");
-  const Result<ElevationInfo> info = info_of(*query);
+  Result<ElevationInfo> info = info_of(*query);
   if (!info) return refuse(info.error().message);
   return info;
 }

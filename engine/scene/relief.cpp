@@ -91,7 +91,7 @@ void Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) {
   relief.mesh_seen = changes_.size();
   if (!changed) return;
   const int n = tree.segments();
-  const auto side = static_cast<std::size_t>(n + 1);
+  const auto side = static_cast<std::size_t>(n) + 1;
   const double step_rad = 0.5 * std::numbers::pi / (std::ldexp(1.0, node.id.level) * n);
   relief.heights_m.resize(side * side);
   relief.slopes.resize(side * side);

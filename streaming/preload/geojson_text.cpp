@@ -41,7 +41,7 @@ std::string geojson_type(const json& object) {
 }
 
 std::string feature_name(const json& feature, std::size_t index) {
-  const std::string number = fmt::format("feature {}", index + 1);
+  std::string number = fmt::format("feature {}", index + 1);
   const auto named = [&number](const json& object, const char* member) {
     if (!object.is_object()) return std::string();
     const auto name = object.find(member);
