@@ -28,6 +28,7 @@ tmsize_t read_memory(thandle_t handle, void* to, tmsize_t size) {
   // Nothing beyond the end, as of a file: an error (-1) makes libtiff 4.5 clear memory before its buffer.
   if (size < 0 || file.at > file.bytes.size()) return 0;
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(size), file.bytes.size() - file.at);
+  if (count == 0) return 0;  // an empty file has no place to copy from
   std::memcpy(to, file.bytes.data() + file.at, count);
   file.at += count;
   return static_cast<tmsize_t>(count);
