@@ -29,7 +29,7 @@ Relief::Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggera
                                                             static_cast<std::size_t>(grid.tile_px)))) {}
 
 void Relief::add(HeightTile tile) {
-  const auto [low, high] = std::minmax(exaggeration_ * double(tile.min_m), exaggeration_ * double(tile.max_m));
+  const double low = exaggeration_ * double(tile.min_m), high = exaggeration_ * double(tile.max_m);
   range_ = {.min_m = std::min(range_.min_m, low), .max_m = std::max(range_.max_m, high)};
   note_change(tile.id);
   last_wanted_[tile.id] = round_;
