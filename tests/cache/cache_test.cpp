@@ -30,7 +30,7 @@ void expect_same(const std::optional<CacheRecord>& got, const CacheRecord& expec
 
 class Cache : public testing::Test {
  protected:
-  test::CacheFolder folder_;
+  test::ScratchFolder folder_;
   const fs::path file_ = folder_ / "planet.gpkg";
 };
 

@@ -9,16 +9,6 @@ namespace terrella::test {
 
 namespace fs = std::filesystem;
 
-CacheFolder::CacheFolder() {
-  std::string name = (fs::temp_directory_path() / "terrella-cache-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-
-CacheFolder::~CacheFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 TileSetInfo planet() {
   TileSetInfo info;
   info.name = "Planet";

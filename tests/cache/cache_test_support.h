@@ -7,22 +7,9 @@
 #include <vector>
 
 #include "streaming/cache/tile_cache.h"
+#include "tests/support/scratch_folder.h"
 
 namespace terrella::test {
-
-/// A folder that goes with its owner.
-class CacheFolder {
- public:
-  CacheFolder();
-  ~CacheFolder();
-  CacheFolder(const CacheFolder&) = delete;
-  CacheFolder& operator=(const CacheFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline constexpr const char* kSource = "https://tiles.example/{z}/{x}/{y}.jpg";
 

@@ -47,7 +47,7 @@ class CacheDamage : public testing::Test {
     return cache ? "" : cache.error().message;
   }
 
-  test::CacheFolder folder_;
+  test::ScratchFolder folder_;
   const fs::path file_ = folder_ / "planet.gpkg";
 };
 

@@ -80,7 +80,7 @@ class FileSizeLimit {
 };
 
 TEST(CacheDiskFull, GoesOnAfterALimitOnTheFileSizeIsLifted) {
-  const test::CacheFolder folder;
+  const test::ScratchFolder folder;
   const FileSizeLimit limit(kSpace);
   fill_and_go_on(folder / "planet.gpkg", [&] { limit.lift(); });
 }
@@ -107,7 +107,7 @@ class SmallDisk {
 };
 
 TEST(CacheDiskFull, GoesOnAfterSpaceWasMadeOnASmallDisk) {
-  const test::CacheFolder folder;
+  const test::ScratchFolder folder;
   const SmallDisk disk(folder / "disk");
   if (!disk.mounted()) {
     // Only root may mount; the limit on the file size above takes the same path through the code.

@@ -33,7 +33,7 @@ class CacheLimit : public testing::Test {
     return n;
   }
 
-  test::CacheFolder folder_;
+  test::ScratchFolder folder_;
   const fs::path file_ = folder_ / "planet.gpkg";
 };
 

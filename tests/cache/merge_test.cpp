@@ -39,7 +39,7 @@ class Merge : public testing::Test {
     return summary ? "" : summary.error().message;
   }
 
-  test::CacheFolder folder_;
+  test::ScratchFolder folder_;
   const fs::path a_ = folder_ / "a.gpkg", b_ = folder_ / "b.gpkg", out_ = folder_ / "out.gpkg";
 };
 

@@ -65,7 +65,7 @@ void wait_for_words(const fs::path& words) {
 
 class Processes : public testing::Test {
  protected:
-  test::CacheFolder folder_;
+  test::ScratchFolder folder_;
   const fs::path file_ = folder_ / "planet.gpkg";
 };
 

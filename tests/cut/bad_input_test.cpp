@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Cuts to both kinds of output; each must fail with a message that holds all parts, and leave nothing behind.
-void expect_picture_refused(const TestFolder& folder, const fs::path& picture, const std::vector<std::string>& parts) {
+void expect_picture_refused(const ScratchFolder& folder, const fs::path& picture,
+                            const std::vector<std::string>& parts) {
   const auto before = folder.names();
   for (const char* output : {"out.gpkg", "out"}) {
     const auto made = cut({.images = {picture}, .output = folder / output});
@@ -33,7 +34,7 @@ void truncate_to(const fs::path& path, double part) {
 }
 
 TEST(BadInputTest, NoFileAndNoPicture) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   expect_picture_refused(folder, folder / "nowhere.jpg", {"no such file"});
   write_bytes(folder / "empty.jpg", {});
   expect_picture_refused(folder, folder / "empty.jpg", {"empty"});
@@ -45,13 +46,13 @@ TEST(BadInputTest, NoFileAndNoPicture) {
 }
 
 TEST(BadInputTest, NotTwoToOneSaysWhatToDo) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   write_png(folder / "square.png", noise(64, 64));
   expect_picture_refused(folder, folder / "square.png", {"64x64", "--bounds"});
 }
 
 TEST(BadInputTest, TruncatedPicturesNameTheRow) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(256, 128);
   for (const double part : {0.4, 0.7, 0.95}) {
     write_jpeg(folder / "a.jpg", picture);
@@ -66,7 +67,7 @@ TEST(BadInputTest, TruncatedPicturesNameTheRow) {
 }
 
 TEST(BadInputTest, TruncatedTiffsAreRefused) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(256, 128);
   for (const int tile_px : {0, 64}) {
     write_tiff(folder / "a.tif", picture, {.tile_px = tile_px});
@@ -76,7 +77,7 @@ TEST(BadInputTest, TruncatedTiffsAreRefused) {
 }
 
 TEST(BadInputTest, ProgressiveJpegWithEndlessScansIsRefused) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   write_jpeg(folder / "in.jpg", noise(64, 32), true);
   auto bytes = read_bytes(folder / "in.jpg");
   // The last scan (from its FF DA to before FF D9), two hundred times more.
@@ -93,7 +94,7 @@ TEST(BadInputTest, ProgressiveJpegWithEndlessScansIsRefused) {
 }
 
 TEST(BadInputTest, KindsOfTiffThatAreNotReadSaySo) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   TIFF* tiff = TIFFOpen((folder / "float.tif").c_str(), "w");
   for (const auto& [tag, value] :
        {std::pair{TIFFTAG_IMAGEWIDTH, 4}, std::pair{TIFFTAG_IMAGELENGTH, 2}, std::pair{TIFFTAG_BITSPERSAMPLE, 32},
@@ -121,7 +122,7 @@ class Output : public testing::Test {
     EXPECT_EQ(folder_.names(), before);
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
   fs::path picture_ = folder_ / "in.png";
 };
 

@@ -30,7 +30,7 @@ class Cache : public testing::Test {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_ / "cache"), {}));
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
   CutOptions options_{.images = {folder_ / "in.png"}, .output = {}, .tile_px = 32};
 };
 

@@ -102,7 +102,7 @@ class Elevation : public testing::Test {
     return value;
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(Elevation, GdalReadsTheHeightsOfA16BitPng) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kExtent_deg = 1e-9;  // 0.1 mm on Earth
 
-nlohmann::json gdalinfo(const TestFolder& folder, const std::string& file) {
+nlohmann::json gdalinfo(const ScratchFolder& folder, const std::string& file) {
   const auto out = folder / "info.json";
   const std::string command = fmt::format("{} -json '{}' > '{}' 2> '{}'", TERRELLA_GDALINFO, (folder / file).string(),
                                           out.string(), (folder / "info.log").string());
@@ -23,7 +23,7 @@ nlohmann::json gdalinfo(const TestFolder& folder, const std::string& file) {
   return nlohmann::json::parse(text, nullptr, false);
 }
 
-Result<CutSummary> cut_png(const TestFolder& folder, const Image& picture, std::optional<GeoRect> bounds) {
+Result<CutSummary> cut_png(const ScratchFolder& folder, const Image& picture, std::optional<GeoRect> bounds) {
   write_png(folder / "in.png", picture);
   return cut({.images = {folder / "in.png"},
               .output = folder / "out.gpkg",
@@ -33,7 +33,7 @@ Result<CutSummary> cut_png(const TestFolder& folder, const Image& picture, std::
 }
 
 void expect_gdal_reads(const Image& picture, std::optional<GeoRect> bounds) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const auto made = cut_png(folder, picture, bounds);
   ASSERT_TRUE(made) << made.error().message;
   const auto info = gdalinfo(folder, "out.gpkg");
@@ -88,7 +88,7 @@ std::string ask(sqlite3* database, const char* question) {
 }
 
 TEST(GeoPackageTest, HoldsWhatTheStandardAsks) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(cut_png(folder, noise(270, 135), std::nullopt));
   sqlite3* opened = nullptr;
   ASSERT_EQ(sqlite3_open_v2((folder / "out.gpkg").c_str(), &opened, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);

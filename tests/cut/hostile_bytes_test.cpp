@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Bytes changed at random in a good picture: whatever comes, it is pixels or an error. Sanitizers see the rest.
-void spoil_and_read(const TestFolder& folder, const fs::path& good) {
+void spoil_and_read(const ScratchFolder& folder, const fs::path& good) {
   constexpr int kTrials = 150;
   const auto bytes = read_bytes(good);
   std::mt19937 random(7);
@@ -34,7 +34,7 @@ void spoil_and_read(const TestFolder& folder, const fs::path& good) {
 }
 
 TEST(HostileBytesTest, EndInPixelsOrAnError) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(48, 24, true);
   write_png(folder / "a.png", picture);
   write_interlaced_png(folder / "b.png", picture);
@@ -44,7 +44,7 @@ TEST(HostileBytesTest, EndInPixelsOrAnError) {
 }
 
 TEST(HostileBytesTest, TiffsToo) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(48, 24, true);
   const std::vector<TiffKind> kinds = {
       {},

@@ -15,15 +15,20 @@
 namespace terrella::test {
 namespace {
 
-/// Rows of one colour each: quick to write and small on the disk, whatever the height.
-void write_tall_tiff(const std::filesystem::path& path, int width_px, int height_px) {
-  TIFF* tiff = TIFFOpen(path.c_str(), "w");
+TIFF* open_rgb_tiff(const std::filesystem::path& path, const char* mode, int width_px, int height_px) {
+  TIFF* tiff = TIFFOpen(path.c_str(), mode);
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width_px);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height_px);
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_PACKBITS);
+  return tiff;
+}
+
+/// Rows of one colour each: quick to write and small on the disk, whatever the height.
+void write_tall_tiff(const std::filesystem::path& path, int width_px, int height_px) {
+  TIFF* tiff = open_rgb_tiff(path, "w", width_px, height_px);
   TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 64);
   for (int y = 0; y < height_px; ++y) {
     std::vector<std::uint8_t> row(static_cast<std::size_t>(width_px) * 3, static_cast<std::uint8_t>(y));
@@ -39,13 +44,7 @@ std::uint8_t value_of(std::uint32_t block, std::size_t row) {
 
 /// Each row of each tile of one colour; 0 px: strips of a row.
 void write_wide_bigtiff(const std::filesystem::path& path, int width_px, int height_px, int tile_px) {
-  TIFF* tiff = TIFFOpen(path.c_str(), "w8");
-  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width_px);
-  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height_px);
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
-  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
-  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_PACKBITS);
+  TIFF* tiff = open_rgb_tiff(path, "w8", width_px, height_px);
   const auto side = static_cast<std::size_t>(tile_px);
   const std::size_t block_bytes = 3 * (tile_px > 0 ? side * side : static_cast<std::size_t>(width_px));
   std::vector<std::uint8_t> block(block_bytes);
@@ -91,7 +90,7 @@ TEST(MemoryTest, DoesNotGrowWithTheHeight) {
   constexpr int kWidth_px = 2048;
   constexpr int kHeight_px = 32768;       // 256 MiB as RGBA
   constexpr long kMost_KiB = 128L << 10;  // strips, what runs ahead, libraries
-  const TestFolder folder;
+  const ScratchFolder folder;
   write_tall_tiff(folder / "tall.tif", kWidth_px, kHeight_px);
   const auto peak = peak_of_cut({.images = {folder / "tall.tif"},
                                  .output = folder / "out.gpkg",
@@ -127,7 +126,7 @@ TEST_P(WidePictureTest, FitsInto300Megabytes) {
   // What a process of nothing holds is counted in; under a sanitizer that is much more than in a program to use.
   constexpr long kProgram_KiB = 16L << 10;
   constexpr long kMost_KiB = 300'000'000L / 1024;
-  const TestFolder folder;
+  const ScratchFolder folder;
   write_wide_bigtiff(folder / "wide.tif", kWidth_px, kHeight_px, GetParam());
   const auto peak = peak_of_cut({.images = {folder / "wide.tif"},
                                  .output = folder / "out.gpkg",
@@ -145,7 +144,7 @@ TEST(MemoryTest, PartsOfTilesAreTheRowsThatTheyWere) {
   constexpr int kWidth_px = 86400;
   constexpr int kHeight_px = 700;
   constexpr int kTile_px = 512;
-  const TestFolder folder;
+  const ScratchFolder folder;
   write_wide_bigtiff(folder / "wide.tif", kWidth_px, kHeight_px, kTile_px);
   auto rows = open_rows(folder / "wide.tif");
   ASSERT_TRUE(rows) << rows.error().message;

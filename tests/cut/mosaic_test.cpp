@@ -53,7 +53,7 @@ class Mosaic : public testing::Test {
     expect_refused({.images = parts, .output = folder_ / "out.gpkg", .tile_px = 16, .mosaic = grid}, said);
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
   Image picture_ = noise(128, 64);
   double west_deg_ = -180.0;
   double north_deg_ = 90.0;

@@ -4,7 +4,6 @@
 #include <png.h>
 #include <turbojpeg.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -16,23 +15,6 @@
 namespace terrella::test {
 
 namespace fs = std::filesystem;
-
-TestFolder::TestFolder() {
-  std::string name = (fs::temp_directory_path() / "terrella-cut-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> TestFolder::names() const {
-  std::vector<std::string> all;
-  for (const auto& entry : fs::directory_iterator(path_)) all.push_back(entry.path().filename());
-  std::ranges::sort(all);
-  return all;
-}
 
 Image painted(int width_px, int height_px, const std::function<int(int, int, int)>& value) {
   Image image{.width_px = width_px, .height_px = height_px, .rgba = {}};

@@ -7,25 +7,10 @@
 
 #include "streaming/image.h"
 #include "streaming/tile_source.h"
+#include "tests/support/scratch_folder.h"
 
 /// Pictures, files and tile sets that the cutter's tests share.
 namespace terrella::test {
-
-/// A folder of its own that is removed with all that is in it.
-class TestFolder {
- public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Names of what is in it, sorted.
-  [[nodiscard]] std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Noise of a fixed seed: neighbours differ as much as they can, so that a wrong weight shows. Alpha too if asked.
 [[nodiscard]] Image noise(int width_px, int height_px, bool with_alpha = false);

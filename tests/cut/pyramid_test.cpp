@@ -15,7 +15,7 @@ namespace {
 constexpr double kOneRounding = 0.5 + 0.001;
 
 struct Cut {
-  TestFolder folder;
+  ScratchFolder folder;
   std::unique_ptr<TileSource> tiles;
   CutSummary summary;
 };
@@ -198,7 +198,7 @@ TEST(PyramidTest, RegionsThatCross180AreTheSameTilesAsTheirTwoHalves) {
 }
 
 TEST(PyramidTest, TransparentPicturesBecomePngsByThemselves) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   for (const bool alpha : {false, true}) {
     write_png(folder / "in.png", noise(64, 32, alpha));
     ASSERT_TRUE(cut({.images = {folder / "in.png"}, .output = folder / "out", .tile_px = 16}));

@@ -22,7 +22,7 @@ Image opaque(Image image) {
 }
 
 TEST(ReadersTest, Png) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(37, 23, true);
   write_png(folder / "plain.png", picture);
   expect_same(read_all_rows(folder / "plain.png"), picture);
@@ -36,7 +36,7 @@ TEST(ReadersTest, Png) {
 }
 
 TEST(ReadersTest, JpegsAreReadAsTheTileDecoderDoes) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(61, 35);
   for (const bool progressive : {false, true}) {
     write_jpeg(folder / "in.jpg", picture, progressive);
@@ -69,7 +69,7 @@ Image as_read(const Image& picture, const TiffKind& kind) {
 }
 
 TEST_P(Tiff, EveryKindGivesItsPixels) {
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = noise(53, 41, true);
   write_tiff(folder / "in.tif", picture, GetParam().kind);
   expect_same(read_all_rows(folder / "in.tif"), as_read(picture, GetParam().kind));
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ReadersTest, TiffOfJpegs) {
   constexpr int kJpeg =
       40;  // 8-bit levels: what JPEG of libtiff's default quality does to a gentle slope, with a margin
-  const TestFolder folder;
+  const ScratchFolder folder;
   const Image picture = painted(64, 32, [](int x, int y, int c) { return c == 3 ? 255 : 40 * c + x + 2 * y; });
   for (const int tile_px : {0, 16}) {
     write_tiff(

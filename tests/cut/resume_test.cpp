@@ -56,7 +56,7 @@ class Resume : public testing::TestWithParam<const char*> {
     return fs::is_directory(options.output) ? std::vector<std::byte>{} : read_bytes(options.output);
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
   CutOptions options_{.images = {folder_ / "in.png"}, .output = folder_ / GetParam(), .tile_px = 16};
 };
 
@@ -103,7 +103,7 @@ TEST_P(Resume, LeftoversOfOtherOutputsStay) {
   EXPECT_GT(first_row_of_next(), 128);
 }
 
-fs::path left_over(const TestFolder& folder) {
+fs::path left_over(const ScratchFolder& folder) {
   for (const std::string& name : folder.names()) {
     if (name.ends_with(".part")) return folder / name;
   }

@@ -28,7 +28,7 @@ class Shards : public testing::Test {
     EXPECT_TRUE(read_bytes(folder_ / "out.gpkg") == read_bytes(folder_ / "whole.gpkg"));
   }
 
-  TestFolder folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(Shards, JoinedAreTheSameBytesAsTheWhole) {

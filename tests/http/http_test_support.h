@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "streaming/http/http_fetcher.h"
+#include "tests/support/scratch_folder.h"
 
 namespace terrella::test {
 
@@ -77,19 +78,6 @@ class Replies {
 
 /// Options with which a test is over soon.
 [[nodiscard]] HttpOptions quick_options();
-
-/// A folder that is removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 void write_file(const std::filesystem::path& path, const std::string& text);
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);

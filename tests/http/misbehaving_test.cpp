@@ -197,7 +197,7 @@ TEST_F(Misbehaving, OtherSchemesAreRefused) {
 }
 
 TEST_F(Misbehaving, FilesAreReadFromTheDisk) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_file(folder.path() / "a b.jpg", "picture");
   const std::string base = "file://" + folder.path().string();
   Replies replies(quick_options());

@@ -39,14 +39,14 @@ HttpReply fetch_over_tls(const std::filesystem::path& folder, const std::string&
 }
 
 TEST(Certificate, ThatIsTrustedIsTaken) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   make_certificate(folder.path(), "-days 2");
   const HttpReply reply = fetch_over_tls(folder.path(), (folder.path() / "certificate.pem").string(), "127.0.0.1");
   EXPECT_EQ(reply.outcome, HttpOutcome::content) << reply.why;
 }
 
 TEST(Certificate, ThatHasExpiredIsRefusedAtOnce) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   make_certificate(folder.path(), "-startdate 20200101000000Z -enddate 20200102000000Z");
   const HttpReply reply = fetch_over_tls(folder.path(), (folder.path() / "certificate.pem").string(), "127.0.0.1");
   EXPECT_EQ(reply.outcome, HttpOutcome::refused);
@@ -56,13 +56,13 @@ TEST(Certificate, ThatHasExpiredIsRefusedAtOnce) {
 }
 
 TEST(Certificate, ThatNobodySignedIsRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   make_certificate(folder.path(), "-days 2");
   EXPECT_EQ(fetch_over_tls(folder.path(), "", "127.0.0.1").outcome, HttpOutcome::refused);
 }
 
 TEST(Certificate, OfAnotherNameIsRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   make_certificate(folder.path(), "-days 2");
   const std::string trusted = (folder.path() / "certificate.pem").string();
   EXPECT_EQ(fetch_over_tls(folder.path(), trusted, "127.0.0.2").outcome, HttpOutcome::failed) << "nobody listens there";
@@ -124,7 +124,7 @@ class Nginx : public testing::Test {
   }
 
  private:
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   std::unique_ptr<ServerProcess> nginx_;
 };
 

@@ -9,21 +9,9 @@
 
 #include "streaming/image.h"
 #include "streaming/tile_source.h"
+#include "tests/support/scratch_folder.h"
 
 namespace terrella::test {
-
-/// A folder that goes with its owner.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 [[nodiscard]] std::vector<std::byte> bytes_of(std::string_view text);
 void write_bytes(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
