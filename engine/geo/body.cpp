@@ -24,8 +24,9 @@ Body sphere(std::string name, double radius_m) {
 }
 
 /// Figures other than Earth's are those of the IAU Working Group on Cartographic Coordinates and Rotational Elements,
-/// report of 2015 (Archinal et al. 2018, doi:10.1007/s10569-017-9805-5): planets' equatorial and polar radius; for
-/// triaxial moons the mean radius, as a sphere.
+/// report of 2015 (Archinal et al. 2018, doi:10.1007/s10569-017-9805-5), compared with what PROJ 9.1 has of it (its
+/// database's authority IAU_2015): equatorial and polar radius of a spheroid; for what is triaxial the mean radius, as
+/// a sphere; for Titan the radius that the report has maps use.
 std::array<Body, 24> make_presets() {
   return {
       // WGS 84: NGA.STND.0036, defining parameters.
@@ -50,8 +51,8 @@ std::array<Body, 24> make_presets() {
       sphere("ganymede", 2631200.0),
       sphere("callisto", 2410300.0),
       sphere("enceladus", 252100.0),
-      sphere("titan", 2574730.0),
-      sphere("iapetus", 734300.0),
+      sphere("titan", 2575000.0),
+      from_axes("iapetus", 745700.0, 712100.0),
       sphere("triton", 1352600.0),
       sphere("sun", 695700000.0),
   };
