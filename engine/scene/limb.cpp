@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geo/scaled_space.h"
 #include "scene/patch_selection.h"
 
 namespace terrella {
@@ -22,8 +23,7 @@ constexpr int kMargin_px = 8;
 
 class LimbCurve {
  public:
-  LimbCurve(const View& view, const Ellipsoid& ellipsoid)
-      : view_(view), axes_m_(ellipsoid.a_m(), ellipsoid.a_m(), ellipsoid.b_m()) {
+  LimbCurve(const View& view, const Ellipsoid& ellipsoid) : view_(view), axes_m_(semi_axes_m(ellipsoid)) {
     const glm::dvec3 eye = view.eye.xyz_m / axes_m_;
     const double length = glm::length(eye);
     const glm::dvec3 all = view.eye.xyz_m + view.right + view.up + view.forward;

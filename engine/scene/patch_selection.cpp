@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geo/scaled_space.h"
 #include "scene/relief.h"
 
 namespace terrella {
@@ -78,7 +79,7 @@ class Selector {
   // The eyes of one selection lie in a ball: the highest of them sees furthest, and the ball is wide as seen from the
   // centre.
   void find_horizon(const Ellipsoid& e) {
-    const glm::dvec3 eye = view_.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m());
+    const glm::dvec3 eye = view_.eye.xyz_m / semi_axes_m(e);
     const double length = glm::length(eye), spread = view_.eye_spread_m / e.b_m();
     const std::optional<double> angle = horizon_rad(length, spread, options_.inner_sphere_m / e.a_m());
     has_horizon_ = angle && options_.horizon_culling != HorizonCulling::off;

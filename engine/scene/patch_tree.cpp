@@ -184,11 +184,10 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
   win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) -
                            win.y0);
   win.cells.clear();
-  const glm::dvec3 axes_m(ellipsoid_.a_m(), ellipsoid_.a_m(), ellipsoid_.b_m());
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {
       const BoundingSphere whole = cell_sphere(*this, node, cell_extent(*this, node, x, y));
-      win.cells.push_back({whole, glm::normalize(whole.center_m / (axes_m * axes_m)), {}});
+      win.cells.push_back({whole, ellipsoid_.surface_normal({whole.center_m}).xyz, {}});
     }
   }
   return win;

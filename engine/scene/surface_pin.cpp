@@ -7,6 +7,8 @@
 
 #include "scene/ground_frame.h"
 
+#include "geo/scaled_space.h"
+
 namespace terrella {
 namespace {
 
@@ -26,7 +28,7 @@ glm::dquat shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
 /// Where the ray passes the body: in coordinates in which the ellipsoid is the unit sphere, so that the point joins
 /// the limb without a step whatever the flattening.
 glm::dvec3 past_the_limb(const View& view, const Ellipsoid& ellipsoid, const glm::dvec3& ray) {
-  const glm::dvec3 axes(ellipsoid.a_m(), ellipsoid.a_m(), ellipsoid.b_m());
+  const glm::dvec3 axes = semi_axes_m(ellipsoid);
   const glm::dvec3 eye = view.eye.xyz_m / axes;
   const double distance = glm::length(eye);
   const glm::dvec3 out = eye / distance;

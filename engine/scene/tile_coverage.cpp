@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geo/scaled_space.h"
+
 namespace terrella {
 namespace {
 
@@ -58,11 +60,10 @@ class Coverer {
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
       : tree_(tree), view_(view), memo_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
-    const glm::dvec3 axes_m(e.a_m(), e.a_m(), e.b_m());
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     texel0_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
-    const glm::dvec3 eye_scaled = view.eye.xyz_m / axes_m;
-    eye_over_axes2_ = eye_scaled / axes_m;
+    const glm::dvec3 eye_scaled = view.eye.xyz_m / semi_axes_m(e);
+    eye_over_axes2_ = eye_scaled / semi_axes_m(e);
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
     least_radius_per_m_ = 2.0 / e.b_m();
     horizon_ = 1.0 - view.eye_spread_m / e.b_m();
