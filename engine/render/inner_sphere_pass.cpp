@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/shader_library.h"
+#include "render/vertex_attribute.h"
 
 namespace terrella {
 namespace {
@@ -48,9 +49,7 @@ Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth
   const GLuint array = pass->vertex_array_.name();
   glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(glm::vec3));
   glVertexArrayElementBuffer(array, pass->indices_.name());
-  glEnableVertexArrayAttrib(array, 0);
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, 0);
-  glVertexArrayAttribBinding(array, 0, 0);
+  gl::float_attribute(array, 0, 0, 3, 0);
   return pass;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "render/shader_library.h"
+#include "render/vertex_attribute.h"
 #include "scene/limb.h"
 
 namespace terrella {
@@ -21,14 +22,9 @@ Result<std::unique_ptr<LimbPass>> LimbPass::create() {
   pass->vertices_ = gl::make_buffer();
   const GLuint array = pass->vertex_array_.name();
   glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(LimbVertex));
-  const auto attribute = [array](GLuint index, GLint size, std::size_t offset) {
-    glEnableVertexArrayAttrib(array, index);
-    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(array, index, 0);
-  };
-  attribute(0, 2, offsetof(LimbVertex, position_ndc));
-  attribute(1, 2, offsetof(LimbVertex, outward_px));
-  attribute(2, 1, offsetof(LimbVertex, distance_px));
+  gl::float_attribute(array, 0, 0, 2, offsetof(LimbVertex, position_ndc));
+  gl::float_attribute(array, 1, 0, 2, offsetof(LimbVertex, outward_px));
+  gl::float_attribute(array, 2, 0, 1, offsetof(LimbVertex, distance_px));
   return pass;
 }
 

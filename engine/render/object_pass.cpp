@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "render/shader_library.h"
+#include "render/vertex_attribute.h"
 
 namespace terrella {
 namespace {
@@ -14,12 +15,6 @@ constexpr GLint kViewportUniform = 0;
 constexpr GLint kBiasUniform = 1;
 constexpr GLint kHidingUniform = 2;
 
-void float_attribute(GLuint array, GLuint index, GLuint binding, GLint size, std::size_t offset) {
-  glEnableVertexArrayAttrib(array, index);
-  glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array, index, binding);
-}
-
 void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);
   glVertexArrayAttribFormat(array, index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));
@@ -28,9 +23,9 @@ void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t off
 
 gl::VertexArray dot_array() {
   gl::VertexArray array = gl::make_vertex_array();
-  float_attribute(array.name(), 0, 0, 3, offsetof(DotInstance, high_m));
-  float_attribute(array.name(), 1, 0, 3, offsetof(DotInstance, low_m));
-  float_attribute(array.name(), 2, 0, 1, offsetof(DotInstance, size));
+  gl::float_attribute(array.name(), 0, 0, 3, offsetof(DotInstance, high_m));
+  gl::float_attribute(array.name(), 1, 0, 3, offsetof(DotInstance, low_m));
+  gl::float_attribute(array.name(), 2, 0, 1, offsetof(DotInstance, size));
   color_attribute(array.name(), 3, 0, offsetof(DotInstance, color));
   glVertexArrayBindingDivisor(array.name(), 0, 1);
   return array;
@@ -77,17 +72,17 @@ void ObjectPass::set_up_arrays() {
   sphere_array_ = dot_array();
   marker_array_ = dot_array();
   fill_array_ = gl::make_vertex_array();
-  float_attribute(fill_array_.name(), 0, 0, 3, offsetof(FillVertex, high_m));
-  float_attribute(fill_array_.name(), 1, 0, 3, offsetof(FillVertex, low_m));
+  gl::float_attribute(fill_array_.name(), 0, 0, 3, offsetof(FillVertex, high_m));
+  gl::float_attribute(fill_array_.name(), 1, 0, 3, offsetof(FillVertex, low_m));
   color_attribute(fill_array_.name(), 2, 0, offsetof(FillVertex, color));
   line_array_ = gl::make_vertex_array();
   const GLuint lines = line_array_.name();
   for (GLuint k = 0; k < 4; ++k) {  // the vertex before, this one, the next and the one after that
-    float_attribute(lines, 2 * k, k, 3, offsetof(LineVertex, high_m));
-    float_attribute(lines, 2 * k + 1, k, 3, offsetof(LineVertex, low_m));
+    gl::float_attribute(lines, 2 * k, k, 3, offsetof(LineVertex, high_m));
+    gl::float_attribute(lines, 2 * k + 1, k, 3, offsetof(LineVertex, low_m));
     glVertexArrayBindingDivisor(lines, k, 1);
   }
-  float_attribute(lines, 8, 1, 1, offsetof(LineVertex, width_px));
+  gl::float_attribute(lines, 8, 1, 1, offsetof(LineVertex, width_px));
   color_attribute(lines, 9, 1, offsetof(LineVertex, color));
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/shader_library.h"
+#include "render/vertex_attribute.h"
 
 namespace terrella {
 namespace {
@@ -86,22 +87,17 @@ void PatchPass::set_up_vertex_array() {
   glVertexArrayElementBuffer(array, patches_.index_buffer());
   glVertexArrayVertexBuffer(array, 1, draws_.name(), 0, sizeof(PatchDraw));
   glVertexArrayBindingDivisor(array, 1, 1);
-  const auto attribute = [array](GLuint index, GLuint binding, GLint size, std::size_t offset) {
-    glEnableVertexArrayAttrib(array, index);
-    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(array, index, binding);
-  };
-  attribute(0, 0, 3, offsetof(PatchVertex, position_high_m));
-  attribute(1, 0, 3, offsetof(PatchVertex, position_low_m));
-  attribute(2, 0, 3, offsetof(PatchVertex, direction));
-  attribute(3, 0, 2, offsetof(PatchVertex, offset_deg));
-  attribute(4, 1, 4, offsetof(PatchDraw, center_and_scale));
-  attribute(5, 1, 4, offsetof(PatchDraw, frame));
-  attribute(6, 1, 4, offsetof(PatchDraw, row));
+  gl::float_attribute(array, 0, 0, 3, offsetof(PatchVertex, position_high_m));
+  gl::float_attribute(array, 1, 0, 3, offsetof(PatchVertex, position_low_m));
+  gl::float_attribute(array, 2, 0, 3, offsetof(PatchVertex, direction));
+  gl::float_attribute(array, 3, 0, 2, offsetof(PatchVertex, offset_deg));
+  gl::float_attribute(array, 4, 1, 4, offsetof(PatchDraw, center_and_scale));
+  gl::float_attribute(array, 5, 1, 4, offsetof(PatchDraw, frame));
+  gl::float_attribute(array, 6, 1, 4, offsetof(PatchDraw, row));
   glEnableVertexArrayAttrib(array, 7);
   glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
   glVertexArrayAttribBinding(array, 7, 1);
-  if (has_relief_) attribute(8, 2, 2, 0);
+  if (has_relief_) gl::float_attribute(array, 8, 2, 2, 0);
 }
 
 void PatchPass::set_up_samplers() {

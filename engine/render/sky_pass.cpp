@@ -8,7 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "geo/scaled_space.h"
 #include "render/shader_library.h"
+#include "render/vertex_attribute.h"
 
 namespace terrella {
 namespace {
@@ -22,7 +24,7 @@ constexpr double kHeightStep = 0.003;
 constexpr double kSunStep = 0.0005;
 
 // The body made a sphere of radius 1: places, and directions.
-glm::dvec3 scaled(const Ellipsoid& e, const glm::dvec3& p) { return p / glm::dvec3(e.a_m(), e.a_m(), e.b_m()); }
+glm::dvec3 scaled(const Ellipsoid& e, const glm::dvec3& p) { return p / semi_axes_m(e); }
 
 /// Rows and columns of shaders/sky_air.vert.
 struct AirMesh {
@@ -106,14 +108,9 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
   glNamedBufferStorage(star_buffer_.name(), static_cast<GLsizeiptr>(stars.size() * sizeof(Star)), stars.data(), 0);
   const GLuint array = star_array_.name();
   glVertexArrayVertexBuffer(array, 0, star_buffer_.name(), 0, sizeof(Star));
-  const auto attribute = [array](GLuint index, GLint size, std::size_t offset) {
-    glEnableVertexArrayAttrib(array, index);
-    glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(array, index, 0);
-  };
-  attribute(0, 3, offsetof(Star, direction_j2000));
-  attribute(1, 1, offsetof(Star, magnitude));
-  attribute(2, 3, offsetof(Star, color_linear));
+  gl::float_attribute(array, 0, 0, 3, offsetof(Star, direction_j2000));
+  gl::float_attribute(array, 1, 0, 1, offsetof(Star, magnitude));
+  gl::float_attribute(array, 2, 0, 3, offsetof(Star, color_linear));
 }
 
 int SkyPass::draw_stars(const View& view, const SkyInput& input) const {
