@@ -8,3 +8,32 @@ layout(std140, binding = 0) uniform Frame {
   vec4 texels;             // tile_px over slot_px; slot_px; number of mip levels; polar scale of the row direction (TileGrid's latitude)
   vec4 paper;              // a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; unused
 };
+
+// Depth as DepthMode stores it. `w` is the distance before the eye's plane, metres.
+
+// As a vertex has it: times w. Logarithmic depth is written for each fragment, so that a vertex has the standard one.
+float vertex_depth(float w) {
+#if defined(DEPTH_REVERSED)
+  return clip_scale.z;
+#else
+  return (w - clip_scale.z) * (clip_scale.w / (clip_scale.w - clip_scale.z));
+#endif
+}
+
+// As a fragment has it.
+float window_depth(float w) {
+#if defined(DEPTH_REVERSED)
+  return clip_scale.z / w;
+#elif defined(DEPTH_LOGARITHMIC)
+  return log2(w / clip_scale.z + 1.0) / log2(clip_scale.w / clip_scale.z + 1.0);
+#else
+  return (1.0 - clip_scale.z / w) * (clip_scale.w / (clip_scale.w - clip_scale.z));
+#endif
+}
+
+// In a fragment's main(), at `pull` times its distance; other depths than the logarithmic come out of the vertices.
+#if defined(DEPTH_LOGARITHMIC)
+#define WRITE_DEPTH(pull) gl_FragDepth = window_depth((pull) / gl_FragCoord.w)
+#else
+#define WRITE_DEPTH(pull)
+#endif

@@ -29,37 +29,11 @@ bool is_hidden(vec3 center_from_eye, float away, float radius) {
 // Pixels that a metre covers at one metre's distance.
 float focal_px() { return 0.5 * viewport_px.y * clip_scale.y; }
 
-// Depth as a vertex has it: times w.
-float clip_depth(float w, float depth_w) {
-#if defined(DEPTH_REVERSED)
-  return clip_scale.z * w / depth_w;
-#else
-  return (depth_w - clip_scale.z) * (clip_scale.w / (clip_scale.w - clip_scale.z)) * w / depth_w;
-#endif
-}
-
+// With the depth of what is `pull` times as far.
 vec4 clip_of(vec3 position_view, float pull) {
   float w = -position_view.z;
-  return vec4(position_view.xy * clip_scale.xy, clip_depth(w, w * pull), w);
+  return vec4(position_view.xy * clip_scale.xy, vertex_depth(w * pull) / pull, w);
 }
-
-// Depth as a fragment has it.
-float window_depth(float w) {
-#if defined(DEPTH_REVERSED)
-  return clip_scale.z / w;
-#elif defined(DEPTH_LOGARITHMIC)
-  return log2(w / clip_scale.z + 1.0) / log2(clip_scale.w / clip_scale.z + 1.0);
-#else
-  return (1.0 - clip_scale.z / w) * (clip_scale.w / (clip_scale.w - clip_scale.z));
-#endif
-}
-
-// Logarithmic depth is written for each fragment; the others come out of the vertices.
-#if defined(DEPTH_LOGARITHMIC)
-#define WRITE_DEPTH(pull) gl_FragDepth = window_depth((pull) / gl_FragCoord.w)
-#else
-#define WRITE_DEPTH(pull)
-#endif
 
 // A triangle around the unit circle: half as many as two make a square of.
 vec2 corner_of(int vertex) {

@@ -34,11 +34,7 @@ void main() {
   precise vec3 position_from_eye = (position_high_ecef - eye_high_ecef.xyz) + (position_low_ecef - eye_low_ecef.xyz);
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;
-#if defined(DEPTH_REVERSED)
-  gl_Position = vec4(position_view.xy * clip_scale.xy, clip_scale.z, w);
-#else
-  gl_Position = vec4(position_view.xy * clip_scale.xy, (w - clip_scale.z) * (clip_scale.w / (clip_scale.w - clip_scale.z)), w);
-#endif
+  gl_Position = vec4(position_view.xy * clip_scale.xy, vertex_depth(w), w);
   window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
   row_direction = direction;
   vec3 center = vec3(patch_frame.xy * patch_frame.z, patch_frame.w);

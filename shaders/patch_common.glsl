@@ -51,8 +51,5 @@ void finish(vec3 imagery_srgb) {
 #else
   color_srgb = vec4(imagery_srgb * light, 1.0);
 #endif
-#if defined(DEPTH_LOGARITHMIC)
-  float w = 1.0 / gl_FragCoord.w;
-  gl_FragDepth = log2(w / clip_scale.z + 1.0) / log2(clip_scale.w / clip_scale.z + 1.0);
-#endif
+  WRITE_DEPTH(1.0);
 }
