@@ -114,6 +114,14 @@ const char* name_of_colour(int colour_type) {
 
 Error png_failure(const std::string& message) { return Error{"PNG: " + message}; }
 
+// Up to the end of the header.
+Status begin(Decoder& decoder, std::span<const std::byte> bytes) {
+  decoder.rest = bytes;
+  if (!set_up(decoder)) return png_failure("out of memory");
+  if (!read_header(decoder)) return png_failure(decoder.message);
+  return Done{};
+}
+
 bool has_no_alpha(const Image& image) {
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
     if (image.rgba[i] != 255) return false;
@@ -133,9 +141,7 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
 
 Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits) {
   Decoder decoder;
-  decoder.rest = bytes;
-  if (!set_up(decoder)) return png_failure("out of memory");
-  if (!read_header(decoder)) return png_failure(decoder.message);
+  if (Status begun = begin(decoder, bytes); !begun) return begun.error();
   const png_uint_32 width = png_get_image_width(decoder.png, decoder.info);
   const png_uint_32 height = png_get_image_height(decoder.png, decoder.info);
   if (Status fits = check_size(width, height, limits); !fits) return png_failure(fits.error().message);
@@ -148,9 +154,7 @@ Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& l
 
 Result<Gray16> decode_gray16_png(std::span<const std::byte> bytes, const DecodeLimits& limits) {
   Decoder decoder;
-  decoder.rest = bytes;
-  if (!set_up(decoder)) return png_failure("out of memory");
-  if (!read_header(decoder)) return png_failure(decoder.message);
+  if (Status begun = begin(decoder, bytes); !begun) return begun.error();
   const int colour = png_get_color_type(decoder.png, decoder.info);
   const int bits = png_get_bit_depth(decoder.png, decoder.info);
   if (colour != PNG_COLOR_TYPE_GRAY || bits != 16) {
@@ -167,9 +171,7 @@ Result<Gray16> decode_gray16_png(std::span<const std::byte> bytes, const DecodeL
 
 Result<PictureSize> png_size(std::span<const std::byte> bytes) {
   Decoder decoder;
-  decoder.rest = bytes;
-  if (!set_up(decoder)) return png_failure("out of memory");
-  if (!read_header(decoder)) return png_failure(decoder.message);
+  if (Status begun = begin(decoder, bytes); !begun) return begun.error();
   return PictureSize{static_cast<int>(png_get_image_width(decoder.png, decoder.info)),
                      static_cast<int>(png_get_image_height(decoder.png, decoder.info))};
 }
