@@ -30,6 +30,13 @@ glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
 
+bool same(const Camera& a, const Camera& b) {
+  return a.eye.lat == b.eye.lat && a.eye.lon == b.eye.lon && a.eye.height_m == b.eye.height_m &&
+         a.heading == b.heading && a.pitch == b.pitch && a.fov_y == b.fov_y;
+}
+
+bool same(Viewport a, Viewport b) { return a.width_px == b.width_px && a.height_px == b.height_px; }
+
 Status check_context() {
   if (epoxy_gl_version() < 45) return Error{"the globe needs a current OpenGL 4.5 context"};
   return Done{};
@@ -85,6 +92,7 @@ struct Globe::Impl {
   bool sky_on = false;
   std::uint64_t frame = 0;
   double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
+  Viewport drawn;       // the last frame's
   FrameStats stats;
   std::deque<LackingTile> lacking;
   std::deque<std::pair<Clock::time_point, TileId>> failed;  ///< to be asked for again, the earliest first
@@ -194,6 +202,8 @@ glm::dvec3 Globe::Impl::sun() const { return almanac && options.time ? almanac->
 FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats = {};
   ++frame;
+  if (!same(viewport, drawn)) detail = 1.0;
+  drawn = viewport;
   retry_failed();
   stats.uploaded_bytes = take_finished();
   take_heights();
@@ -270,16 +280,23 @@ Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::s
 }
 
 void Globe::set_camera(const Camera& camera) {
+  if (same(camera, impl_->camera)) return;  // callers set it every frame: what a view gave way in stays found
   impl_->camera = camera;
   impl_->detail = 1.0;
 }
 const Camera& Globe::camera() const { return impl_->camera; }
 const GlobeOptions& Globe::options() const { return impl_->options; }
 void Globe::set_unlit(bool unlit) { impl_->options.unlit = unlit; }
-void Globe::set_surface(const SurfaceLook& surface) { impl_->options.surface = surface; }
+void Globe::set_surface(const SurfaceLook& surface) {
+  impl_->options.surface = surface;
+  impl_->detail = 1.0;
+}
 void Globe::set_sky(bool on) { impl_->sky_on = on; }
 Status Globe::set_objects(const ObjectScene& objects) { return impl_->renderer->set_objects(objects); }
-void Globe::set_stereo(const StereoLook& stereo) { impl_->options.stereo = stereo; }
+void Globe::set_stereo(const StereoLook& stereo) {
+  impl_->options.stereo = stereo;
+  impl_->detail = 1.0;
+}
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
 
