@@ -1,14 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/globe.h"
+#include "gl_context_test.h"
 #include "painted_source.h"
-#include "render/offscreen.h"
 
 namespace terrella::test {
 
@@ -23,10 +20,9 @@ struct Picture {
   }
 };
 
-/// A headless GL for each test. What GL calls an error, by its callback or by glGetError, fails the test at its end.
-class GlTest : public testing::Test {
+/// Draws globes.
+class GlTest : public GlContextTest {
  protected:
-  void SetUp() override;
   void TearDown() override;
 
   [[nodiscard]] static std::unique_ptr<Globe> make_globe(const GlobeOptions& options,
@@ -40,10 +36,8 @@ class GlTest : public testing::Test {
  private:
   void resize(Viewport size);
 
-  std::unique_ptr<HeadlessContext> context_;
   std::unique_ptr<OffscreenTarget> target_;
   Viewport size_{0, 0};
-  std::vector<std::string> gl_errors_;
 };
 
 /// Imagery alone on black, so that a pixel without imagery is black.

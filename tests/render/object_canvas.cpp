@@ -8,39 +8,22 @@
 #include "scene/patch_mesh.h"
 
 namespace terrella::test {
-namespace {
-
-void APIENTRY note_object_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
-                                  const void* list) {
-  if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
-  static_cast<std::vector<std::string>*>(const_cast<void*>(list))->emplace_back(text, static_cast<std::size_t>(length));
-}
-
-}  // namespace
 
 void ObjectCanvas::SetUp() {
-  Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
-  ASSERT_TRUE(context) << context.error().message;
-  context_ = std::move(*context);
-  glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  glDebugMessageCallback(note_object_message, &gl_errors_);
+  GlContextTest::SetUp();
+  if (HasFatalFailure()) return;
   frame_block_ = gl::make_buffer();
   glNamedBufferStorage(frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   use(DepthMode::reversed, {200, 200});
 }
 
 void ObjectCanvas::TearDown() {
-  if (!context_) return;
-  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-  for (const std::string& error : gl_errors_) ADD_FAILURE() << "OpenGL says: " << error;
   pass_.reset();
   color_ = {};
   depth_ = {};
   framebuffer_ = {};
   frame_block_ = {};
-  glDebugMessageCallback(nullptr, nullptr);
-  context_.reset();
+  GlContextTest::TearDown();
 }
 
 void ObjectCanvas::use(DepthMode depth, Viewport size) {

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "geo/body.h"
+#include "gl_context_test.h"
 #include "render/frame_block.h"
 #include "render/object_pass.h"
-#include "render/offscreen.h"
 
 namespace terrella::test {
 
@@ -26,8 +23,8 @@ struct ObjectPicture {
   [[nodiscard]] bool shown(int x, int y) const { return at(x, y).alpha > 127; }
 };
 
-/// Draws objects on nothing: a transparent picture with depth, without a planet. What GL complains of fails the test.
-class ObjectCanvas : public testing::Test {
+/// Draws objects on nothing: a transparent picture with depth, without a planet.
+class ObjectCanvas : public GlContextTest {
  protected:
   void SetUp() override;
   void TearDown() override;
@@ -46,7 +43,6 @@ class ObjectCanvas : public testing::Test {
  private:
   void upload_frame(const View& view) const;
 
-  std::unique_ptr<HeadlessContext> context_;
   std::unique_ptr<ObjectPass> pass_;
   DepthMode depth_mode_ = DepthMode::reversed;
   Ellipsoid ellipsoid_ = earth().ellipsoid;
@@ -54,7 +50,6 @@ class ObjectCanvas : public testing::Test {
   gl::Texture color_, depth_;
   gl::Framebuffer framebuffer_;
   gl::Buffer frame_block_;
-  std::vector<std::string> gl_errors_;
 };
 
 }  // namespace terrella::test
