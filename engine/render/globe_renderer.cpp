@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/frame_camera.h"
 #include "render/stencil_bits.h"
 #include "scene/relief.h"
 
@@ -286,13 +287,7 @@ void GlobeRenderer::upload_frame(const Pass& pass) const {
   const Ellipsoid& e = tree_.ellipsoid();
   const SlotLayout& layout = pass.tiles.layout();
   const double far_m = glm::length(view.eye.xyz_m) + 1.5 * e.a_m();
-  const SplitPosition eye = split_position(view.eye.xyz_m);
-  FrameBlock block;
-  block.view_from_ecef = glm::mat4(glm::mat3(view_from_ecef_rotation(view)));
-  block.eye_high_ecef = glm::vec4(eye.high, 0.0F);
-  block.eye_low_ecef = glm::vec4(eye.low, 0.0F);
-  block.clip_scale =
-      glm::vec4(1.0 / (view.tan_half_fov_y * view.aspect()), 1.0 / view.tan_half_fov_y, near_m(pass), far_m);
+  FrameBlock block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   const double polar_scale = tree_.grid().latitude == LatitudeKind::centric ? e.one_minus_e2() : 1.0;
   block.texels = glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), pass.tiles.mips(), polar_scale);

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
-#include "scene/patch_mesh.h"
+#include "render/frame_camera.h"
 
 namespace terrella::test {
 
@@ -45,12 +44,7 @@ void ObjectCanvas::upload_frame(const View& view) const {
   const double height = std::abs(ellipsoid_.to_geodetic(view.eye).height_m);
   const double near_m = std::max(0.1 * height, 0.05);
   const double far_m = glm::length(view.eye.xyz_m) + 1.5 * ellipsoid_.a_m();
-  const SplitPosition eye = split_position(view.eye.xyz_m);
-  FrameBlock block{};
-  block.view_from_ecef = glm::mat4(glm::mat3(view_from_ecef_rotation(view)));
-  block.eye_high_ecef = glm::vec4(eye.high, 0.0F);
-  block.eye_low_ecef = glm::vec4(eye.low, 0.0F);
-  block.clip_scale = glm::vec4(1.0 / (view.tan_half_fov_y * view.aspect()), 1.0 / view.tan_half_fov_y, near_m, far_m);
+  FrameBlock block = frame_of_camera(view, near_m, far_m);
   block.sun_ecef = glm::vec4(glm::vec3(glm::normalize(view.eye.xyz_m)), lit_ ? 1.0F : 0.0F);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render/frame_block.h"
+#include "render/frame_camera.h"
 
 namespace terrella::test {
 
@@ -27,9 +27,7 @@ SkyScene::SkyScene(const Body& body, Viewport size, const std::vector<Star>& sta
 }
 
 void SkyScene::upload_frame(const View& view) const {
-  FrameBlock block{};
-  block.view_from_ecef = glm::mat4(glm::mat3(view_from_ecef_rotation(view)));
-  block.clip_scale = glm::vec4(1.0 / (view.tan_half_fov_y * view.aspect()), 1.0 / view.tan_half_fov_y, 1.0, 10.0);
+  const FrameBlock block = frame_of_camera(view, 1.0, 10.0);
   glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
 }
