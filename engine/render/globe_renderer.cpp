@@ -270,16 +270,21 @@ bool GlobeRenderer::under_ground(const Pass& pass) const {
   return tree_.ellipsoid().to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
 }
 
-// A tenth of the way to the nearest thing that is drawn; the sky has no part in it (paper 2, 2.3).
+// A tenth of the way to the nearest thing that is drawn, less where the picture is very wide; the sky has no part in it
+// (paper 2, 2.3).
 double GlobeRenderer::near_m(const Pass& pass) const {
-  const Ecef& eye = pass.eye.view.eye;
+  const View& view = pass.eye.view;
+  const Ecef& eye = view.eye;
   double free_m = std::abs(tree_.ellipsoid().to_geodetic(eye).height_m - pass.input.ground_m);
   const double radius_m = inner_radius_m(pass.input);
   if (under_ground(pass) && radius_m > 0.0) {
     const double over_m = glm::length(eye.xyz_m) - radius_m;
     if (over_m > 0.0) free_m = std::min(free_m, over_m);
   }
-  return std::max(0.1 * free_m, 0.05);
+  // That thing may lie in a corner of the picture: its depth is then less than its distance.
+  const double tan_y = view.tan_half_fov_y, tan_x = tan_y * view.aspect() + std::abs(view.shear_x);
+  const double cos_corner = 1.0 / std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y);
+  return std::max(std::min(0.1, 0.9 * cos_corner) * free_m, 0.05);
 }
 
 void GlobeRenderer::upload_frame(const Pass& pass) const {

@@ -115,6 +115,17 @@ TEST_F(GlobeCoverage, NoneForOtherBodiesEither) {
   }
 }
 
+// The ground under the eye is the nearest there is, and so far from the picture's middle it has little depth.
+TEST_F(GlobeCoverage, TheNearPlaneCutsNothingFromTheWidestPicture) {
+  const auto globe = globe_of(earth());
+  for (const double height_m : {2.0, 1.0e3, 1.0e6}) {
+    Camera c = camera_at(20, 30, height_m);
+    c.pitch = Angle::degrees(-5.2);
+    c.fov_y = Angle::degrees(170.0);
+    check(*globe, c, kSmall);
+  }
+}
+
 TEST_F(GlobeCoverage, NoneInAnyDepthModeOrTexturing) {
   Draw draw(52);
   std::vector<GlobeOptions> all;
