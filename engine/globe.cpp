@@ -2,7 +2,9 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "render/globe_renderer.h"
 #include "scene/relief.h"
@@ -90,6 +92,7 @@ struct Globe::Impl {
   TileCoverage coverage;
   std::optional<Almanac> almanac;  ///< there if a sky can be drawn
   bool sky_on = false;
+  std::optional<unsigned> patch_shuffle;
   std::uint64_t frame = 0;
   double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
   Viewport drawn;       // the last frame's
@@ -119,6 +122,7 @@ void Globe::Impl::select(Viewport viewport) {
     selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
   }
   select_patches(tree, view, selection, patches);
+  if (patch_shuffle) std::shuffle(patches.begin(), patches.end(), std::mt19937(*patch_shuffle));
   cover_with_tiles(tree, view, patches, tiles.residency(), frame, coverage);
 }
 
@@ -292,6 +296,7 @@ void Globe::set_surface(const SurfaceLook& surface) {
   impl_->detail = 1.0;
 }
 void Globe::set_sky(bool on) { impl_->sky_on = on; }
+void Globe::set_patch_shuffle(std::optional<unsigned> seed) { impl_->patch_shuffle = seed; }
 Status Globe::set_objects(const ObjectScene& objects) { return impl_->renderer->set_objects(objects); }
 void Globe::set_stereo(const StereoLook& stereo) {
   impl_->options.stereo = stereo;

@@ -29,7 +29,7 @@ struct GlobeOptions {
   SurfaceLook surface;
   double exaggeration = 1.0;  ///< of heights, [0, 100]
   StereoLook stereo;
-  /// For tests: a translucent surface drawn without what paper 2 does about it, to show what that prevents.
+  /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
   bool naive_translucency = false;
   bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
   std::optional<UtcTime> time;  ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
@@ -82,6 +82,8 @@ class Globe {
   void set_surface(const SurfaceLook& surface);
   void set_stereo(const StereoLook& stereo);
   void set_sky(bool on);  ///< nothing if the globe was made without one
+  /// For tests: the seed of another order of patches; none: as they are chosen.
+  void set_patch_shuffle(std::optional<unsigned> seed);
   /// In place of those before. Fails if their programs cannot be made.
   Status set_objects(const ObjectScene& objects);
 

@@ -6,6 +6,7 @@
 
 #include "render/frame_camera.h"
 #include "render/stencil_bits.h"
+#include "scene/far_side_curtain.h"
 #include "scene/relief.h"
 
 namespace terrella {
@@ -69,7 +70,9 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
 void GlobeRenderer::draw_picture(const Pass& pass) {
   upload_frame(pass);
   begin_picture(pass);
-  if (under_ground(pass)) {
+  if (pass.input.naive_translucency) {
+    draw_naively(pass);
+  } else if (under_ground(pass)) {
     draw_from_below(pass);
   } else {
     draw_from_above(pass);
@@ -79,7 +82,10 @@ void GlobeRenderer::draw_picture(const Pass& pass) {
 // Paper 2, 2.2, in its order.
 void GlobeRenderer::draw_from_above(const Pass& pass) {
   const bool translucent = pass.input.surface.alpha < 1.0;
-  if (translucent) draw_inner_sphere(pass);
+  if (translucent && objects_ && objects_->has(ObjectPart::underground)) {  // else there is nothing to hide
+    draw_inner_sphere(pass);
+    draw_far_side_curtain(pass);
+  }
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_surface(pass, translucent ? SurfaceFromBelow::translucent : SurfaceFromBelow::opaque);
   draw_sky(pass);
@@ -95,6 +101,17 @@ void GlobeRenderer::draw_from_below(const Pass& pass) {
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::chosen, kThroughBit);
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_surface(pass, surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque);
+}
+
+// An opaque globe's order with blending switched on, which paper 2 begins with (figures 2.23 to 2.26).
+void GlobeRenderer::draw_naively(const Pass& pass) {
+  draw_sky(pass);
+  draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  blend(pass.input.surface);
+  if (night_lights_) night_lights_->bind();
+  patches_->draw(pass.tiles, pass.counts);
+  glDisable(GL_BLEND);
+  draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
 // Of the inner sphere where it is drawn: what it hides need not be begun.
@@ -115,7 +132,7 @@ void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice
 // Where no surface is; neither reads nor writes depth, so it moves no plane (paper 2, 2.3).
 void GlobeRenderer::draw_sky(const Pass& pass) {
   if (!pass.input.sky || !sky_) return;
-  stencil(pass.eye, pass.input.naive_translucency ? 0 : kSurfaceBit, 0);
+  stencil(pass.eye, kSurfaceBit, 0);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky);
@@ -126,23 +143,36 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
 
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
   const double radius_m = inner_radius_m(pass.input);
-  if (radius_m <= 0.0 || pass.input.naive_translucency) return;
+  if (radius_m <= 0.0) return;
   if (glm::length(pass.eye.view.eye.xyz_m) <= radius_m) return;
   glCullFace(GL_BACK);
   pass.counts.draw_calls += inner_sphere_->draw(radius_m);
+}
+
+// What lies beyond the point of a line of sight that is nearest to the centre is the far side's. The inner sphere hides
+// it where the line meets that sphere; where it passes by, between the sphere and the ground, the curtain does.
+void GlobeRenderer::draw_far_side_curtain(const Pass& pass) const {
+  const Ellipsoid& e = tree_.ellipsoid();
+  const double radius_m = inner_radius_m(pass.input);
+  if (radius_m <= 0.0) return;
+  const double lowest_m = tree_.relief() != nullptr ? std::min(0.0, tree_.relief()->range_m().min_m) : 0.0;
+  const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
+  glDisable(GL_CULL_FACE);
+  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain);
+  glEnable(GL_CULL_FACE);
 }
 
 // Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
 void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const {
   glCullFace(under_ground(pass) ? GL_FRONT : GL_BACK);
   const bool translucent = look != SurfaceFromBelow::opaque;
-  if (translucent && !pass.input.naive_translucency) {
+  if (translucent) {
     color_mask(pass.eye, false);
     patches_->draw_depth(pass.counts);
     color_mask(pass.eye, true);
     glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
   }
-  if (translucent) glDepthMask(GL_FALSE);
   if (night_lights_) night_lights_->bind();
   if (look == SurfaceFromBelow::selective) {
     stencil(pass.eye, kThroughBit, 0);

@@ -39,7 +39,7 @@ struct FrameInput {
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
   std::uint64_t frame = 0;
   double ground_m = 0.0;  ///< height of the ground under the eye
-  /// For tests: a translucent surface without what paper 2 does about it, to show what that prevents.
+  /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
   bool naive_translucency = false;
 };
 
@@ -84,7 +84,9 @@ class GlobeRenderer {
   void draw_picture(const Pass& pass);
   void draw_from_above(const Pass& pass);
   void draw_from_below(const Pass& pass);
+  void draw_naively(const Pass& pass);
   void draw_inner_sphere(const Pass& pass) const;
+  void draw_far_side_curtain(const Pass& pass) const;
   void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
   void blend(const SurfaceLook& look) const;
   void draw_sky(const Pass& pass);

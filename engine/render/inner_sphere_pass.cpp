@@ -49,15 +49,29 @@ Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth
   const GLuint array = pass->vertex_array_.name();
   glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(glm::vec3));
   glVertexArrayElementBuffer(array, pass->indices_.name());
-  gl::float_attribute(array, 0, 0, 3, 0);
+  pass->curtain_ = gl::make_buffer();
+  pass->curtain_array_ = gl::make_vertex_array();
+  glVertexArrayVertexBuffer(pass->curtain_array_.name(), 0, pass->curtain_.name(), 0, sizeof(glm::vec3));
+  for (const GLuint each : {array, pass->curtain_array_.name()}) gl::float_attribute(each, 0, 0, 3, 0);
   return pass;
 }
 
 int InnerSpherePass::draw(double radius_m) const {
   glUseProgram(program_.name());
-  glUniform1f(0, static_cast<float>(radius_m));
+  glUniform2f(0, static_cast<float>(radius_m), 1.0F);
   glBindVertexArray(vertex_array_.name());
   glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_SHORT, nullptr);
+  return 1;
+}
+
+int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip) const {
+  if (strip.empty()) return 0;
+  glNamedBufferData(curtain_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(glm::vec3)), strip.data(),
+                    GL_STREAM_DRAW);
+  glUseProgram(program_.name());
+  glUniform2f(0, 1.0F, 0.0F);
+  glBindVertexArray(curtain_array_.name());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
   return 1;
 }
 

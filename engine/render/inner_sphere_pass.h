@@ -1,6 +1,8 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <memory>
+#include <vector>
 
 #include "geo/result.h"
 #include "render/gl_handle.h"
@@ -8,7 +10,8 @@
 
 namespace terrella {
 
-/// The sphere of the background's colour under a translucent surface (paper 2, 2.1). The caller has bound the
+/// What hides the far side under a translucent surface, in the background's colour: a sphere (paper 2, 2.1), and beside
+/// it the curtain of scene/far_side_curtain.h. The caller has bound the
 /// framebuffer and the frame's uniform block and set depth and stencil. thread: main
 class InnerSpherePass {
  public:
@@ -16,12 +19,13 @@ class InnerSpherePass {
 
   /// Returns the draw calls made.
   int draw(double radius_m) const;
+  int draw_curtain(const std::vector<glm::vec3>& strip) const;  ///< no faces may be culled
 
  private:
   InnerSpherePass() = default;
   gl::Program program_;
-  gl::VertexArray vertex_array_;
-  gl::Buffer vertices_, indices_;
+  gl::VertexArray vertex_array_, curtain_array_;
+  gl::Buffer vertices_, indices_, curtain_;
   GLsizei count_ = 0;
 };
 
