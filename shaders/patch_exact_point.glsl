@@ -18,12 +18,12 @@ WindowPoint exact_window_point() {
   float c = frame.z, s = frame.w;                // cosine and sine of the centre's latitude
   vec3 d = in_meridian(row_direction);           // small
   float x = c + d.y, y = d.x, z = s + d.z;
-  float r = length(vec2(x, y));
+  float r = LENGTH(vec2(x, y));
   float r_minus_c = (d.y * (x + c) + y * y) / (r + c);
   float north = d.z * c - r_minus_c * s;         // of the polar angle from the centre
   float along = z * s + r * c;
-  float lat = atan(north, along);
-  float lon = atan(y, x);
+  float lat = ATAN(north, along);
+  float lon = ATAN(y, x);
 
   vec3 ddx = in_meridian(dFdx(row_direction)), ddy = in_meridian(dFdy(row_direction));
   float r2 = max(r * r, 1e-30), q2 = r2 + z * z;
@@ -34,8 +34,8 @@ WindowPoint exact_window_point() {
   float drow_dlat = 1.0, row_offset = lat;
   if (paper.z > 0.5) {
     // Equal-area rows count the sine: 90° (sin a - sin b) = 180° cos((a + b)/2) sin((a - b)/2).
-    float half_angle = 0.5 * lat;
-    row_offset = 3.141592653589793 * (c * cos(half_angle) - s * sin(half_angle)) * sin(half_angle);
+    vec2 half_angle = SIN_COS(0.5 * lat);
+    row_offset = 3.141592653589793 * (c * half_angle.y - s * half_angle.x) * half_angle.x;
     drow_dlat = 1.5707963267948966 * r / sqrt(q2);
   }
   vec2 per_radian = center_and_scale.zw * kDegrees;

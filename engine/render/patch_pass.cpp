@@ -43,6 +43,11 @@ void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
 
 Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, PatchTree& tree) {
   std::unique_ptr<PatchPass> pass(new PatchPass(options, tree));
+  if (!options.functions && options.texturing != Texturing::vertex) {  // where coordinates are not interpolated
+    const Result<ShaderFunctions> chosen = choose_shader_functions();
+    if (!chosen) return chosen.error();
+    pass->options_.functions = *chosen;
+  }
   if (const Status built = pass->build_programs(); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
@@ -52,7 +57,8 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment) const {
   return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                        {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT"});
+                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                        functions_define(options_.functions.value_or(ShaderFunctions::driver))});
 }
 
 Status PatchPass::build_programs() {
@@ -66,14 +72,16 @@ Status PatchPass::build_programs() {
   if (!depth) return depth.error();
   depth_program_ = std::move(*depth);
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = build(polar, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    Status s = build(
+        polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
   if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
   if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
   if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
   if (options_.texturing == Texturing::paper) {
-    return build(paper, {"frame.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+    return build(paper,
+                 {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
   }
   return Done{};
 }

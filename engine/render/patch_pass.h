@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "geo/result.h"
 #include "render/gl_handle.h"
 #include "render/patch_buffers.h"
+#include "render/shader_functions.h"
 #include "render/tile_textures.h"
 #include "scene/patch_selection.h"
 #include "scene/render_modes.h"
@@ -22,7 +24,8 @@ struct RenderOptions {
   DepthMode depth = DepthMode::reversed;
   double paper_a = 4.0;
   double paper_band = 0.05;
-  bool night_lights = false;  ///< the surface by day and night; the caller binds NightLights
+  bool night_lights = false;                      ///< the surface by day and night; the caller binds NightLights
+  std::optional<ShaderFunctions> functions = {};  ///< none: the driver's, if they are good enough
 };
 
 struct FrameCounts {

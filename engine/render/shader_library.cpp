@@ -73,13 +73,18 @@ std::string_view depth_define(DepthMode mode) {
 }
 
 Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
-                                  std::initializer_list<std::string_view> defines) {
+                                  std::initializer_list<std::string_view> defines,
+                                  std::initializer_list<const char*> feedback) {
   gl::Program program(glCreateProgram());
   for (const ShaderStage& stage : stages) {
     const Result<GLuint> shader = compile(stage, defines);
     if (!shader) return shader.error();
     glAttachShader(program.name(), *shader);
     glDeleteShader(*shader);
+  }
+  if (feedback.size() > 0) {
+    glTransformFeedbackVaryings(program.name(), static_cast<GLsizei>(feedback.size()), std::data(feedback),
+                                GL_INTERLEAVED_ATTRIBS);
   }
   glLinkProgram(program.name());
   GLint ok = GL_FALSE;
