@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "geo/body.h"
+#include "geo/camera.h"
+#include "render/gl_handle.h"
+#include "render/shader_functions.h"
+#include "scene/patch_mesh.h"
+#include "scene/patch_selection.h"
+#include "scene/tile_coverage.h"
+
+namespace terrella::bench {
+
+/// What the engine would draw of a view, without tiles: its patches, their vertices, and what programs know of them.
+struct PatchScene {
+  PatchTree tree;
+  View view;
+  std::vector<SelectedPatch> patches;
+  std::vector<PatchVertex> vertices;  ///< of all patches, one after the other
+
+  /// Selects as the engine does; `max_level` is the finest tile level.
+  PatchScene(const Camera& camera, Viewport size, int max_level);
+  [[nodiscard]] std::size_t vertices_per_patch() const;
+  /// Of a patch's vertex, as near as its two floats have it, ECEF.
+  [[nodiscard]] glm::dvec3 position_m(std::size_t vertex) const;
+};
+
+/// A pixel's window point by both ways of texturing, and whose.
+struct WindowPixel {
+  glm::vec4 points;    ///< interpolated; exact
+  unsigned patch = 0;  ///< number of the patch from 1; 0: none was drawn
+};
+
+/// Runs the engine's own vertex program on a scene's patches. thread: main (of the context)
+class PatchProbe {
+ public:
+  [[nodiscard]] static Result<PatchProbe> create(ShaderFunctions functions);
+
+  /// Puts the scene's patches on the GPU; `scene` must stay.
+  void load(PatchScene& scene);
+  /// gl_Position of every vertex as the program makes it for an eye.
+  [[nodiscard]] std::vector<glm::vec4> positions(const View& view);
+  /// Every pixel of the scene's view, rows from the bottom.
+  [[nodiscard]] std::vector<WindowPixel> window_pixels();
+
+ private:
+  PatchProbe() = default;
+  void upload_frame(const View& view);
+  void set_patch(std::size_t patch) const;
+  void draw_patches();
+
+  PatchScene* scene_ = nullptr;
+  gl::Program feedback_program_, window_program_;
+  gl::VertexArray array_;
+  gl::Buffer vertices_, indices_, frame_, feedback_;
+  gl::Texture pixel_;  ///< what is only recorded is drawn here: a context without a window has nowhere else
+  gl::Framebuffer somewhere_;
+  PatchIndices triangles_;
+  std::vector<PatchDraw> draws_;
+};
+
+}  // namespace terrella::bench
