@@ -55,6 +55,15 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       .add_option("--band", options.band, "Width b of the pole bands of --texturing paper, as a part of the picture")
       ->check(number_in(0.001, 0.5))
       ->capture_default_str();
+  add_choice<bool>(command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
+                   "Tiles near the poles, of a set that terrella cut: squeezed ones, few, or those of the full grid")
+      ->default_str("squeezed");
+  command
+      .add_option("--polar-columns", options.polar_columns,
+                  "Of other sets: the tiles in a row that a patch touching a pole may lie on; it takes coarser ones "
+                  "rather than more")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   add_choice<DepthMode>(
       command, "--depth", options.depth,
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
@@ -203,6 +212,8 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.texturing = options.texturing;
   globe.paper_a = options.paper_a;
   globe.paper_band = options.band;
+  globe.squeezed_rows = options.squeezed_rows;
+  globe.polar_columns = options.polar_columns;
   globe.depth = options.depth;
   globe.unlit = options.unlit;
   globe.surface = options.surface;

@@ -26,6 +26,8 @@ struct SceneOptions {
   Texturing texturing = Texturing::automatic;
   double paper_a = 4.0;
   double band = 0.05;
+  bool squeezed_rows = true;
+  int polar_columns = 32;
   DepthMode depth = DepthMode::reversed;
   std::string elevation;      ///< tile set of heights; empty: none
   double exaggeration = 1.0;  ///< of heights

@@ -48,9 +48,22 @@ void load(TileLoader& loader, const std::vector<TileRequest>& batch, VerifyRepor
   }
 }
 
+/// Rows of a level that have squeezed tiles, with how many.
+void for_each_squeezed_row(const TileGrid& grid, int level,
+                           const std::function<void(std::int64_t y, int squeeze, std::int64_t tiles)>& call) {
+  if (!grid.reduced) return;
+  for (std::int64_t y = 0; y < rows(grid, level); ++y) {
+    const int squeeze = squeeze_of_row(grid, level, y);
+    if (squeeze > 0) call(y, squeeze, ((columns(grid, level) - 1) >> squeeze) + 1);
+  }
+}
+
 std::int64_t count_all(const TileGrid& grid) {
   std::int64_t total = 0;
-  for (int level = grid.min_level; level <= grid.max_level; ++level) total += count_places(grid, level);
+  for (int level = grid.min_level; level <= grid.max_level; ++level) {
+    total += count_places(grid, level);
+    for_each_squeezed_row(grid, level, [&](std::int64_t, int, std::int64_t tiles) { total += tiles; });
+  }
   return total;
 }
 
@@ -105,6 +118,9 @@ VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source, const Verif
   Verifier verifier(source, count_all(grid), progress);
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
     for_each_place(grid, level, [&](const TileId& id) { return verifier.take(id); });
+    for_each_squeezed_row(grid, level, [&](std::int64_t y, int squeeze, std::int64_t tiles) {
+      for (std::int64_t x = 0; x < tiles; ++x) verifier.take({level, x, y, squeeze});
+    });
   }
   return verifier.finish();
 }

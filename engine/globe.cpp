@@ -44,12 +44,19 @@ Status check_context() {
   return Done{};
 }
 
+// The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
+TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
+  const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
+  grid.reduced = grid.reduced && options.squeezed_rows && polar_program;
+  return grid;
+}
+
 }  // namespace
 
 struct Globe::Impl {
   Impl(const GlobeOptions& o, std::shared_ptr<TileSource> imagery, const std::optional<ElevationSource>& elevation)
       : options(o),
-        grid(imagery->info().grid),
+        grid(grid_to_draw(o, imagery->info().grid)),
         roots(root_tiles(grid)),
         layout{grid.tile_px, kGutter_px},
         tree(o.body.ellipsoid, grid, kSegments),
@@ -116,6 +123,7 @@ void Globe::Impl::select(Viewport viewport) {
   }
   PatchSelectionOptions selection;
   selection.texels_per_pixel = detail;
+  selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;

@@ -24,6 +24,9 @@ struct GlobeOptions {
   Texturing texturing = Texturing::automatic;
   double paper_a = 4.0;      ///< formula (6)'s a, [2, 8]
   double paper_band = 0.05;  ///< formula (5)'s b, (0, 0.5]
+  /// Squeezed tiles near the poles, where the set has them and `texturing` is exact or automatic; else the full grid.
+  bool squeezed_rows = true;
+  int polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many tile columns, [1, 4096]
   DepthMode depth = DepthMode::reversed;
   bool unlit = false;  ///< imagery alone: no light, no sky, black background
   SurfaceLook surface;

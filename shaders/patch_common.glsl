@@ -1,6 +1,6 @@
 // Look-ups shared by all ways of texturing a patch.
 layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, finest texels only
-layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | levels up << 16
+layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
 in vec2 window_point;
 in vec3 row_direction;
@@ -13,21 +13,28 @@ layout(location = 0) out vec4 color_srgb;
 
 ivec2 window_size() { return ivec2(window.y & 0xFFFFu, window.y >> 16); }
 
-// The cell under a window point: slot coordinates are p * cell.x + cell.yz, on array layer cell.w. Computed from one
-// word: a fetch of four floats costs a software rasteriser as much as two bilinear taps.
-vec4 cell_at(vec2 p) {
+// A cell: slot coordinates of a window point p are p * scale + offset.
+struct Cell {
+  vec2 scale;
+  vec2 offset;
+  float layer;
+};
+
+vec3 slot_point(Cell cell, vec2 p) { return vec3(p * cell.scale + cell.offset, cell.layer); }
+
+// The cell under a window point. Computed from one word: a fetch of four floats costs a software rasteriser as much as
+// two bilinear taps.
+Cell cell_at(vec2 p) {
   ivec2 size = window_size();
   ivec2 c = clamp(ivec2(p), ivec2(0), size - 1);
   uint bits = texelFetch(window_cells, int(window.x) + c.y * size.x + c.x).x;
-  uint up = bits >> 16;
-  uvec2 part = (window.zw + uvec2(c)) & ((1u << up) - 1u);      // which of the tile's 2^up by 2^up parts
-  float scale = texels.x * uintBitsToFloat((127u - up) << 23);  // 2^-up
-  return vec4(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
+  uvec2 up = uvec2(bits >> 24, (bits >> 16) & 0xFFu);
+  uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // which of the tile's 2^up.x by 2^up.y parts
+  vec2 scale = texels.x * uintBitsToFloat((127u - up) << 23);      // 2^-up
+  return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
 }
 
-vec3 tap(vec4 cell, vec2 p) {
-  return textureLod(tiles, vec3(p * cell.x + cell.yz, cell.w), 0.0).rgb;
-}
+vec3 tap(Cell cell, vec2 p) { return textureLod(tiles, slot_point(cell, p), 0.0).rgb; }
 
 #if defined(NIGHT_LIGHTS)
 layout(binding = 6) uniform samplerCube night_lights;

@@ -2,6 +2,6 @@
 layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 void main() {
-  vec4 cell = cell_at(window_point);
-  finish(textureLod(tiles_precise, vec3(window_point * cell.x + cell.yz, cell.w), 0.0).rgb);
+  Cell cell = cell_at(window_point);
+  finish(textureLod(tiles_precise, slot_point(cell, window_point), 0.0).rgb);
 }

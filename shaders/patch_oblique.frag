@@ -2,9 +2,10 @@
 // parallelogram, integrated by up to 16 taps on a rank-1 lattice.
 void main() {
   vec2 p = window_point;
-  vec4 cell = cell_at(p);
+  Cell cell = cell_at(p);
   vec2 a = dFdx(p), b = dFdy(p);
-  float reach = sqrt(max(dot(a, a), dot(b, b))) * cell.x * texels.y;
+  vec2 a_texels = a * cell.scale, b_texels = b * cell.scale;
+  float reach = sqrt(max(dot(a_texels, a_texels), dot(b_texels, b_texels))) * texels.y;
   int n = int(clamp(ceil(0.8 * reach), 3.0, 16.0));
   float step = 1.0 / float(n);
   vec3 sum = vec3(0.0);

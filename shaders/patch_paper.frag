@@ -2,8 +2,8 @@
 layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
 
 // The level of detail of a texture query on the whole picture at its finest level.
-float query_level(WindowPoint w, vec4 cell) {
-  float finest = cell.x * texels.y * exp2(row.y);
+float query_level(WindowPoint w, Cell cell) {
+  float finest = cell.scale.y * texels.y * exp2(row.y);
   return 0.5 * log2(max(dot(w.dx, w.dx), dot(w.dy, w.dy)) * finest * finest);
 }
 
@@ -14,7 +14,7 @@ void main() {
   float b = paper.y;
   bool north = v < b, south = v > 1.0 - b;
   if (!north && !south) w = WindowPoint(window_point, dFdx(window_point), dFdy(window_point));
-  vec4 cell = cell_at(w.p);
+  Cell cell = cell_at(w.p);
   float level = query_level(w, cell);
   if (north || south) {
     float v_hat = north ? 1.0 - v / b : (v - (1.0 - b)) / b;                 // (5)
@@ -22,5 +22,5 @@ void main() {
     level = min(most, max(0.0, level - 1.0) / max(paper.x * v_hat, 1e-6));  // (6)
   }
   level = clamp(level - row.y, 0.0, texels.z - 1.0);
-  finish(textureLod(tiles_mipmapped, vec3(w.p * cell.x + cell.yz, cell.w), level).rgb);
+  finish(textureLod(tiles_mipmapped, slot_point(cell, w.p), level).rgb);
 }

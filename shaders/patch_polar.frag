@@ -13,8 +13,7 @@ void main() {
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
     vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (fract(s * 0.6180339887) - 0.5) * w.dy, vec2(0.0), high);
-    vec4 cell = cell_at(p);
-    sum += textureLod(tiles_precise, vec3(p * cell.x + cell.yz, cell.w), 0.0).rgb;
+    sum += textureLod(tiles_precise, slot_point(cell_at(p), p), 0.0).rgb;
   }
   finish(sum * step);
 }

@@ -46,8 +46,8 @@ class DirectorySource : public TileSource {
  private:
   [[nodiscard]] fs::path path_of(const TileId& id) const {
     const std::int64_t row = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - id.y : id.y;
-    return layout_.root / layout_.folder.at(id.level) / std::to_string(id.x) /
-           fmt::format("{}.{}", row, layout_.extension);
+    const fs::path levels = id.squeeze == 0 ? layout_.root : layout_.root / kSqueezedFolder;
+    return levels / layout_.folder.at(id.level) / std::to_string(id.x) / fmt::format("{}.{}", row, layout_.extension);
   }
 
   static TileFailure failure(const FileError& error) {

@@ -13,6 +13,7 @@
 #include "streaming/mbtiles_source.h"
 #include "streaming/sqlite_reader.h"
 #include "streaming/sqlite_tiles.h"
+#include "streaming/tileset_json.h"
 
 namespace terrella {
 namespace {
@@ -23,8 +24,8 @@ constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 class GeoPackageSource : public TileSource {
  public:
-  GeoPackageSource(GeoPackageTiles tiles, std::unique_ptr<SqliteTiles> table)
-      : tiles_(std::move(tiles)), table_(std::move(table)) {}
+  GeoPackageSource(GeoPackageTiles tiles, std::unique_ptr<SqliteTiles> table, std::unique_ptr<SqliteTiles> squeezed)
+      : tiles_(std::move(tiles)), table_(std::move(table)), squeezed_(std::move(squeezed)) {}
 
   [[nodiscard]] const TileSetInfo& info() const override { return tiles_.info; }
 
@@ -33,6 +34,7 @@ class GeoPackageSource : public TileSource {
     if (!exists(tiles_.info.grid, id) || level == tiles_.levels.end()) {
       return TileFailure{Absence::absent, "outside the tile set"};
     }
+    if (id.squeeze != 0) return squeezed_->read({.zoom = level->second.zoom, .column = id.x, .row = id.y});
     const auto place = place_of(level->second, id);
     if (!place) return TileFailure{Absence::absent, "outside the tile matrix"};
     return table_->read({.zoom = level->second.zoom, .column = place->first, .row = place->second});
@@ -54,6 +56,7 @@ class GeoPackageSource : public TileSource {
 
   const GeoPackageTiles tiles_;
   const std::unique_ptr<SqliteTiles> table_;
+  const std::unique_ptr<SqliteTiles> squeezed_;  ///< there if the grid is reduced
 };
 
 Result<bool, SqlError> is_mbtiles(SqliteReader& reader) {
@@ -90,7 +93,15 @@ Result<std::unique_ptr<TileSource>> open_geopackage(const fs::path& path, bool g
   Result<std::unique_ptr<SqliteTiles>, SqlError> table =
       SqliteTiles::open(path, tiles->table, tiles->is_coverage ? TileExtras::coverage : TileExtras::none);
   if (!table) return Error{fmt::format("{}: the tile table \"{}\": {}", where, tiles->table, table.error().message)};
-  return std::unique_ptr<TileSource>(std::make_unique<GeoPackageSource>(*std::move(tiles), *std::move(table)));
+  std::unique_ptr<SqliteTiles> squeezed;
+  if (tiles->info.grid.reduced) {
+    auto opened = SqliteTiles::open(path, kSqueezedTable);
+    if (!opened)
+      return Error{fmt::format("{}: the tile table \"{}\": {}", where, kSqueezedTable, opened.error().message)};
+    squeezed = *std::move(opened);
+  }
+  return std::unique_ptr<TileSource>(
+      std::make_unique<GeoPackageSource>(*std::move(tiles), *std::move(table), std::move(squeezed)));
 }
 
 }  // namespace terrella

@@ -121,6 +121,13 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back(
       {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});
   if (info.elevation) describe_heights(*info.elevation, all);
+  if (grid.reduced) {
+    all.push_back(
+        {std::string("CREATE TABLE ") + kSqueezedTable +
+             " (id INTEGER PRIMARY KEY AUTOINCREMENT, zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
+             "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))",
+         {}});
+  }
   return all;
 }
 

@@ -18,7 +18,9 @@ struct SqlStatement {
 /// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own.
 /// The tile matrix set's extent is matrix size × tile size × pixel size at every level, so it can reach beyond the
 /// planet; what there is stands in gpkg_contents, with all longitudes if it crosses ±180°, as an extent cannot.
-/// Heights make it a tiled gridded coverage (OGC 17-066r1). `last_change` goes to gpkg_contents; empty: now.
+/// Heights make it a tiled gridded coverage (OGC 17-066r1). Squeezed tiles of a reduced grid have the table
+/// kSqueezedTable, laid out as `tiles` and not named in gpkg_contents: a reader that knows nothing of it finds one tile
+/// table, with every tile of the full grid. `last_change` goes to gpkg_contents; empty: now.
 [[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change = {});
 
 }  // namespace terrella

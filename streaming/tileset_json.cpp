@@ -56,6 +56,7 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.grid.latitude =
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
+  info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
   info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
   info.elevation = read_elevation(object, fields, where);
   if (info.elevation && info.format != ImageFormat::png) {
@@ -87,6 +88,7 @@ std::string to_tileset_json(const TileSetInfo& info) {
   object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
+  if (grid.reduced) object["polar_rows"] = "squeezed too";
   object["format"] = name_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};

@@ -13,6 +13,9 @@ namespace terrella {
 inline constexpr const char* kTileSetTable = "terrella_tileset";
 inline constexpr const char* kTileSetKey = "tileset";
 inline constexpr const char* kTileSetFile = "tileset.json";
+/// Where squeezed tiles stand (TileGrid::reduced): a table beside `tiles`, a folder beside the levels'.
+inline constexpr const char* kSqueezedTable = "terrella_squeezed_tiles";
+inline constexpr const char* kSqueezedFolder = "squeezed";
 /// A longer description is refused before it is parsed.
 inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
 

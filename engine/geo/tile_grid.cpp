@@ -30,6 +30,10 @@ std::int64_t tiles_over(double extent_deg, const TileGrid& grid, int level) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::ldexp(whole_finest, level - finest))));
 }
 
+/// At its edge nearest to the equator a squeezed row's texels are at most this long along the parallel, of their length
+/// along the meridian. At 1 the third row from a pole has 32 tiles, with a fifth more it does with 16.
+constexpr double kWidestTexel = 1.2;
+
 struct Interval {
   double from, to;
 };
@@ -58,14 +62,14 @@ double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
 
 std::size_t TileIdHash::operator()(const TileId& id) const {
   const std::uint64_t row = mix_bits(static_cast<std::uint64_t>(id.y) ^ static_cast<std::uint64_t>(id.level) << 58);
-  return mix_bits(row + static_cast<std::uint64_t>(id.x));
+  return mix_bits(row + static_cast<std::uint64_t>(id.x) + (static_cast<std::uint64_t>(id.squeeze) << 48U));
 }
 
 bool TileGrid::operator==(const TileGrid& other) const {
   return root_span_deg == other.root_span_deg && tile_px == other.tile_px && min_level == other.min_level &&
          max_level == other.max_level && projection == other.projection && latitude == other.latitude &&
          bounds.west == other.bounds.west && bounds.south == other.bounds.south && bounds.east == other.bounds.east &&
-         bounds.north == other.bounds.north;
+         bounds.north == other.bounds.north && reduced == other.reduced;
 }
 
 double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.root_span_deg, -level); }
@@ -74,9 +78,28 @@ std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0,
 
 std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(180.0, grid, level); }
 
+int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y) {
+  if (!grid.reduced || grid.projection == Projection::equal_area) return 0;
+  const double span = tile_span_deg(grid, level);
+  const double north = 90.0 - static_cast<double>(y) * span;
+  const double to_equator = std::min(north < 0.0 ? -north : std::max(0.0, north - span), 90.0);
+  const double narrowing = std::cos(Angle::degrees(to_equator).rad());
+  // Eight tiles go round a pole; the strip that a last row may have beyond them is no reason for fewer.
+  const double most = std::max(1.0, static_cast<double>(columns(grid, level)) / 8.0);
+  return static_cast<int>(std::floor(std::log2(std::min(most, kWidestTexel / std::max(narrowing, 1e-12)))));
+}
+
+TileId reduced_tile(const TileGrid& grid, const TileId& full) {
+  assert(full.squeeze == 0);
+  const int squeeze = squeeze_of_row(grid, full.level, full.y);
+  return {full.level, full.x >> squeeze, full.y, squeeze};
+}
+
 bool exists(const TileGrid& grid, const TileId& id) {
   if (id.level < grid.min_level || id.level > grid.max_level) return false;
-  if (id.x < 0 || id.x >= columns(grid, id.level) || id.y < 0 || id.y >= rows(grid, id.level)) return false;
+  if (id.x < 0 || id.y < 0 || id.y >= rows(grid, id.level)) return false;
+  if (id.squeeze != 0 && id.squeeze != squeeze_of_row(grid, id.level, id.y)) return false;
+  if (id.x > (columns(grid, id.level) - 1) >> id.squeeze) return false;
   const TileBounds tile = tile_bounds(grid, id);
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
   const Interval data_rows{grid.bounds.south.deg(), grid.bounds.north.deg()};
@@ -89,7 +112,7 @@ bool exists(const TileGrid& grid, const TileId& id) {
 TileId parent(const TileId& id) { return ancestor(id, 1); }
 
 TileId ancestor(const TileId& id, int steps) {
-  assert(steps >= 0 && steps <= id.level);
+  assert(steps >= 0 && steps <= id.level && id.squeeze == 0);
   return {.level = id.level - steps, .x = id.x >> steps, .y = id.y >> steps};
 }
 
@@ -117,11 +140,12 @@ TileXY tile_xy(const TileGrid& grid, int level, double row_latitude_deg, double 
 
 TileBounds tile_bounds(const TileGrid& grid, const TileId& id) {
   const double span = tile_span_deg(grid, id.level);
+  const double width = std::ldexp(span, id.squeeze);
   const auto x = static_cast<double>(id.x);
   const auto y = static_cast<double>(id.y);
-  return {.west_deg = -180.0 + x * span,
+  return {.west_deg = -180.0 + x * width,
           .south_deg = 90.0 - (y + 1.0) * span,
-          .east_deg = -180.0 + (x + 1.0) * span,
+          .east_deg = -180.0 + (x + 1.0) * width,
           .north_deg = 90.0 - y * span};
 }
 

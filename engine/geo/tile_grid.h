@@ -18,10 +18,12 @@ enum class Projection { equirectangular, equal_area };
 enum class LatitudeKind { graphic, centric };
 
 /// A tile of a grid: level, column from the west, row from the NORTH. Other row orders are converted at the source.
+/// A squeezed tile of a reduced row spans 2^squeeze columns, and x counts such wide columns.
 struct TileId {
   int level = 0;
   std::int64_t x = 0;
   std::int64_t y = 0;
+  int squeeze = 0;
   auto operator<=>(const TileId&) const = default;
 };
 struct TileIdHash {
@@ -38,7 +40,8 @@ struct TileGrid {
   int max_level = 0;  ///< [min_level, kMaxTileLevel]
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
-  GeoRect bounds{};  ///< where there is data, in row latitude; whole planet by default
+  GeoRect bounds{};      ///< where there is data, in row latitude; whole planet by default
+  bool reduced = false;  ///< rows near the poles are there squeezed as well (squeeze_of_row())
   bool operator==(const TileGrid&) const;
 };
 
@@ -53,10 +56,16 @@ struct TileXY {
 /// levels are counted from the finest, every tile that exists has a parent that exists (down to min_level).
 [[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);  ///< tiles that reach over [-180°, 180°], ≥ 1
 [[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);     ///< tiles that reach over [90°, -90°], ≥ 1
+/// Of a reduced grid, as weather models have: the largest k for which texels 2^k times as wide are at most a fifth
+/// longer along the parallel than along the meridian, at the row's edge nearest to the equator (shared DESIGN, "Which
+/// tiles at the pole?"). 0 for other rows, and for grids that are not reduced or have equal-area rows.
+[[nodiscard]] int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y);
+/// The tile to use for a place in the full grid: the squeezed one over it where the row is reduced, else itself.
+[[nodiscard]] TileId reduced_tile(const TileGrid& grid, const TileId& full);
 /// True if the tile exists on the planet, in the level range and touches the bounds.
 [[nodiscard]] bool exists(const TileGrid& grid, const TileId& id);
-[[nodiscard]] TileId parent(const TileId& id);  ///< id.level ≥ 1
-/// The ancestor `steps` levels up.
+[[nodiscard]] TileId parent(const TileId& id);  ///< of a full tile, id.level ≥ 1
+/// The ancestor of a full tile `steps` levels up.
 [[nodiscard]] TileId ancestor(const TileId& id, int steps);
 
 /// Row latitude in [-90°, 90°] of a geodetic normal: latitude, planetocentric latitude or 90° · sine of either.

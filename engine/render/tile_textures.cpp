@@ -10,21 +10,24 @@ namespace {
 constexpr int kFirstSlots = 128;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
-/// Pixels around the planet at a level, if that is a whole number.
-std::optional<std::int64_t> pixels_around(const TileGrid& grid, int level) {
-  const double exact = 360.0 / tile_span_deg(grid, level) * grid.tile_px;
+/// Texels around the planet in the tiles of a level and squeeze, if that is a whole number.
+std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
+  const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
   const double whole = std::round(exact);
   if (std::abs(exact - whole) > 1e-3) return std::nullopt;
   return static_cast<std::int64_t>(whole);
 }
 
-/// The tile beside another, over ±180° too; nothing beyond the poles or where columns do not close.
+std::int64_t columns_of(const TileGrid& grid, const TileId& id) {
+  return ((columns(grid, id.level) - 1) >> id.squeeze) + 1;
+}
+
+/// The tile beside another of the same squeeze, over ±180° too; nothing where columns do not close.
 std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int dy) {
-  TileId other{id.level, id.x + dx, id.y + dy};
-  if (other.y < 0 || other.y >= rows(grid, id.level)) return std::nullopt;
-  const std::int64_t across = columns(grid, id.level);
+  TileId other{id.level, id.x + dx, id.y + dy, id.squeeze};
+  const std::int64_t across = columns_of(grid, id);
   if (other.x < 0 || other.x >= across) {
-    if (!pixels_around(grid, id.level)) return std::nullopt;
+    if (!texels_around(grid, id.level, id.squeeze)) return std::nullopt;
     other.x = (other.x + across) % across;
   }
   return other;
@@ -106,17 +109,65 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
   return true;
 }
 
+bool TileTextures::is_resident(const TileId& id) const {
+  const auto entry = residency_.entries().find(id);
+  return entry != residency_.entries().end() && entry->second.state == TileState::resident;
+}
+
 void TileTextures::join_gutters(const TileId& id) {
   for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      if (dx == 0 && dy == 0) continue;
-      const std::optional<TileId> other = beside(grid_, id, dx, dy);
-      if (!other) continue;
-      const TileResidency::Entry* entry = residency_.find(*other);
-      if (entry == nullptr || entry->state != TileState::resident) continue;
-      fill_gutter(id, *other, dx, dy);
-      if (*other != id) fill_gutter(*other, id, -dx, -dy);
+    const std::int64_t y = id.y + dy;
+    if (y < 0 || y >= rows(grid_, id.level)) continue;
+    const int squeeze = squeeze_of_row(grid_, id.level, y);
+    if (squeeze == id.squeeze || id.squeeze == 0) join_row(id, dy);
+    if (squeeze == id.squeeze + 1) {
+      join_squeezed({id.level, id.x >> 1, y, squeeze}, id, -dy);
+    } else if (squeeze == id.squeeze - 1) {
+      for (const std::int64_t x : {2 * id.x, 2 * id.x + 1}) join_squeezed(id, {id.level, x, y, squeeze}, dy);
     }
+  }
+}
+
+// With the neighbours of a row that is squeezed as much.
+void TileTextures::join_row(const TileId& id, int dy) {
+  for (int dx = -1; dx <= 1; ++dx) {
+    if (dx == 0 && dy == 0) continue;
+    const std::optional<TileId> other = beside(grid_, id, dx, dy);
+    if (!other || !is_resident(*other)) continue;
+    fill_gutter(id, *other, dx, dy);
+    if (*other != id) fill_gutter(*other, id, -dx, -dy);
+  }
+}
+
+// A wide tile and one of the two narrower ones that lie along its side `dy`.
+void TileTextures::join_squeezed(const TileId& wide, const TileId& narrow, int dy) {
+  if (!is_resident(wide) || !is_resident(narrow)) return;
+  const int half = static_cast<int>(narrow.x & 1);
+  stretch_gutter(wide, narrow, dy, half);
+  stretch_gutter(narrow, wide, -dy, half);
+}
+
+// Fills the gutter on side `dy` from a tile twice or half as wide: bilinear filtering takes the mean of two texels that
+// become one, and draws the line between two that become four.
+void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy, int half) {
+  if (!stretch_from_) {
+    stretch_from_ = gl::make_framebuffer();
+    stretch_into_ = gl::make_framebuffer();
+  }
+  const bool narrower = from.squeeze < into.squeeze;
+  glDisable(GL_SCISSOR_TEST);
+  for (int k = 0; k < mips_; ++k) {
+    const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k;
+    if (g == 0) return;
+    const int from_x = narrower ? g : g + half * t / 2, from_w = narrower ? t : t / 2;
+    const int into_x = narrower ? g + half * t / 2 : g, into_w = narrower ? t / 2 : t;
+    const int from_y = dy < 0 ? t : g, into_y = dy < 0 ? 0 : g + t;
+    glNamedFramebufferTextureLayer(stretch_from_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
+                                   residency_.entry(from).slot);
+    glNamedFramebufferTextureLayer(stretch_into_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
+                                   residency_.entry(into).slot);
+    glBlitNamedFramebuffer(stretch_from_.name(), stretch_into_.name(), from_x, from_y, from_x + from_w, from_y + g,
+                           into_x, into_y, into_x + into_w, into_y + g, GL_COLOR_BUFFER_BIT, GL_LINEAR);
   }
 }
 
@@ -125,10 +176,13 @@ void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, i
   const int to_layer = residency_.entry(into).slot, from_layer = residency_.entry(from).slot;
   // Where the last column reaches over +180° its own texels end before its edge.
   int end_px = grid_.tile_px;
-  const std::int64_t across = columns(grid_, into.level);
-  if (dx < 0 && into.x == 0)
-    end_px = static_cast<int>(*pixels_around(grid_, into.level) - (across - 1) * grid_.tile_px);
-  if (dx > 0 && into.x == across - 1 && *pixels_around(grid_, into.level) != across * grid_.tile_px) return;
+  const std::int64_t across = columns_of(grid_, into);
+  if (dx < 0 && into.x == 0) {
+    end_px = static_cast<int>(*texels_around(grid_, into.level, into.squeeze) - (across - 1) * grid_.tile_px);
+  } else if (dx > 0 && into.x == across - 1 &&
+             *texels_around(grid_, into.level, into.squeeze) != across * grid_.tile_px) {
+    return;
+  }
   for (int k = 0; k < mips_; ++k) {
     const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k, end = end_px >> k;
     if (g == 0 || end < g) return;

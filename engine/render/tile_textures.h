@@ -42,8 +42,12 @@ class TileTextures {
  private:
   int take_slot(std::uint64_t frame);
   bool grow();
+  [[nodiscard]] bool is_resident(const TileId& id) const;
   void join_gutters(const TileId& id);
+  void join_row(const TileId& id, int dy);
+  void join_squeezed(const TileId& wide, const TileId& narrow, int dy);
   void fill_gutter(const TileId& into, const TileId& from, int dx, int dy);
+  void stretch_gutter(const TileId& into, const TileId& from, int dy, int half);
 
   TileGrid grid_;
   SlotLayout layout_;
@@ -53,6 +57,7 @@ class TileTextures {
   int used_ = 1;
   std::vector<int> free_;
   gl::Texture texture_;
+  gl::Framebuffer stretch_from_, stretch_into_;  ///< there once rows of different squeeze met
   TileResidency residency_;
 };
 

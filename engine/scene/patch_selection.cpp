@@ -19,6 +19,8 @@ constexpr double kMostOverBand = 4.0;
 constexpr double kMostReliefError_px = 0.5;
 // Vertices closer than this would follow heights that no pixel shows.
 constexpr double kLeastSegment_px = 1.5;
+// Texels this many times as large as a pixel show what squeezing took from them.
+constexpr double kMagnified = 2.0;
 // Deeper, a patch's vertices are centimetres apart.
 constexpr int kMostReliefLevel = 20;
 
@@ -132,23 +134,32 @@ class Selector {
     const double center_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
     const PixelOnGround pixel = pixel_on_ground(node, std::max(center_m - 0.7 * node.sphere.radius_m, nearest_m(node)));
     const double texel0_m = texel_root_m_ * node.row_stretch;
-    const double squeeze = std::sin(std::max(node.min_colatitude_rad, 1e-3));
-    const double longest_m = std::max(pixel.east_m / squeeze, pixel.north_m);
     const bool near_pole = node.min_colatitude_rad < band_rad_;
-    double level = std::ceil(std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m) - 0.02);
-    // Finer than this, a pixel would be longer than the taps and the gutter reach.
-    if (!near_pole)
-      level = std::min(level, std::floor(std::log2(options_.max_footprint_texels * texel0_m / longest_m)));
+    const double level = std::ceil(std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m) - 0.02);
     const TileGrid& grid = tree_.grid();
     patch.tile_level = std::clamp(static_cast<int>(std::clamp(level, -64.0, 64.0)), grid.min_level, grid.max_level);
-    const double span = std::max(node.east_deg - node.west_deg, 0.0);
-    while (near_pole && patch.tile_level > grid.min_level &&
-           span > options_.max_polar_columns * tile_span_deg(grid, patch.tile_level)) {
-      --patch.tile_level;
-    }
     patch.pixel_m = pixel.short_m;
-    patch.footprint_texels = longest_m / std::ldexp(texel0_m, -patch.tile_level);
-    return patch;
+    const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
+    for (;; --patch.tile_level) {
+      const double columns = span_deg / tile_span_deg(grid, patch.tile_level);
+      const double texel_m = std::ldexp(texel0_m, -patch.tile_level);
+      // Of the finest tiles squeezed ones have less detail than the picture. Magnified it would be missed.
+      patch.squeezed = patch.tile_level < grid.max_level || texel_m < kMagnified * pixel.short_m ||
+                       columns > options_.max_polar_columns;
+      patch.squeeze = patch.squeezed ? tree_.window_squeeze(node, patch.tile_level) : 0;
+      patch.footprint_texels = footprint_m(node, pixel, patch.squeeze) / texel_m;
+      // Finer, a pixel would be longer than the taps and the gutter reach, or a pole's window too wide.
+      const bool fits = near_pole ? std::ldexp(columns, -patch.squeeze) <= options_.max_polar_columns
+                                  : patch.footprint_texels <= options_.max_footprint_texels;
+      if (fits || patch.tile_level == grid.min_level) return patch;
+    }
+  }
+
+  // The longer side of a pixel as if texels were as long along the parallel as along the meridian: where they are
+  // narrow, and not squeezed, it is long.
+  [[nodiscard]] static double footprint_m(const PatchNode& node, const PixelOnGround& pixel, int squeeze) {
+    const double narrow = std::ldexp(std::sin(std::max(node.min_colatitude_rad, 1e-3)), squeeze);
+    return std::max(pixel.east_m / std::min(narrow, 1.0), pixel.north_m);
   }
 
   [[nodiscard]] bool needs_split(PatchNode& node, SelectedPatch& patch) const {
@@ -187,7 +198,8 @@ class Selector {
   [[nodiscard]] bool window_too_wide(const PatchNode& node, const SelectedPatch& patch) const {
     const double most = options_.max_window * tile_span_deg(tree_.grid(), patch.tile_level);
     if (node.north_row_deg - node.south_row_deg > most) return true;
-    return node.min_colatitude_rad >= band_rad_ && node.east_deg - node.west_deg > most;
+    const double most_columns = std::ldexp(most, patch.squeeze);
+    return node.min_colatitude_rad >= band_rad_ && node.east_deg - node.west_deg > most_columns;
   }
 
   void split(PatchNode& node, bool inside) {

@@ -23,11 +23,13 @@ struct PatchSelectionOptions {
 /// One patch to draw.
 struct SelectedPatch {
   PatchNode* node = nullptr;
-  int tile_level = 0;             ///< of its window
-  unsigned coarse_sides = 0;      ///< bit k: the neighbour across PatchSide k is one level coarser
-  bool in_band = false;           ///< needs per-fragment coordinates
-  bool cut_by_view = false;       ///< part of it may be out of view: its cells are worth testing one by one
-  double pixel_m = 1.0;           ///< what a pixel covers on its nearest part, across the line of sight
+  int tile_level = 0;         ///< of its window
+  bool squeezed = true;       ///< takes squeezed tiles where there are any, at that level; else those of the full grid
+  int squeeze = 0;            ///< of its window
+  unsigned coarse_sides = 0;  ///< bit k: the neighbour across PatchSide k is one level coarser
+  bool in_band = false;       ///< needs per-fragment coordinates
+  bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one
+  double pixel_m = 1.0;       ///< what a pixel covers on its nearest part, across the line of sight
   double footprint_texels = 1.0;  ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
 };
 

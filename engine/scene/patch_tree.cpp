@@ -67,6 +67,22 @@ glm::dvec3 extent_point(const PatchTree& tree, const PatchNode& node, double lon
   return tree.ellipsoid().position(Ellipsoid::normal(lat, Angle::degrees(lon_deg + node.lon_center_deg))).xyz_m;
 }
 
+// Patch borders on tile borders must not claim the tile beyond: a millionth of a tile is 0.0003 of a texel.
+constexpr double kSliver = 1e-6;
+
+struct WindowRows {
+  std::int64_t first, end;
+};
+
+// The rows of tiles that a patch lies on. One narrower than the sliver, at the planet's edge, lies on the last tile,
+// not on one beyond it.
+WindowRows window_rows(const TileGrid& grid, const PatchNode& node, int level) {
+  const double north = tile_xy(grid, level, node.north_row_deg, 0.0).y;
+  const double south = tile_xy(grid, level, node.south_row_deg, 0.0).y;
+  const std::int64_t first = std::min(static_cast<std::int64_t>(std::floor(north + kSliver)), rows(grid, level) - 1);
+  return {first, std::max(first + 1, static_cast<std::int64_t>(std::ceil(south - kSliver)))};
+}
+
 // Longitudes relative to the patch's centre, and rows.
 struct Extent {
   double west_deg, east_deg, south_deg, north_deg;
@@ -76,7 +92,7 @@ struct Extent {
 
 Extent cell_extent(const PatchTree& tree, const PatchNode& node, int x, int y) {
   const TileWindow& win = node.window;
-  const TileBounds cell = tile_bounds(tree.grid(), TileId{win.level, win.x0 + x, win.y0 + y});
+  const TileBounds cell = tile_bounds(tree.grid(), TileId{win.level, win.x0 + x, win.y0 + y, win.squeeze});
   return {std::max(cell.west_deg - node.lon_center_deg, node.west_deg),
           std::min(cell.east_deg - node.lon_center_deg, node.east_deg), std::max(cell.south_deg, node.south_row_deg),
           std::min(cell.north_deg, node.north_row_deg)};
@@ -168,21 +184,27 @@ void PatchTree::ensure_children(PatchNode& node) {
   for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
 }
 
-const TileWindow& PatchTree::window(PatchNode& node, int tile_level) {
+int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
+  if (!grid_.reduced) return 0;
+  const WindowRows span = window_rows(grid_, node, tile_level);
+  // From the equator to a pole rows are squeezed more and more.
+  return std::min(squeeze_of_row(grid_, tile_level, span.first), squeeze_of_row(grid_, tile_level, span.end - 1));
+}
+
+const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze) {
   TileWindow& win = node.window;
-  if (win.level == tile_level) return win;
-  // Patch borders on tile borders must not claim the tile beyond: a millionth of a tile is 0.0003 of a texel.
-  constexpr double kSliver = 1e-6;
-  const TileXY nw = tile_xy(grid_, tile_level, node.north_row_deg, node.lon_center_deg + node.west_deg);
-  const TileXY se = tile_xy(grid_, tile_level, node.south_row_deg, node.lon_center_deg + node.east_deg);
+  if (win.level == tile_level && win.squeeze == squeeze) return win;
+  const WindowRows span = window_rows(grid_, node, tile_level);
   win.level = tile_level;
-  // A patch narrower than the sliver, at the planet's edge, lies on the last tile, not on one beyond it.
-  win.x0 = std::min(static_cast<std::int64_t>(std::floor(nw.x + kSliver)), columns(grid_, tile_level) - 1);
-  win.y0 = std::min(static_cast<std::int64_t>(std::floor(nw.y + kSliver)), rows(grid_, tile_level) - 1);
-  win.w = static_cast<int>(std::max<std::int64_t>(win.x0 + 1, static_cast<std::int64_t>(std::ceil(se.x - kSliver))) -
-                           win.x0);
-  win.h = static_cast<int>(std::max<std::int64_t>(win.y0 + 1, static_cast<std::int64_t>(std::ceil(se.y - kSliver))) -
-                           win.y0);
+  win.squeeze = squeeze;
+  win.y0 = span.first;
+  win.h = static_cast<int>(span.end - span.first);
+  const double west = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.west_deg).x;
+  const double east = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.east_deg).x;
+  const std::int64_t last = (columns(grid_, tile_level) - 1) >> win.squeeze;
+  win.x0 = std::min(static_cast<std::int64_t>(std::floor(std::ldexp(west + kSliver, -win.squeeze))), last);
+  const auto end = static_cast<std::int64_t>(std::ceil(std::ldexp(east - kSliver, -win.squeeze)));
+  win.w = static_cast<int>(std::max(win.x0 + 1, end) - win.x0);
   win.cells.clear();
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {

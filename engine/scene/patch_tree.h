@@ -35,9 +35,11 @@ struct CellExtent {
 };
 
 /// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
-/// each cell of the window names one tile (DESIGN 5).
+/// each cell of the window names one tile (DESIGN 5). Where all rows are reduced the columns are wide ones, as those of
+/// the row that is squeezed least.
 struct TileWindow {
   int level = -1;
+  int squeeze = 0;  ///< a cell spans 2^squeeze columns of the full grid
   std::int64_t x0 = 0, y0 = 0;
   int w = 0, h = 0;
   std::vector<CellExtent> cells;  ///< row-major
@@ -106,8 +108,11 @@ class PatchTree {
   [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }
   /// The four children, made if they are not there.
   void ensure_children(PatchNode& node);
-  /// The node's window at a tile level; kept until another level is asked for.
-  const TileWindow& window(PatchNode& node, int tile_level);
+  /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
+  [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
+  /// The node's window at a tile level, its columns squeezed as given (0 or window_squeeze()); kept until another one
+  /// is asked for.
+  const TileWindow& window(PatchNode& node, int tile_level, int squeeze);
   /// Of cell (x, y) of the node's window as it is, counted from its north-west corner.
   const SurfaceLattice& cell_lattice(PatchNode& node, int x, int y);
 

@@ -22,35 +22,42 @@ constexpr double kLargeCell = 0.25;
 // level save most walks through the hash table. Nothing is erased while a frame's cells are found.
 class EntryMemo {
  public:
-  explicit EntryMemo(TileResidency& residency) : residency_(residency) {}
+  EntryMemo(const TileGrid& grid, TileResidency& residency) : grid_(grid), residency_(residency) {}
 
-  /// Nothing where no entry was ever made: then the tile is unknown.
-  [[nodiscard]] TileResidency::Entry* find(const TileId& id) {
-    Line& line = line_of(id);
-    if (line.id != id) line = {id, residency_.find(id), false};
-    return line.entry;
-  }
-  /// Made if it is not there; a tile that the grid does not have is told apart from one not asked for.
-  [[nodiscard]] TileResidency::Entry& judged(const TileGrid& grid, const TileId& id) {
-    Line& line = line_of(id);
-    if (line.id == id && line.judged) return *line.entry;
-    TileResidency::Entry& entry = residency_.entry(id);
-    if (entry.state == TileState::unknown && !exists(grid, id)) entry.state = TileState::outside;
-    line = {id, &entry, true};
-    return entry;
-  }
-
- private:
   struct Line {
-    TileId id{-1, 0, 0};
+    TileId id{-1, 0, 0};  ///< in the full grid
+    bool squeezed = false;
+    TileId tile;  ///< that stands for it (reduced_tile())
     TileResidency::Entry* entry = nullptr;
     bool judged = false;
   };
+
+  /// Without an entry where none was ever made: then the tile is unknown. Valid until the next call.
+  [[nodiscard]] const Line& find(const TileId& id, bool squeezed) {
+    Line& line = line_of(id);
+    if (line.id == id && line.squeezed == squeezed) return line;
+    const TileId tile = squeezed ? reduced_tile(grid_, id) : id;
+    line = {id, squeezed, tile, residency_.find(tile), false};
+    return line;
+  }
+  /// Made if it is not there; a tile that the grid does not have is told apart from one not asked for.
+  [[nodiscard]] const Line& judged(const TileId& id, bool squeezed) {
+    Line& line = line_of(id);
+    if (line.id == id && line.squeezed == squeezed && line.judged) return line;
+    const TileId tile = squeezed ? reduced_tile(grid_, id) : id;
+    TileResidency::Entry& entry = residency_.entry(tile);
+    if (entry.state == TileState::unknown && !exists(grid_, tile)) entry.state = TileState::outside;
+    line = {id, squeezed, tile, &entry, true};
+    return line;
+  }
+
+ private:
   [[nodiscard]] Line& line_of(const TileId& id) {
     const std::int64_t place = (id.x & 7) | (id.y & 3) << 3;
     return lines_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(place)];
   }
 
+  const TileGrid& grid_;
   TileResidency& residency_;
   std::array<std::array<Line, 32>, kMaxTileLevel + 1> lines_;
 };
@@ -58,7 +65,7 @@ class EntryMemo {
 class Coverer {
  public:
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
-      : tree_(tree), view_(view), memo_(residency), frame_(frame), out_(out), planes_(view_planes(view)) {
+      : tree_(tree), view_(view), memo_(tree.grid(), residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     texel0_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
@@ -89,21 +96,34 @@ class Coverer {
   };
 
   void choose_levels(const SelectedPatch& patch) {
-    const TileWindow& win = tree_.window(*patch.node, patch.tile_level);
+    const TileWindow& win = tree_.window(*patch.node, patch.tile_level, patch.squeeze);
     const TileId last = last_tile(win.level);
-    const double spare_texels = std::exp2(win.level - 1 + kLevelRounding);
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
         Choice& choice = choices_.emplace_back();
         if (!in_view(patch, x, y)) continue;
-        const double texels = texels_wanted(win.cells[index(win, x, y)]);
-        for (double most = spare_texels; texels <= most && choice.spare < win.level - tree_.grid().min_level;
-             most *= 0.5)
-          ++choice.spare;
-        choice.entry = &memo_.judged(tree_.grid(), ancestor(tile_of(win, x, y, last), choice.spare));
+        const TileId id = tile_of(win, x, y, last);
+        choice.spare = levels_to_spare(id, texels_wanted(win.cells[index(win, x, y)]));
+        choice.entry = memo_.judged(ancestor(id, choice.spare), patch.squeezed || choice.spare > 0).entry;
         choice.entry->last_chosen = frame_;
       }
     }
+  }
+
+  // How many texels of level 0 a pixel asks for along the meridian and, of the full grid, along the parallel.
+  struct TexelsWanted {
+    double meridian, parallel;
+  };
+
+  [[nodiscard]] int levels_to_spare(const TileId& id, const TexelsWanted& wanted) const {
+    const TileGrid& grid = tree_.grid();
+    int spare = 0;
+    for (double most = std::exp2(id.level - 1 + kLevelRounding); spare < id.level - grid.min_level; most *= 0.5) {
+      const int squeeze = grid.reduced ? squeeze_of_row(grid, id.level - spare - 1, id.y >> (spare + 1)) : 0;
+      if (std::max(wanted.meridian, std::ldexp(wanted.parallel, squeeze)) > most) break;
+      ++spare;
+    }
+    return spare;
   }
 
   void cover(const SelectedPatch& patch, const Choice* choice) {
@@ -115,7 +135,7 @@ class Coverer {
       for (int x = 0; x < win.w; ++x, ++choice) {
         const Found found = find(patch, tile_of(win, x, y, last), *choice);
         uncovered = uncovered || found.uncovered;
-        out_.cells.push_back(window_cell(found.slot, found.levels_up));
+        out_.cells.push_back(window_cell(found.slot, found.levels_up, found.levels_up + found.squeeze - win.squeeze));
       }
     }
     if (uncovered) ++out_.uncovered;
@@ -127,7 +147,7 @@ class Coverer {
 
   // Cells beyond the planet repeat its edge.
   static TileId tile_of(const TileWindow& win, int x, int y, const TileId& last) {
-    return {win.level, std::min(win.x0 + x, last.x), std::min(win.y0 + y, last.y)};
+    return {win.level, std::min((win.x0 + x) << win.squeeze, last.x), std::min(win.y0 + y, last.y)};
   }
 
   static TileId ancestor(TileId id, int levels_up) {
@@ -135,14 +155,13 @@ class Coverer {
     return id;
   }
 
-  // How many texels of level 0 a pixel in the middle of a cell asks for, both along the meridian and along the
-  // parallel. A patch has the level of its nearest part; a cell that asks for less takes a coarser one. Towards the
-  // poles, where tiles are thin and many, the texels may be somewhat larger than a pixel.
-  [[nodiscard]] double texels_wanted(const CellExtent& cell) const {
+  // In the middle of a cell. A patch has the level of its nearest part; a cell that asks for less takes a coarser one.
+  [[nodiscard]] TexelsWanted texels_wanted(const CellExtent& cell) const {
+    constexpr double kAll = std::numeric_limits<double>::infinity();
     const glm::dvec3 to_eye = view_.eye.xyz_m - cell.whole.center_m;
     const glm::dvec3& normal = cell.up;
     const double distance_m = std::max(glm::length(to_eye), 1e-9);
-    if (cell.whole.radius_m > kLargeCell * distance_m) return std::numeric_limits<double>::infinity();
+    if (cell.whole.radius_m > kLargeCell * distance_m) return {kAll, kAll};
     const double up = std::clamp(glm::dot(to_eye, normal) / distance_m, 0.05, 1.0);
     const double cos_lat2 = std::max(normal.x * normal.x + normal.y * normal.y, 1e-18);
     const double east = (normal.x * to_eye.y - normal.y * to_eye.x) / distance_m;
@@ -150,12 +169,13 @@ class Coverer {
     // A pixel on the ground is `across` wide and across/up long, its length at an angle to the meridian of which sine2
     // is the sine squared; it resolves along an axis what the ellipse of its frequencies reaches there.
     const double north2 = (1.0 - sine2) * up * up + sine2, parallel2 = sine2 * up * up + 1.0 - sine2;
-    const double most = std::sqrt(std::max(north2, cos_lat2 * parallel2));
-    return texel0_m_ * most / (distance_m * radians_per_pixel_);
+    const double texels = texel0_m_ / (distance_m * radians_per_pixel_);
+    return {texels * std::sqrt(north2), texels * std::sqrt(cos_lat2 * parallel2)};
   }
 
   struct Found {
     int levels_up = 0;
+    int squeeze = 0;
     int slot = 0;
     bool uncovered = false;
   };
@@ -209,51 +229,52 @@ class Coverer {
   }
 
   // A cell out of view takes what is there; nobody asks for its tile or counts it.
-  Found find_unseen(TileId id) {
+  Found find_unseen(const SelectedPatch& patch, TileId id) {
     for (int up = 0;; ++up, id = parent(id)) {
-      TileResidency::Entry* entry = memo_.find(id);
-      if (entry != nullptr && entry->state == TileState::resident) return drawn(*entry, up);
-      if (id.level <= tree_.grid().min_level) return {up, 0, false};
+      const EntryMemo::Line& line = memo_.find(id, patch.squeezed || up > 0);
+      if (line.entry != nullptr && line.entry->state == TileState::resident) return drawn(line, up);
+      if (id.level <= tree_.grid().min_level) return {up, line.tile.squeeze, 0, false};
     }
   }
 
   Found find(const SelectedPatch& patch, const TileId& id, const Choice& choice) {
-    if (choice.entry == nullptr) return find_unseen(id);
+    if (choice.entry == nullptr) return find_unseen(patch, id);
     TileId finer = id;
     for (int up = 0; up < choice.spare; ++up, finer = parent(finer)) {
-      TileResidency::Entry* entry = memo_.find(finer);
-      if (entry != nullptr && entry->last_chosen == frame_) return find_seen(patch, finer, up, entry);
+      const EntryMemo::Line& line = memo_.find(finer, patch.squeezed || up > 0);
+      if (line.entry != nullptr && line.entry->last_chosen == frame_) return find_seen(patch, finer, up);
     }
-    return find_seen(patch, finer, choice.spare, choice.entry);
+    return find_seen(patch, finer, choice.spare);
   }
 
   // From a tile, `up` levels coarser than the window, upwards.
-  Found find_seen(const SelectedPatch& patch, TileId id, int up, TileResidency::Entry* entry) {
-    const TileGrid& grid = tree_.grid();
+  Found find_seen(const SelectedPatch& patch, TileId id, int up) {
     bool counted = false;
     bool asked = false;  // one tile is asked for: the finest that can still come
-    for (;; entry = &memo_.judged(grid, id)) {
-      if (!counted && entry->state != TileState::outside) {
+    for (;;) {
+      const EntryMemo::Line& line = memo_.judged(id, patch.squeezed || up > 0);
+      TileResidency::Entry& entry = *line.entry;
+      if (!counted && entry.state != TileState::outside) {
         counted = true;
-        count(*entry);
+        count(entry);
       }
-      if (entry->state == TileState::resident) {
-        if (!asked) entry->last_needed = frame_;
-        return drawn(*entry, up);
+      if (entry.state == TileState::resident) {
+        if (!asked) entry.last_needed = frame_;
+        return drawn(line, up);
       }
-      if (!asked && entry->state == TileState::unknown) {
+      if (!asked && entry.state == TileState::unknown) {
         asked = true;
-        want(patch, id, *entry);
+        want(patch, line.tile, entry);
       }
-      if (id.level <= grid.min_level) return {up, 0, true};
+      if (id.level <= tree_.grid().min_level) return {up, line.tile.squeeze, 0, true};
       id = parent(id);
       ++up;
     }
   }
 
-  [[nodiscard]] Found drawn(TileResidency::Entry& entry, int levels_up) const {
-    entry.last_drawn = frame_;
-    return {levels_up, entry.slot, false};
+  [[nodiscard]] Found drawn(const EntryMemo::Line& line, int levels_up) const {
+    line.entry->last_drawn = frame_;
+    return {levels_up, line.tile.squeeze, line.entry->slot, false};
   }
 
   void want(const SelectedPatch& patch, const TileId& id, TileResidency::Entry& entry) {
@@ -279,7 +300,8 @@ class Coverer {
     const double per_deg = 1.0 / tile_span_deg(grid, win.level);
     PatchDraw draw;
     draw.center_and_scale =
-        glm::vec4(center.x - static_cast<double>(win.x0), center.y - static_cast<double>(win.y0), per_deg, per_deg);
+        glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(win.x0),
+                  center.y - static_cast<double>(win.y0), std::ldexp(per_deg, -win.squeeze), per_deg);
     draw.frame = glm::vec4(node.frame);
     draw.row = glm::vec4(row, static_cast<double>(grid.max_level - win.level), 0.0, 0.0);
     const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
@@ -309,8 +331,9 @@ class Coverer {
 std::vector<TileId> root_tiles(const TileGrid& grid) {
   std::vector<TileId> tiles;
   for (std::int64_t y = 0; y < rows(grid, grid.min_level); ++y) {
-    for (std::int64_t x = 0; x < columns(grid, grid.min_level); ++x) {
-      const TileId id{grid.min_level, x, y};
+    const std::int64_t step = std::int64_t{1} << squeeze_of_row(grid, grid.min_level, y);
+    for (std::int64_t x = 0; x < columns(grid, grid.min_level); x += step) {
+      const TileId id = reduced_tile(grid, {grid.min_level, x, y});
       if (exists(grid, id)) tiles.push_back(id);
     }
   }

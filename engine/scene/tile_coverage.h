@@ -11,11 +11,12 @@
 namespace terrella {
 
 /// One cell of a window on the GPU, 32 bits so that a fragment fetches one word: the array layer in bits 0 to 15, how
-/// many levels coarser than the window its tile is in bits 16 to 23. The low bits of the cell's column and row say
-/// which part of that tile it is (shaders/patch_common.glsl).
+/// many cells its tile spans along a meridian, as a power of two, in bits 16 to 23 and along the parallel in bits 24 to
+/// 31. The low bits of the cell's column and row say which part of that tile it is (shaders/patch_common.glsl).
 using WindowCell = std::uint32_t;
-[[nodiscard]] constexpr WindowCell window_cell(int layer, int levels_up) {
-  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(levels_up) << 16U;
+[[nodiscard]] constexpr WindowCell window_cell(int layer, int log2_rows, int log2_columns) {
+  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(log2_rows) << 16U |
+         static_cast<WindowCell>(log2_columns) << 24U;
 }
 
 /// What the programs must know of a patch besides its vertices.

@@ -37,6 +37,7 @@ class TileResidency {
   }
   void erase(const TileId& id) { entries_.erase(id); }
   [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
+  [[nodiscard]] const std::unordered_map<TileId, Entry, TileIdHash>& entries() const { return entries_; }
 
  private:
   std::unordered_map<TileId, Entry, TileIdHash> entries_;

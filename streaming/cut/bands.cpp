@@ -144,8 +144,7 @@ Status copy_tiles(const fs::path& path, TileWriter& writer, TileCounts& counts) 
     if (!record) return record.error();
     if (!*record) return Done{};
     if (Status put = writer.put((*record)->id, (*record)->bytes); !put) return put;
-    ++counts.tiles;
-    counts.bytes += static_cast<std::int64_t>((*record)->bytes.size());
+    counts.add((*record)->id, (*record)->bytes.size());
   }
 }
 

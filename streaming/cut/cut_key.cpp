@@ -12,7 +12,7 @@ namespace terrella {
 namespace {
 
 /// A change of what the cutter makes makes old files unknown.
-constexpr int kKeyVersion = 2;
+constexpr int kKeyVersion = 3;
 
 std::string number_text(const std::optional<double>& number) { return number ? fmt::format("{:a}", *number) : "-"; }
 

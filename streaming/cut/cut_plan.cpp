@@ -37,6 +37,16 @@ Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name)
                            pixel_deg, level + 1, kMaxTileLevel + 1)};
 }
 
+/// Rows are squeezed most at the finest level, next to a pole.
+bool has_reduced_rows(const CutPlan& plan) {
+  TileGrid grid = plan.grid;
+  grid.reduced = true;
+  const auto squeezed = [&](std::int64_t y_px) {
+    return squeeze_of_row(grid, grid.max_level, y_px / grid.tile_px) > 0;
+  };
+  return squeezed(plan.finest.y0) || squeezed(plan.finest.y1 - 1);
+}
+
 Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   const auto level = finest_level(plan.pixel_deg, options.tile_px, name_of(options));
   if (!level) return level.error();
@@ -45,6 +55,7 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
   plan.grid.projection = options.projection;
   plan.grid.latitude = options.latitude;
+  plan.grid.reduced = plan.wraps && !options.elevation && has_reduced_rows(plan);
   return plan;
 }
 

@@ -2,7 +2,18 @@
 
 #include <new>
 
+#include "streaming/cut/squeeze.h"
+
 namespace terrella {
+namespace {
+
+/// A strip gives its tiles, then the squeezed ones.
+TileId tile_of(const Strip& strip, std::int64_t index) {
+  if (index < strip.tiles) return {.level = strip.level, .x = strip.tile_x0 + index, .y = strip.tile_y};
+  return {.level = strip.level, .x = index - strip.tiles, .y = strip.tile_y, .squeeze = strip.squeeze};
+}
+
+}  // namespace
 
 EncodePool::EncodePool(int jobs, TileCoding coding, TileWriter& writer, std::int64_t already)
     : writer_(writer), already_(static_cast<std::uint64_t>(already)), next_to_write_(already_) {
@@ -20,7 +31,7 @@ void EncodePool::submit(const std::shared_ptr<const Strip>& strip) {
   {
     const std::scoped_lock lock(mutex_);
     if (error_) return;
-    for (std::int64_t i = 0; i < strip->tiles; ++i, ++submitted_) {
+    for (std::int64_t i = 0; i < strip->tiles + squeezed_tiles(*strip); ++i, ++submitted_) {
       if (submitted_ >= already_) jobs_.push_back({strip, i, submitted_});
     }
   }
@@ -76,8 +87,9 @@ void EncodePool::run_encoder(const TileCoding& coding) {
       // The tile that the writer waits for never waits itself.
       written_.wait(lock, [&] { return error_ || job->order < next_to_write_ + kMaxUnwrittenTiles; });
     }
-    auto bytes = encoder.encode(*job->strip, job->index);
-    const TileId id{.level = job->strip->level, .x = job->strip->tile_x0 + job->index, .y = job->strip->tile_y};
+    const TileId id = tile_of(*job->strip, job->index);
+    auto bytes =
+        id.squeeze == 0 ? encoder.encode(*job->strip, job->index) : encoder.encode(squeezed_tile(*job->strip, id.x), 0);
     job->strip.reset();
     if (!bytes) return fail(bytes.error());
     {
@@ -107,8 +119,7 @@ void EncodePool::run_writer() {
     {
       const std::scoped_lock lock(mutex_);
       ++next_to_write_;
-      ++counts_.tiles;
-      counts_.bytes += static_cast<std::int64_t>(tile.bytes.size());
+      counts_.add(tile.id, tile.bytes.size());
     }
     written_.notify_all();
   }

@@ -18,8 +18,12 @@
 namespace terrella {
 
 struct TileCounts {
-  std::int64_t tiles = 0;
+  std::int64_t tiles = 0;  ///< without squeezed ones, which are there besides
   std::int64_t bytes = 0;
+  void add(const TileId& id, std::size_t size) {
+    if (id.squeeze == 0) ++tiles;
+    bytes += static_cast<std::int64_t>(size);
+  }
 };
 
 /// Encodes the tiles of strips on `jobs` threads and writes them on one more, in the order of submission whatever

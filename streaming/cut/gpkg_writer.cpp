@@ -8,6 +8,7 @@
 #include "streaming/cut/part_name.h"
 #include "streaming/cut/tile_writer.h"
 #include "streaming/gpkg_schema.h"
+#include "streaming/tileset_json.h"
 
 namespace terrella {
 namespace {
@@ -28,6 +29,7 @@ class GpkgWriter : public TileWriter {
   explicit GpkgWriter(const WriterSetup& setup) : output_(setup.output), part_(setup.part.string() + ".gpkg") {}
   ~GpkgWriter() override {
     insert_.reset();
+    insert_squeezed_.reset();
     describe_.reset();
     database_.reset();
     std::error_code ignored;
@@ -59,7 +61,12 @@ class GpkgWriter : public TileWriter {
       if (i == 2 && !run({"BEGIN", {}})) return failure();
       if (!run(schema[i])) return failure();
     }
-    insert_ = prepare("INSERT INTO tiles (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)");
+    const std::string values = " (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)";
+    insert_ = prepare("INSERT INTO tiles" + values);
+    if (setup.info.grid.reduced) {
+      insert_squeezed_ = prepare(std::string("INSERT INTO ") + kSqueezedTable + values);
+      if (!insert_squeezed_) return failure();
+    }
     if (insert_ && setup.info.elevation) {
       describe_ = prepare("INSERT INTO gpkg_2d_gridded_tile_ancillary (tpudt_name, tpudt_id) VALUES ('tiles', ?1)");
       if (!describe_) return failure();
@@ -68,7 +75,7 @@ class GpkgWriter : public TileWriter {
   }
 
   [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override {
-    sqlite3_stmt* insert = insert_.get();
+    sqlite3_stmt* insert = id.squeeze == 0 ? insert_.get() : insert_squeezed_.get();
     sqlite3_bind_int(insert, 1, id.level);
     sqlite3_bind_int64(insert, 2, id.x);
     sqlite3_bind_int64(insert, 3, id.y);
@@ -84,6 +91,7 @@ class GpkgWriter : public TileWriter {
 
   [[nodiscard]] Status finish() override {
     insert_.reset();
+    insert_squeezed_.reset();
     describe_.reset();
     if (!run({"COMMIT", {}})) return failure();
     database_.reset();
@@ -130,8 +138,9 @@ class GpkgWriter : public TileWriter {
   fs::path part_;
   Database database_;
   Statement insert_;
-  Statement describe_;    ///< what a tile of heights has beside it; none for pictures
-  int system_error_ = 0;  ///< errno of the last call that failed
+  Statement insert_squeezed_;  ///< none unless the grid is reduced
+  Statement describe_;         ///< what a tile of heights has beside it; none for pictures
+  int system_error_ = 0;       ///< errno of the last call that failed
 };
 
 }  // namespace

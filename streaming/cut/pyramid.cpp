@@ -19,7 +19,7 @@ Strip strip_shape(const CutPlan& plan, int level) {
           .tile_x0 = px.x0 / tile_px,
           .tiles = ceil_divide(px.x1, tile_px) - px.x0 / tile_px,
           .tile_px = tile_px,
-          .rgba = {}};
+          .turn_px = plan.wraps ? px.x1 : 0};
 }
 
 std::size_t shape_bytes(const Strip& shape) { return shape.stride_bytes() * static_cast<std::size_t>(shape.tile_px); }
@@ -98,6 +98,7 @@ std::uint8_t* Pyramid::strip_row(Level& level) {
   const std::int64_t tile_y = level.y / plan_.grid.tile_px;
   if (!level.strip) {
     level.shape.tile_y = tile_y;
+    level.shape.squeeze = squeeze_of_row(plan_.grid, level.level, tile_y);
     level.strip = pool_.lend(level.shape);
   }
   return level.strip->row(level.y - tile_y * plan_.grid.tile_px);

@@ -21,8 +21,8 @@ struct Header {
   std::int32_t level;
   std::uint32_t size;
   std::int64_t x, y;
+  std::int32_t squeeze;
   std::uint32_t checksum;  ///< CRC-32 of the bytes, begun with that of what stands before it here
-  std::uint32_t unused;
 };
 static_assert(sizeof(Header) == 32);
 
@@ -74,8 +74,8 @@ Status RecordLogWriter::put(const TileId& id, std::span<const std::byte> bytes) 
                 .size = static_cast<std::uint32_t>(bytes.size()),
                 .x = id.x,
                 .y = id.y,
-                .checksum = 0,
-                .unused = 0};
+                .squeeze = id.squeeze,
+                .checksum = 0};
   header.checksum = checksum_of(header, bytes);
   if (Status begun = write(std::as_bytes(std::span(&header, 1))); !begun) return begun;
   ++records_;
@@ -105,7 +105,7 @@ Result<std::optional<LogRecord>> RecordLogReader::next() {
   }
   if (header.level == kEndLevel) return std::optional<LogRecord>{};
   ++records_;
-  record.id = {.level = header.level, .x = header.x, .y = header.y};
+  record.id = {.level = header.level, .x = header.x, .y = header.y, .squeeze = header.squeeze};
   return std::optional(std::move(record));
 }
 

@@ -69,8 +69,7 @@ Result<TileCounts> count_bands(const WorkFolder& folder, const BandRange& range)
       const auto record = log->next();
       if (!record) return record.error();
       if (!*record) break;
-      ++counts.tiles;
-      counts.bytes += static_cast<std::int64_t>((*record)->bytes.size());
+      counts.add((*record)->id, (*record)->bytes.size());
     }
   }
   return counts;

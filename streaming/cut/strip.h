@@ -17,7 +17,9 @@ struct Strip {
   std::int64_t tile_x0 = 0;  ///< column of its first tile
   std::int64_t tiles = 0;
   int tile_px = 0;
-  std::vector<std::uint8_t> rgba;
+  int squeeze = 0;           ///< squeezed tiles of its row span 2^squeeze columns; 0: there are none
+  std::int64_t turn_px = 0;  ///< pixels round the planet; 0: it does not go round
+  std::vector<std::uint8_t> rgba = {};
 
   [[nodiscard]] std::size_t stride_bytes() const {
     return static_cast<std::size_t>(tiles) * static_cast<std::size_t>(tile_px) * 4;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <GeographicLib/Ellipsoid.hpp>
+#include <numbers>
 #include <unordered_set>
 
 #include "geo_test_support.h"
@@ -51,6 +52,65 @@ TEST(TileGrid, MatricesOfTheKnownSets) {
   // 2^24 · 180° / 360°, to the last column.
   EXPECT_EQ(columns(grid_of(180.0), kMaxTileLevel), std::int64_t{1} << 25);
   EXPECT_EQ(rows(grid_of(288.0), kMaxTileLevel), (std::int64_t{5} << 24) / 8);
+}
+
+/// At the edge of a row that lies nearest to the equator: texel along the parallel over texel along the meridian.
+double texel_shape(const TileGrid& grid, const TileId& id) {
+  const TileBounds tile = tile_bounds(grid, id);
+  const double lat = tile.south_deg >= 0.0 ? tile.south_deg : -tile.north_deg;
+  const double width = (tile.east_deg - tile.west_deg) / (tile.north_deg - tile.south_deg);
+  return width * std::cos(lat * std::numbers::pi / 180.0);
+}
+
+TEST(ReducedGrid, AFewTilesGoRoundAPoleAtEveryLevel) {
+  TileGrid grid = grid_of(180.0);
+  grid.reduced = true;
+  for (int level = 3; level <= kMaxTileLevel; ++level) {
+    SCOPED_TRACE(level);
+    const std::int64_t last = rows(grid, level) - 1;
+    const auto around = [&](std::int64_t y) { return columns(grid, level) >> squeeze_of_row(grid, level, y); };
+    // DESIGN: 8 tiles in the first row and 16 in the second at every level.
+    EXPECT_EQ(around(0), 8);
+    EXPECT_EQ(around(last), 8);
+    EXPECT_EQ(around(1), 16);
+    EXPECT_EQ(around(last / 2), columns(grid, level)) << "the equator is not reduced";
+  }
+}
+
+TEST(ReducedGrid, TexelsAreAFifthLongerAlongTheParallelAtMostAndNotHalfAsLong) {
+  for (const double span : {180.0, 288.0, 256.0 * 64.0 / 60.0}) {
+    TileGrid grid = grid_of(span);
+    grid.reduced = true;
+    for (int level = 3; level <= 14; ++level) {
+      for (std::int64_t y = 0; y < rows(grid, level); ++y) {
+        const int squeeze = squeeze_of_row(grid, level, y);
+        if (squeeze == 0) continue;
+        const double shape = texel_shape(grid, {level, 0, y, squeeze});
+        ASSERT_LE(shape, 1.2 + 1e-8) << level << " " << y;
+        // Not squeezed further either, but where eight tiles go round already.
+        if (columns(grid, level) >> squeeze >= 16) {
+          ASSERT_GT(shape, 0.6 - 1e-8) << level << " " << y;
+        }
+        ASSERT_GE(squeeze_of_row(grid, level - 1, y / 2), squeeze - 1) << "a parent spans what its children do";
+      }
+    }
+  }
+}
+
+TEST(ReducedGrid, BothTilesOfAPlaceExist) {
+  TileGrid grid = grid_of(180.0, 5);
+  grid.reduced = true;
+  const TileId wide = reduced_tile(grid, {5, 63, 0});
+  EXPECT_EQ(wide, (TileId{5, 7, 0, 3}));
+  EXPECT_TRUE(exists(grid, wide));
+  EXPECT_TRUE(exists(grid, TileId{5, 63, 0})) << "the full grid has every tile as well";
+  EXPECT_FALSE(exists(grid, TileId{5, 8, 0, 3})) << "beyond 180°";
+  EXPECT_FALSE(exists(grid, TileId{5, 0, 0, 2})) << "that row is squeezed by 2³";
+  EXPECT_EQ(tile_bounds(grid, wide).west_deg, 135.0);
+  EXPECT_EQ(tile_bounds(grid, wide).east_deg, 180.0);
+  grid.reduced = false;
+  EXPECT_FALSE(exists(grid, wide));
+  EXPECT_EQ(reduced_tile(grid, {5, 63, 0}), (TileId{5, 63, 0}));
 }
 
 TEST(TileGrid, PictureOf21600Pixels) {

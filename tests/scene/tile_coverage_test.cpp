@@ -27,12 +27,20 @@ std::vector<TileGrid> grids() {
                  .max_level = kMaxTileLevel,
                  .projection = Projection::equal_area,
                  .latitude = LatitudeKind::centric});
+  for (const double span : {180.0, 256.0 * 64.0 / 60.0}) {
+    all.push_back({.root_span_deg = span, .max_level = kMaxTileLevel, .reduced = true});
+  }
   return all;
 }
 
 /// A selected patch by hand: whole, in view, with a window at a level where it has not too many cells.
 SelectedPatch selected(PatchTree& tree, const PatchId& id, int tile_level) {
-  return {.node = &node_of(tree, id), .tile_level = tile_level};
+  PatchNode& node = node_of(tree, id);
+  return {.node = &node, .tile_level = tile_level, .squeeze = tree.window_squeeze(node, tile_level)};
+}
+
+const TileWindow& window_of(PatchTree& tree, PatchNode& node, int level) {
+  return tree.window(node, level, tree.window_squeeze(node, level));
 }
 
 /// The finest level at which a patch's window has no more than `cells` a side.
@@ -53,10 +61,10 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
       const PatchId id =
           k % 5 == 0 ? patch_beside(90, draw.between(-180, 180), 1 + k % 20) : random_patch(draw, 1 + k % 22);
       PatchNode& node = node_of(tree, id);
-      const TileWindow& win = tree.window(node, level_for(grid, node, 1 + k % 20));
+      const TileWindow& win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
       ASSERT_GE(win.x0, 0);
       ASSERT_GE(win.y0, 0);
-      ASSERT_LE(win.x0 + win.w, columns(grid, win.level));
+      ASSERT_LE(win.x0 + win.w, ((columns(grid, win.level) - 1) >> win.squeeze) + 1);
       ASSERT_LE(win.y0 + win.h, rows(grid, win.level));
       for (int v = 0; v < 60; ++v) {
         const EcefDir n =
@@ -65,8 +73,9 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
         const double turn = Ellipsoid::lat_lon(n).lon.deg() - node.lon_center_deg;
         const double lon = node.lon_center_deg + turn - 360.0 * std::round(turn / 360.0);
         const TileXY at = tile_xy(grid, win.level, row_latitude_deg(grid, tree.ellipsoid(), n), lon);
-        EXPECT_GE(at.x, double(win.x0) - kSliver_tiles);
-        EXPECT_LE(at.x, double(win.x0 + win.w) + kSliver_tiles);
+        const double wide = std::ldexp(1.0, win.squeeze);
+        EXPECT_GE(at.x, double(win.x0) * wide - kSliver_tiles);
+        EXPECT_LE(at.x, double(win.x0 + win.w) * wide + kSliver_tiles);
         EXPECT_GE(at.y, double(win.y0) - kSliver_tiles);
         EXPECT_LE(at.y, double(win.y0 + win.h) + kSliver_tiles);
       }
@@ -77,17 +86,18 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
 /// Makes a random part of the ancestors of a window's tiles resident, the coarsest always; a slot for each.
 std::map<int, TileId> fill(Draw& draw, const TileGrid& grid, const TileWindow& win, TileResidency& residency) {
   std::map<int, TileId> tiles;
-  const auto put = [&](const TileId& id) {
+  const auto put = [&](const TileId& full) {
+    const TileId id = reduced_tile(grid, full);
     TileResidency::Entry& entry = residency.entry(id);
     if (entry.state == TileState::resident || !exists(grid, id)) return;
     entry.state = TileState::resident;
     entry.slot = 1 + static_cast<int>(tiles.size());
     tiles[entry.slot] = id;
   };
-  for (const TileId& id : root_tiles(grid)) put(id);
+  for (const TileId& id : root_tiles(grid)) put({id.level, id.x << id.squeeze, id.y});
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {
-      TileId id{win.level, win.x0 + x, win.y0 + y};
+      TileId id{win.level, (win.x0 + x) << win.squeeze, win.y0 + y};
       for (; id.level > 0; id = parent(id)) {
         if (draw.whole(0, 2) == 0) put(id);
       }
@@ -108,9 +118,10 @@ Lookup look_up(const TileCoverage& coverage, const PatchDraw& draw, glm::vec2 of
   const auto x = std::min(static_cast<unsigned>(std::max(p.x, 0.0F)), w - 1);
   const auto y = std::min(static_cast<unsigned>(std::max(p.y, 0.0F)), h - 1);
   const WindowCell cell = coverage.cells[draw.window.x + y * w + x];
-  const unsigned up = cell >> 16U, mask = (1U << up) - 1U;
-  const glm::vec2 part((draw.window.z + x) & mask, (draw.window.w + y) & mask);
-  const glm::vec2 in_tile = (p - glm::vec2(x, y) + part) * std::ldexp(1.0F, -static_cast<int>(up));
+  const unsigned rows_up = cell >> 16U & 0xFFU, columns_up = cell >> 24U;
+  const glm::vec2 part((draw.window.z + x) & ((1U << columns_up) - 1U), (draw.window.w + y) & ((1U << rows_up) - 1U));
+  const glm::vec2 in_tile = (p - glm::vec2(x, y) + part) * glm::vec2(std::ldexp(1.0F, -static_cast<int>(columns_up)),
+                                                                     std::ldexp(1.0F, -static_cast<int>(rows_up)));
   return {static_cast<int>(cell & 0xFFFFU), in_tile * kTile_px};
 }
 
@@ -124,7 +135,8 @@ void expect_right_tile(const PatchTree& tree, const PatchNode& node, const TileC
       tile_xy(grid, tile.level, node.row_center_deg + double(offset_deg.y), node.lon_center_deg + double(offset_deg.x));
   // A thousandth of a texel is far below what a bilinear filter of 8 bits of fraction shows.
   constexpr double kTexel = 1e-3;
-  EXPECT_NEAR(double(found.texel.x), (truth.x - double(tile.x)) * double(kTile_px), kTexel) << "level " << tile.level;
+  const double column = std::ldexp(truth.x, -tile.squeeze);
+  EXPECT_NEAR(double(found.texel.x), (column - double(tile.x)) * double(kTile_px), kTexel) << "level " << tile.level;
   EXPECT_NEAR(double(found.texel.y), (truth.y - double(tile.y)) * double(kTile_px), kTexel) << "level " << tile.level;
 }
 
@@ -139,7 +151,7 @@ TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
       PatchNode& node = node_of(tree, id);
       const int level = level_for(grid, node, 1 + k % 8);
       TileResidency residency;
-      const auto tiles = fill(draw, grid, tree.window(node, level), residency);
+      const auto tiles = fill(draw, grid, window_of(tree, node, level), residency);
       TileCoverage coverage;
       cover_with_tiles(tree, view, {selected(tree, id, level)}, residency, 1, coverage);
       EXPECT_EQ(coverage.uncovered, 0);
@@ -161,7 +173,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
   const PatchId id = patch_beside(20, 30, 6);
   TileResidency residency;
   std::map<int, int> level_of_slot = {{0, -1}};
-  const TileWindow win = tree.window(node_of(tree, id), 8);
+  const TileWindow win = tree.window(node_of(tree, id), 8, 0);
   TileCoverage coverage;
   cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, 1, coverage);
   EXPECT_EQ(coverage.uncovered, 1) << "nothing is resident";
@@ -301,6 +313,46 @@ TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
     }
   }
   EXPECT_GT(spared, 10) << "no cell ever took a coarser tile";
+}
+
+/// Tiles that a picture of 1024×1024 straight down asks for.
+int tiles_under(PatchTree& tree, double lat, double lon, double height_m, int polar_columns = 32) {
+  const View view = make_view(camera_at(lat, lon, height_m), tree.ellipsoid(), {1024, 1024});
+  PatchSelectionOptions options;
+  options.max_polar_columns = polar_columns;
+  std::vector<SelectedPatch> patches;
+  select_patches(tree, view, options, patches);
+  TileResidency residency;
+  TileCoverage coverage;
+  cover_with_tiles(tree, view, patches, residency, 1, coverage);
+  return coverage.tiles;
+}
+
+// At every depth, four heights an octave of which the lowest has a pixel to each texel. A set ends two levels deeper.
+TEST(ReducedGrid, LookingDownOnAPoleAsksForLittleMoreThanAtTheEquator) {
+  constexpr double kMostOverEquator = 1.5;
+  const Ellipsoid& earth_ellipsoid = earth().ellipsoid;
+  PatchTree reduced(earth_ellipsoid, {.max_level = 22, .reduced = true}, kSegments);
+  PatchTree full(earth_ellipsoid, {.max_level = 22}, kSegments);
+  for (int level = 3; level <= 20; ++level) {
+    const double texel_m = earth_ellipsoid.a_m() * std::numbers::pi / 256.0 * std::ldexp(1.0, -level);
+    double at_equator = 0.0, at_pole = 0.0, in_full_grid = 0.0;
+    for (const double octave : {1.0, 1.25, 1.5, 1.75}) {
+      const double height_m = octave * texel_m * 1024.0 / (2.0 * std::tan(20.0 * std::numbers::pi / 180.0));
+      // Over the equator it depends on how tiles lie in the picture: the mean of many places.
+      constexpr int kPlaces = 40;
+      for (int k = 0; k < kPlaces; ++k)
+        at_equator += tiles_under(reduced, 0.0, -179.0 + 8.9 * k, height_m) / double(kPlaces);
+      for (const double pole : {90.0, -90.0}) {
+        at_pole += tiles_under(reduced, pole, 20.0, height_m) / 2.0;
+        in_full_grid += tiles_under(full, pole, 20.0, height_m) / 2.0;
+      }
+    }
+    EXPECT_LE(at_pole, kMostOverEquator * at_equator) << "level " << level;
+    if (level > 4) {
+      EXPECT_GT(in_full_grid, kMostOverEquator * at_equator) << "level " << level << ": nothing was spared";
+    }
+  }
 }
 
 TEST(RootTiles, AreTheWholeCoarsestLevelWithinTheBounds) {
