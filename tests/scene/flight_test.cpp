@@ -45,6 +45,25 @@ TEST(Flight, ClimbsOnALongWayAndNotOnAShortOne) {
   EXPECT_LE(far.duration, Seconds(2.5));
 }
 
+// Every way to the antipode is as short as any other: one must be taken, all the way.
+TEST(Flight, ToTheAntipodeTakesOneWay) {
+  const Camera places[][2] = {{camera(0, 0, 3e6), camera(0, 180, 3e6)},
+                              {camera(90, 0, 3e6), camera(-90, 0, 3e6)},
+                              {camera(30, 40, 1e3, 20), camera(-30, -140, 1e3, 200)}};
+  for (const auto& [from, to] : places) {
+    const Flight flight = plan_flight(from, to, earth().ellipsoid);
+    GroundFrame last = ground_frame(from);
+    for (int i = 1; i <= 400; ++i) {
+      const Camera now_at = flight_camera(flight, (i / 400.0) * flight.duration);
+      ASSERT_TRUE(std::isfinite(now_at.eye.lat.rad() + now_at.eye.lon.rad() + now_at.eye.height_m)) << i;
+      const GroundFrame now = ground_frame(now_at);
+      EXPECT_LT(degrees_apart(last.up, now.up), 1.5) << i;  // half a turn in 400 eased steps: 0.85° at the fastest
+      last = now;
+    }
+    EXPECT_LT(degrees_apart(last.up, ground_frame(to).up), 1e-9);
+  }
+}
+
 TEST(Flight, OverThePoleAndTheAntimeridianIsSmooth) {
   const Flight flights[] = {plan_flight(camera(80, 0, 3e6), camera(80, 180, 3e6, 180), earth().ellipsoid),
                             plan_flight(camera(-10, 178, 3e6), camera(5, -175, 3e6), earth().ellipsoid)};

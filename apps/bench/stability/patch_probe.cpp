@@ -59,8 +59,8 @@ void set_state(Viewport size) {
 
 }  // namespace
 
-PatchScene::PatchScene(const Camera& camera, Viewport size, int max_level)
-    : tree(earth().ellipsoid, grid_to(max_level), kSegments), view(make_view(camera, earth().ellipsoid, size)) {
+PatchScene::PatchScene(const Camera& camera, Viewport size, int max_level, const Body& body)
+    : tree(body.ellipsoid, grid_to(max_level), kSegments), view(make_view(camera, body.ellipsoid, size)) {
   select_patches(tree, view, {}, patches);
   for (const SelectedPatch& patch : patches) {
     const std::vector<PatchVertex> more = patch_vertices(tree, *patch.node);

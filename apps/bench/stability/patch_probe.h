@@ -22,7 +22,7 @@ struct PatchScene {
   std::vector<PatchVertex> vertices;  ///< of all patches, one after the other
 
   /// Selects as the engine does; `max_level` is the finest tile level.
-  PatchScene(const Camera& camera, Viewport size, int max_level);
+  PatchScene(const Camera& camera, Viewport size, int max_level, const Body& body = earth());
   [[nodiscard]] std::size_t vertices_per_patch() const;
   /// Of a patch's vertex, as near as its two floats have it, ECEF.
   [[nodiscard]] glm::dvec3 position_m(std::size_t vertex) const;

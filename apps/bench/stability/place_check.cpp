@@ -5,7 +5,7 @@
 #include <map>
 
 #include "apps/bench/stability/check.h"
-#include "apps/bench/stability/patch_probe.h"
+#include "apps/bench/stability/place_errors.h"
 
 namespace terrella::bench {
 namespace {
@@ -14,78 +14,6 @@ constexpr Viewport kPlacePicture{256, 256};
 constexpr double kMostPlaceOff_px = 0.25;
 // Texels here are about as large as pixels.
 constexpr double kMostOff_texels = 0.25;
-
-struct PlaceErrors {
-  double interpolated_texels = 0.0;  ///< of patches that the engine draws so
-  double exact_texels = 0.0;         ///< of the others, and of all patches
-  double drawn_px = 0.0;             ///< of what the engine draws, on the screen
-  int holes = 0;                     ///< pixels of the globe where there is none
-};
-
-/// Judges pixel by pixel against the ray through it, in double.
-class PlaceJudge {
- public:
-  explicit PlaceJudge(const PatchScene& scene) : scene_(scene) {}
-
-  PlaceErrors judge(const std::vector<WindowPixel>& pixels) {
-    PlaceErrors errors;
-    for (int y = 0; y < kPlacePicture.height_px; ++y) {
-      for (int x = 0; x < kPlacePicture.width_px; ++x) {
-        const auto row = static_cast<std::size_t>(kPlacePicture.height_px - 1 - y);
-        add({x + 0.5, y + 0.5},
-            pixels[row * static_cast<std::size_t>(kPlacePicture.width_px) + static_cast<std::size_t>(x)], errors);
-      }
-    }
-    return errors;
-  }
-
- private:
-  void add(glm::dvec2 pixel_px, const WindowPixel& pixel, PlaceErrors& errors) const {
-    const Ellipsoid& e = scene_.tree.ellipsoid();
-    const std::optional<Geodetic> place = pick(scene_.view, e, pixel_px);
-    if (!place) return;
-    if (pixel.patch == 0) {
-      if (!near_limb(pixel_px)) ++errors.holes;
-      return;
-    }
-    if (near_limb(pixel_px)) return;  // a fragment's place there is anybody's guess: the surface is seen from its side
-    const SelectedPatch& patch = scene_.patches[pixel.patch - 1];
-    const double interpolated = off_texels(patch, *place, {pixel.points.x, pixel.points.y});
-    const double exact = off_texels(patch, *place, {pixel.points.z, pixel.points.w});
-    if (!patch.in_band) errors.interpolated_texels = std::max(errors.interpolated_texels, interpolated);
-    errors.exact_texels = std::max(errors.exact_texels, exact);
-    errors.drawn_px = std::max(errors.drawn_px, (patch.in_band ? exact : interpolated) * texel_px(patch, *place));
-  }
-
-  // Texels of the patch's level; those along a parallel as much narrower as it is shorter than the equator.
-  [[nodiscard]] double off_texels(const SelectedPatch& patch, const Geodetic& place, glm::dvec2 point) const {
-    const PatchNode& node = *patch.node;
-    const TileGrid& grid = scene_.tree.grid();
-    const double lon_deg = node.lon_center_deg + wrapped_deg(place.lon.deg() - node.lon_center_deg);
-    const TileXY xy = tile_xy(grid, node.window.level, place.lat.deg(), lon_deg);
-    const glm::dvec2 off(point.x - (xy.x - static_cast<double>(node.window.x0)),
-                         point.y - (xy.y - static_cast<double>(node.window.y0)));
-    return std::hypot(off.x * std::cos(place.lat.rad()), off.y) * grid.tile_px;
-  }
-
-  [[nodiscard]] double texel_px(const SelectedPatch& patch, const Geodetic& place) const {
-    const Ellipsoid& e = scene_.tree.ellipsoid();
-    const double texel_m = Angle::degrees(tile_span_deg(scene_.tree.grid(), patch.node->window.level)).rad() * e.a_m() /
-                           scene_.tree.grid().tile_px;
-    const double distance_m = glm::distance(e.to_ecef(place).xyz_m, scene_.view.eye.xyz_m);
-    return texel_m / distance_m * scene_.view.pixels_per_radian();
-  }
-
-  // Within a pixel and a half of where rays begin to miss.
-  [[nodiscard]] bool near_limb(glm::dvec2 pixel_px) const {
-    const std::array<glm::dvec2, 4> around{{{1.5, 0.0}, {-1.5, 0.0}, {0.0, 1.5}, {0.0, -1.5}}};
-    return std::ranges::any_of(around, [&](glm::dvec2 step) {
-      return !scene_.tree.ellipsoid().intersect_m(scene_.view.eye, pixel_ray(scene_.view, pixel_px + step));
-    });
-  }
-
-  const PatchScene& scene_;
-};
 
 /// How many vertices that patches share come out at two places.
 int split_vertices(const PatchScene& scene, PatchProbe& probe) {
@@ -128,8 +56,7 @@ void check_level(int level, PatchProbe& probe, Checks& checks) {
               .limit = kMostOff_texels};
   check = timed(check, [&] {
     PatchScene scene(straight_down(47.123, 8.456, height_for(level)), kPlacePicture, level);
-    probe.load(scene);
-    errors = PlaceJudge(scene).judge(probe.window_pixels());
+    errors = place_errors(scene, probe);
     return errors.interpolated_texels;
   });
   checks.push_back(check);
@@ -160,8 +87,7 @@ void check_place(const HardPlace& place, double height_m, PatchProbe& probe, Che
               .limit = kMostPlaceOff_px};
   check = timed(check, [&] {
     PatchScene scene(straight_down(place.lat_deg, place.lon_deg, height_m), kPlacePicture, kMaxTileLevel);
-    probe.load(scene);
-    errors = PlaceJudge(scene).judge(probe.window_pixels());
+    errors = place_errors(scene, probe);
     split = split_vertices(scene, probe);
     return errors.drawn_px;
   });
