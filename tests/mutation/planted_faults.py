@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Plants faults in a copy of the source, one after the other, and shows that tests fail of each.
+
+Example:  tests/mutation/planted_faults.py --work /tmp/faults
+          tests/mutation/planted_faults.py --only asin
+
+The copy is built once without a fault, and its tests must pass; then each fault is planted, the test program that it
+concerns is built again and must fail, and the fault is taken out. Some minutes on two cores. Exit code 0: every fault
+was noticed; 1: one was not, or the copy without faults fails.
+"""
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import typing
+
+
+class Fault(typing.NamedTuple):
+    name: str  # what is wrong, in words
+    file: str  # where
+    right: str  # what stands there, once
+    wrong: str  # what is planted
+    program: str  # the test program that must fail …
+    tests: str  # … when it runs these (GoogleTest's filter)
+
+
+FAULTS = [
+    Fault("float where double belongs: a vertex's low part is lost", "engine/scene/patch_mesh.cpp",
+          "return {high, glm::vec3(p_m - glm::dvec3(high))};", "return {high, glm::vec3(0.0F)};",
+          "stability_tests", "Stability.NoVertexJitters*"),
+    Fault("float where double belongs: the eye's low part is lost", "engine/render/frame_camera.cpp",
+          "block.eye_low_ecef = glm::vec4(eye.low, 0.0F);", "block.eye_low_ecef = glm::vec4(0.0F);",
+          "stability_tests", "Stability.NoVertexJitters*"),
+    Fault("float where double belongs: tile coordinates", "engine/geo/tile_grid.cpp",
+          "return {.x = (lon_deg + 180.0) / span,", "return {.x = static_cast<float>(lon_deg + 180.0) / span,",
+          "stability_tests", "Stability.WindowPointsAreRight*"),
+    Fault("wrong seam side: longitudes do not unwrap around the patch", "engine/scene/patch_tree.cpp",
+          "return deg - 360.0 * std::round(deg / 360.0);", "return deg;",
+          "patch_tests", "PatchMesh.LongitudesUnwrap*"),
+    Fault("wrong seam side: the antimeridian is -180 degrees", "engine/geo/ellipsoid.cpp",
+          "return Angle::radians(lon <= -std::numbers::pi ? std::numbers::pi : lon);", "return Angle::radians(lon);",
+          "terrella_geo_tests", "Ellipsoid.Antimeridian*"),
+    Fault("unclamped asin: latitude from the sine of a normal", "engine/geo/ellipsoid.cpp",
+          "std::atan2(n.z, std::hypot(n.x, n.y))", "std::asin(n.z)",
+          "terrella_geo_tests", "Ellipsoid.*:Camera.*"),
+    Fault("unclamped asin: the tilt of an eye that looks straight down", "engine/scene/orbit.cpp",
+          "std::clamp(-glm::dot(view.forward, normal), -1.0, 1.0)", "-glm::dot(view.forward, normal)",
+          "scene_tests", "Orbit.*"),
+    Fault("a grazing ray by the textbook's discriminant", "engine/geo/ellipsoid.cpp",
+          ".discriminant = a * (1.0 - glm::dot(closest, closest))}",
+          ".discriminant = b * b - a * (glm::dot(origin, origin) - 1.0) + 0.0 * glm::dot(closest, closest)}",
+          "terrella_geo_tests", "Ray.*"),
+    Fault("the near plane by the height alone", "engine/render/globe_renderer.cpp",
+          "std::min(0.1, 0.9 * cos_corner)", "std::min(0.1, 1.0 + 0.9 * cos_corner)",
+          "render_tests", "GlobeCoverage.TheNearPlane*"),
+    Fault("no fall-back: coarse functions are taken for good ones", "engine/render/shader_functions.cpp",
+          "<= kMostFunctionError;", "<= 1.0;",
+          "stability_tests", "ShaderFunctions.*"),
+    Fault("standard depth in place of reversed", "shaders/frame.glsl",
+          "  return clip_scale.z;\n#else\n  return (w - clip_scale.z)",
+          "  return w - clip_scale.z * w / 1e7;\n#else\n  return (w - clip_scale.z)",
+          "stability_tests", "Stability.ReversedDepth*"),
+]
+
+
+def run(words, **more) -> subprocess.CompletedProcess:
+    return subprocess.run([str(w) for w in words], text=True, capture_output=True, check=False, **more)
+
+
+def copy_source(source: pathlib.Path, copy: pathlib.Path) -> None:
+    files = run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=source).stdout
+    for name in filter(None, files.split("\0")):
+        if not (source / name).is_file():
+            continue
+        (copy / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source / name, copy / name)
+
+
+def configure(copy: pathlib.Path, options: list[str]) -> None:
+    words = ["cmake", "-S", copy, "-B", copy / "build", "-G", "Ninja"]
+    if shutil.which("ccache"):
+        words.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
+    words += [f"-D{option}" for option in options]
+    result = run(words)
+    if result.returncode != 0:
+        sys.exit(f"{copy} cannot be configured:\n{result.stdout}{result.stderr}")
+
+
+def build(copy: pathlib.Path, program: str, jobs: int) -> str:
+    """Empty if it builds."""
+    result = run(["ninja", "-C", copy / "build", f"-j{jobs}", program])
+    return "" if result.returncode == 0 else result.stdout[-2000:]
+
+
+def failed_tests(copy: pathlib.Path, program: str, tests: str) -> list[str] | None:
+    """Names of the tests that fail; none at all where the program dies before it says which."""
+    found = list((copy / "build").rglob(program))
+    result = run([next(p for p in found if p.is_file()), f"--gtest_filter={tests}", "--gtest_brief=1"], timeout=600)
+    names = [line.split("]")[1].split()[0].rstrip(",") for line in result.stdout.splitlines() if line.startswith("[  FAILED  ] ")]
+    names = list(dict.fromkeys(name for name in names if "." in name))
+    return names if names or result.returncode == 0 else ["(ended with code %d)" % result.returncode]
+
+
+def check_without_fault(copy: pathlib.Path, faults: list[Fault], jobs: int) -> bool:
+    sound = True
+    for program in sorted({fault.program for fault in faults}):
+        if why := build(copy, program, jobs):
+            sys.exit(f"{program} does not build without a fault:\n{why}")
+        filters = ":".join(fault.tests for fault in faults if fault.program == program)
+        if failed := failed_tests(copy, program, filters):
+            print(f"without a fault {program} fails: {', '.join(failed)}")
+            sound = False
+    return sound
+
+
+def plant(copy: pathlib.Path, fault: Fault, jobs: int) -> bool:
+    file = copy / fault.file
+    sound = file.read_text()
+    if sound.count(fault.right) != 1:
+        print(f"NOT PLANTED  {fault.name}: what should be there once is there {sound.count(fault.right)} times in {fault.file}")
+        return False
+    file.write_text(sound.replace(fault.right, fault.wrong))
+    try:
+        if why := build(copy, fault.program, jobs):
+            print(f"NOT BUILT    {fault.name}:\n{why}")
+            return False
+        failed = failed_tests(copy, fault.program, fault.tests)
+    finally:
+        file.write_text(sound)
+    print(f"{'noticed' if failed else 'NOT NOTICED':12} {fault.name}" + (f": {', '.join(failed[:3])}" if failed else ""))
+    return bool(failed)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", type=pathlib.Path, help="folder for the copy and its build, kept (default: one that goes)")
+    parser.add_argument("--only", default="", help="only faults with this in their name")
+    parser.add_argument("--cmake", action="append", default=[], metavar="NAME=VALUE", help="an option of the build")
+    parser.add_argument("--jobs", type=int, default=2, help="compilers at once")
+    arguments = parser.parse_args()
+    faults = [fault for fault in FAULTS if arguments.only in fault.name]
+    source = pathlib.Path(__file__).resolve().parents[2]
+    with tempfile.TemporaryDirectory(prefix="terrella-faults-") as temporary:
+        copy = arguments.work or pathlib.Path(temporary)
+        copy_source(source, copy)
+        configure(copy, arguments.cmake)
+        if not check_without_fault(copy, faults, arguments.jobs):
+            return 1
+        noticed = [plant(copy, fault, arguments.jobs) for fault in faults]
+    print(f"{sum(noticed)} of {len(noticed)} faults were noticed")
+    return 0 if all(noticed) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
