@@ -7,7 +7,7 @@ void main() {
   vec2 high = vec2(window_size());
   float scale = texels.x * texels.y;
   float reach = sqrt(max(dot(w.dx, w.dx), dot(w.dy, w.dy))) * scale;
-  int n = int(clamp(ceil(0.9 * reach), 4.0, 16.0));
+  int n = int(clamp(ceil(0.9 * reach), 6.0, 16.0));
   float step = 1.0 / float(n);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < n; ++i) {

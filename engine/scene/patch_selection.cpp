@@ -15,6 +15,10 @@ namespace {
 // A bent patch stands with coordinates per fragment only if it is not much larger than the band: each of its pixels
 // pays for them.
 constexpr double kMostOverBand = 4.0;
+// One that reaches this far is split where it is large on the screen: a fragment of the polar program costs more than
+// a twelfth of a triangle.
+constexpr double kFarOverBand = 2.5;
+constexpr double kPixelsATriangle = 12.0;
 // How far the ground may lie from the mesh: with what the heights' own level leaves out, under a pixel.
 constexpr double kMostReliefError_px = 0.5;
 // Vertices closer than this would follow heights that no pixel shows.
@@ -169,8 +173,18 @@ class Selector {
     if (node.geometric_error_m * px > options_.max_error_px) return true;
     const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
     patch.in_band = bent && node.min_colatitude_rad < band_rad_;
-    if (bent && (!patch.in_band || node.max_colatitude_rad > kMostOverBand * band_rad_)) return true;
+    if (bent && (!patch.in_band || reaches_far_over_the_band(node))) return true;
     return window_too_wide(node, patch) || reaches_to_the_eye(node, patch) || follows_ground_badly(node, patch);
+  }
+
+  [[nodiscard]] bool reaches_far_over_the_band(const PatchNode& node) const {
+    if (node.max_colatitude_rad <= kFarOverBand * band_rad_) return false;
+    if (node.max_colatitude_rad > kMostOverBand * band_rad_) return true;
+    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
+    const double distance = std::max(glm::length(to_eye), 1e-9);
+    const double across_px = 2.0 * node.sphere.radius_m / (distance * radians_per_pixel_);
+    const double pixels = across_px * across_px * std::abs(glm::dot(to_eye, node.normal)) / distance;
+    return pixels > kPixelsATriangle * 2.0 * tree_.segments() * tree_.segments();
   }
 
   // Heights move points along the normal: looked at from above they move less on the screen.

@@ -29,8 +29,8 @@ void gather(const Strip& strip, const std::uint8_t* pixels, std::int64_t from, R
 }
 
 /// Halves a row of pixels, premultiplied floats, with the half-band filter (-1, 9, 9, -1) / 16: near a pole neighbours
-/// along the parallel differ little, and their mean alone would blur what is left (0.83 of a wave of five pixels, this
-/// 0.96). Ends are clamped.
+/// along the parallel differ little, and their mean alone would blur what is left (a wave of five pixels keeps 0.83 of
+/// its height, by this filter 0.96). Ends are clamped.
 void halve_sharply(const std::vector<float>& in, std::vector<float>& out) {
   const std::size_t last = in.size() / 4 - 1, pairs = in.size() / 8;
   out.resize(pairs * 4);
