@@ -55,20 +55,6 @@ class Gatherer {
   std::unordered_set<TileId, TileIdHash> tiles_;
 };
 
-/// Between two cameras: t in [0, 1].
-Camera between(const Camera& a, const Camera& b, double t) {
-  const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
-  const glm::dvec3 to = Ellipsoid::normal(b.eye.lat, b.eye.lon).xyz;
-  const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
-  Camera camera = a;
-  if (std::sin(angle) > 1e-12) {
-    const glm::dvec3 n = (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle);
-    camera.eye = Ellipsoid::lat_lon(EcefDir{glm::normalize(n)});
-  }
-  camera.eye.height_m = std::exp((1.0 - t) * log_height(a) + t * log_height(b));
-  return camera;
-}
-
 /// Steps that the part of a way around a camera would take in all, if it were all like that.
 double steps_at(const Camera& camera, const Camera& a, const Camera& b, const FlightView& view) {
   const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
@@ -83,12 +69,25 @@ double steps_at(const Camera& camera, const Camera& a, const Camera& b, const Fl
 
 }  // namespace
 
+Camera camera_between(const Camera& a, const Camera& b, double t) {
+  const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
+  const glm::dvec3 to = Ellipsoid::normal(b.eye.lat, b.eye.lon).xyz;
+  const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+  Camera camera = a;
+  if (std::sin(angle) > 1e-12) {
+    const glm::dvec3 n = (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle);
+    camera.eye = Ellipsoid::lat_lon(EcefDir{glm::normalize(n)});
+  }
+  camera.eye.height_m = std::exp((1.0 - t) * log_height(a) + t * log_height(b));
+  return camera;
+}
+
 std::vector<TileId> tiles_along(const std::vector<std::vector<Camera>>& ways, const FlightView& view) {
   Gatherer gatherer(view);
   for (const std::vector<Camera>& way : ways) {
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
       for (double t = 0.0; t < 1.0;) {
-        const Camera camera = between(way[i], way[i + 1], t);
+        const Camera camera = camera_between(way[i], way[i + 1], t);
         gatherer.look(camera);
         t += 1.0 / std::max(1.0, steps_at(camera, way[i], way[i + 1], view));
       }

@@ -26,6 +26,10 @@ struct FlightView {
   Viewport size;
 };
 
+/// The eye between two positions of a way, t in [0, 1]: along the great circle, the height by its logarithm; looking as
+/// at the first. thread: any
+[[nodiscard]] Camera camera_between(const Camera& a, const Camera& b, double t);
+
 /// The tiles that the viewer asks for along the ways, with all their ancestors, each once. Between two positions the
 /// eye goes along the great circle, its height by its logarithm; looked at often enough that next to nothing is passed
 /// unseen: every 20th of what the picture shows. Memory goes with the number of tiles. thread: any

@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   add_preload_command(app, exit_code);
   add_info_command(app, exit_code);
   add_merge_command(app, exit_code);
+  add_bench_command(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

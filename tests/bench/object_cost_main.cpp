@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/frame_timing.h"
+#include "apps/bench/frame_timing.h"
 #include "render/frame_block.h"
 #include "render/object_pass.h"
 #include "render/offscreen.h"

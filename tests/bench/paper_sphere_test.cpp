@@ -1,14 +1,14 @@
-#include "bench/paper_sphere.h"
+#include "apps/bench/baseline/paper_sphere.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bench/headless_gl.h"
-#include "bench/paper_mesh.h"
-#include "ground_truth/judge.h"
-#include "ground_truth/noise_planet.h"
+#include "apps/bench/baseline/headless_gl.h"
+#include "apps/bench/baseline/paper_mesh.h"
+#include "apps/bench/truth/judge.h"
+#include "apps/bench/truth/noise_planet.h"
 
 namespace terrella::bench {
 namespace {

@@ -27,12 +27,12 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrella-cli-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
-    def run_program(self, *arguments, file_size_limit=None, environment=None):
+    def run_program(self, *arguments, file_size_limit=None, environment=None, time_limit_s=TIME_LIMIT_S):
         env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         env |= {"XDG_CACHE_HOME": str(self.folder / "cache"), **(environment or {})}
         return subprocess.run(
             [PROGRAM, *map(str, arguments)], cwd=self.folder, env=env, capture_output=True, text=True,
-            errors="replace", timeout=TIME_LIMIT_S, preexec_fn=_limiter(file_size_limit), restore_signals=False)
+            errors="replace", timeout=time_limit_s, preexec_fn=_limiter(file_size_limit), restore_signals=False)
 
     def assert_fails(self, code, *arguments, says, **options):
         """The program ends with `code`, and its message holds every text of `says`, as a person would look for them."""

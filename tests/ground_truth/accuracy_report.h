@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ground_truth/accuracy_views.h"
-#include "ground_truth/judge.h"
+#include "apps/bench/truth/judge.h"
 
 namespace terrella::truth {
 

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "ground_truth/accuracy_report.h"
-#include "ground_truth/noise_planet.h"
+#include "apps/bench/truth/noise_planet.h"
 #include "ground_truth/terrella_process.h"
-#include "ground_truth/truth_cache.h"
+#include "apps/bench/truth/truth_cache.h"
 
 namespace terrella::truth {
 namespace {

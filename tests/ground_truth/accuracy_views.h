@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ground_truth/judge.h"
+#include "apps/bench/truth/judge.h"
 
 namespace terrella::truth {
 

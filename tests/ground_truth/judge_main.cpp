@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "ground_truth/judge.h"
-#include "ground_truth/judge_report.h"
-#include "ground_truth/truth_cache.h"
+#include "apps/bench/truth/judge.h"
+#include "apps/bench/truth/judge_report.h"
+#include "apps/bench/truth/truth_cache.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "ground_truth/judge.h"
+#include "apps/bench/truth/judge.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "ground_truth/noise_planet.h"
-#include "ground_truth/tile_border_mask.h"
-#include "ground_truth/truth_cache.h"
+#include "apps/bench/truth/noise_planet.h"
+#include "apps/bench/truth/tile_border_mask.h"
+#include "apps/bench/truth/truth_cache.h"
 
 namespace terrella::truth {
 namespace {

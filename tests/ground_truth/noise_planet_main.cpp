@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "ground_truth/noise_planet.h"
+#include "apps/bench/truth/noise_planet.h"
 
 namespace {
 

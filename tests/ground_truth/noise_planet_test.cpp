@@ -1,4 +1,4 @@
-#include "ground_truth/noise_planet.h"
+#include "apps/bench/truth/noise_planet.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "ground_truth/ray_caster.h"
+#include "apps/bench/truth/ray_caster.h"
 
 namespace terrella::truth {
 namespace {

@@ -1,4 +1,4 @@
-#include "ground_truth/ray_caster.h"
+#include "apps/bench/truth/ray_caster.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "ground_truth/noise_planet.h"
+#include "apps/bench/truth/noise_planet.h"
 
 namespace terrella::truth {
 namespace {

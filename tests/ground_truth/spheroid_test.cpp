@@ -1,4 +1,4 @@
-#include "ground_truth/spheroid.h"
+#include "apps/bench/truth/spheroid.h"
 
 #include <gtest/gtest.h>
 

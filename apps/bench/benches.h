@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "apps/bench/report.h"
+#include "geo/result.h"
+
+namespace terrella::bench {
+
+enum class Effort {
+  quick,   ///< seconds, small pictures: shows that it works; its figures are not to be quoted
+  normal,  ///< minutes on two cores of a software rasteriser
+  full,    ///< the whole grid
+};
+
+struct BenchOptions {
+  Effort effort = Effort::normal;
+  std::filesystem::path work;  ///< keeps the planet, its tiles and the ground truth between runs
+  std::string only = {};       ///< views or flights whose name has this; empty: all
+  std::function<void(const std::string& doing)> progress = [](const std::string&) {};
+
+  [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
+};
+
+/// Each measures and returns its table. An error names what is missing. They make their own OpenGL context and need the
+/// processor for themselves. thread: main
+[[nodiscard]] Result<Report> bench_polar(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_stream(const BenchOptions& options);
+
+}  // namespace terrella::bench

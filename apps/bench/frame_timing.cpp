@@ -1,0 +1,101 @@
+#include "apps/bench/frame_timing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <stdexcept>
+
+#include <epoxy/gl.h>
+
+namespace terrella::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int kRoundsToWarmUp = 2;
+
+double processor_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+std::string gl_string(GLenum name) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(name));
+  return text == nullptr ? std::string() : text;
+}
+
+}  // namespace
+
+FrameTime time_frame(const std::function<void()>& draw) {
+  GLuint query = 0;
+  if (!software_gl()) glGenQueries(1, &query);
+  glFinish();
+  const double cpu_start = processor_ms();
+  const auto start = Clock::now();
+  if (query != 0) glBeginQuery(GL_TIME_ELAPSED, query);
+  draw();
+  if (query != 0) glEndQuery(GL_TIME_ELAPSED);
+  glFinish();
+  FrameTime time{std::chrono::duration<double, std::milli>(Clock::now() - start).count(), processor_ms() - cpu_start};
+  if (query == 0) return time;
+  GLuint64 elapsed_ns = 0;
+  glGetQueryObjectui64v(query, GL_QUERY_RESULT, &elapsed_ns);
+  glDeleteQueries(1, &query);
+  time.ms = 1e-6 * static_cast<double>(elapsed_ns);
+  return time;
+}
+
+void time_frames(std::vector<Subject>& subjects, int rounds) {
+  for (int round = -kRoundsToWarmUp; round < rounds; ++round) {
+    for (Subject& subject : subjects) {
+      const FrameTime time = time_frame(subject.draw);
+      if (round < 0) continue;
+      subject.ms.push_back(time.ms);
+      subject.cpu_ms.push_back(time.cpu_ms);
+    }
+  }
+}
+
+bool software_gl() {
+  const std::string name = gl_string(GL_RENDERER);
+  for (const char* software : {"llvmpipe", "softpipe", "SwiftShader", "swrast"}) {
+    if (name.find(software) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string renderer_name() { return gl_string(GL_RENDERER); }
+
+std::string timing_method() {
+  return software_gl() ? "wall time of a frame with a finish; software GL" : "GPU time by timer queries";
+}
+
+double median_ratio(const std::vector<double>& times, const std::vector<double>& base) {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < times.size(); ++k) ratios.push_back(times[k] / base[k]);
+  return median(std::move(ratios));
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+std::unique_ptr<Globe> open_globe(const std::string& tile_set, Texturing texturing, bool unlit) {
+  GlobeOptions options;
+  options.texturing = texturing;
+  options.unlit = unlit;
+  return open_globe(tile_set, options);
+}
+
+std::unique_ptr<Globe> open_globe(const std::string& tile_set, GlobeOptions options) {
+  options.upload_bytes_per_frame = options.gpu_bytes;
+  options.upload_time_per_frame = std::chrono::seconds(1);
+  Result<std::unique_ptr<TileSource>> source = open_tile_set(tile_set);
+  if (!source) throw std::runtime_error(source.error().message);
+  Result<std::unique_ptr<Globe>> made = Globe::create(options, std::shared_ptr<TileSource>(std::move(*source)));
+  if (!made) throw std::runtime_error(made.error().message);
+  return std::move(*made);
+}
+
+}  // namespace terrella::bench

@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "apps/bench/benches.h"
+#include "apps/bench/frame_timing.h"
+#include "apps/bench/polar_methods.h"
+#include "apps/bench/polar_views.h"
+#include "apps/bench/shots.h"
+#include "apps/bench/truth/masked_error.h"
+#include "apps/bench/work_folder.h"
+#include "geo/body.h"
+
+#include <epoxy/gl.h>
+
+namespace terrella::bench {
+namespace {
+
+using truth::ZoneError;
+
+constexpr std::size_t kGlobeBytes = 192UL << 20;  // each of the many globes: 490 tiles
+
+struct Size {
+  int side_px;
+  int rays_per_side;
+  int rounds;
+};
+Size size_of(Effort effort) {
+  if (effort == Effort::quick) return {192, 4, 2};
+  return {1024, 8, effort == Effort::full ? 15 : 9};
+}
+
+/// What one method did in one view.
+struct PolarFigures {
+  ZoneError pole, twin, mid;  ///< twin: the pole's pixels in the view of mid latitudes
+  std::int64_t triangles = 0, vertices = 0, tiles = 0;
+};
+
+class PolarLab {
+ public:
+  PolarLab(const BenchOptions& options, TestPlanet planet)
+      : options_(options),
+        size_(size_of(options.effort)),
+        viewport_{size_.side_px, size_.side_px},
+        planet_(std::move(planet)),
+        sphere_(planet_.source.picture, 48, size_.side_px),
+        target_(viewport_) {
+    for (const PolarMethod& method : polar_methods(options.effort)) {
+      methods_.push_back(method);
+      globes_.push_back(method.sphere ? nullptr : open(method));
+    }
+  }
+
+  void measure(const PolarView& view, Report& report) {
+    options_.progress(view.name + ": ground truth");
+    const truth::TruthImage truth = truth_of(view.camera);
+    std::optional<truth::TruthImage> twin;
+    if (view.twin) twin = truth_of(*view.twin);
+    options_.progress(view.name + ": drawing");
+    std::vector<std::size_t> chosen;
+    std::vector<PolarFigures> figures;
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+      if (!methods_[m].everywhere && !view.swept) continue;
+      chosen.push_back(m);
+      figures.push_back(judge(m, view, truth, twin ? &*twin : nullptr));
+    }
+    const std::vector<Subject> subjects = time(view, chosen);
+    for (std::size_t k = 0; k < chosen.size(); ++k) add_row(report, view, chosen[k], figures[k], subjects, k);
+  }
+
+  [[nodiscard]] const PaperSphere& sphere() const { return sphere_; }
+
+ private:
+  std::unique_ptr<Globe> open(const PolarMethod& method) const {
+    GlobeOptions globe;
+    globe.body = *parse_body("sphere");
+    globe.unlit = true;
+    globe.texturing = method.texturing;
+    globe.paper_a = method.a;
+    globe.paper_band = method.band;
+    globe.squeezed_rows = method.squeezed;
+    globe.gpu_bytes = kGlobeBytes;
+    return open_globe(planet_.tiles.string(), globe);
+  }
+
+  [[nodiscard]] truth::TruthImage truth_of(const truth::TruthCamera& camera) const {
+    return truth::cast_cached(planet_.source, {}, polar_body(), camera,
+                              {.width = size_.side_px, .height = size_.side_px, .rays_per_side = size_.rays_per_side},
+                              truth_folder(options_));
+  }
+
+  /// What the method shows from a camera.
+  truth::Picture picture(std::size_t m, const truth::TruthCamera& camera, PolarFigures& figures) {
+    if (methods_[m].sphere) {
+      sphere_.draw(camera, polar_body().a_m, *methods_[m].sphere);
+      figures.triangles = sphere_.triangles();
+      figures.vertices = sphere_.vertices();
+      return sphere_.read_back();
+    }
+    const FrameStats stats = settle(*globes_[m], camera, target_, viewport_);
+    figures.triangles = stats.triangles;
+    figures.vertices = static_cast<std::int64_t>(stats.patches) * kVerticesOfPatch;
+    figures.tiles = stats.tiles_wanted;
+    return shot(target_, viewport_);
+  }
+
+  PolarFigures judge(std::size_t m, const PolarView& view, const truth::TruthImage& truth,
+                     const truth::TruthImage* twin) {
+    PolarFigures figures;
+    const truth::Mask pole = truth::pole_band_mask(truth);
+    if (twin != nullptr) figures.twin = truth::masked_error(picture(m, *view.twin, figures), *twin, pole);
+    const truth::Picture shown = picture(m, view.camera, figures);
+    figures.pole = truth::masked_error(shown, truth, pole);
+    figures.mid = truth::masked_error(shown, truth, truth::mid_latitude_mask(truth));
+    return figures;
+  }
+
+  std::vector<Subject> time(const PolarView& view, const std::vector<std::size_t>& chosen) {
+    std::vector<Subject> subjects;
+    for (const std::size_t m : chosen) {
+      const PolarMethod& method = methods_[m];
+      if (method.sphere) {
+        subjects.push_back(
+            {method.name, [this, &view, &method] { sphere_.draw(view.camera, polar_body().a_m, *method.sphere); }});
+      } else {
+        subjects.push_back({method.name, [this, m] { globes_[m]->render(target_.framebuffer(), viewport_); }});
+      }
+    }
+    time_frames(subjects, size_.rounds);
+    return subjects;
+  }
+
+  void add_row(Report& report, const PolarView& view, std::size_t m, const PolarFigures& figures,
+               const std::vector<Subject>& subjects, std::size_t k) const {
+    const PolarMethod& method = methods_[m];
+    const auto ratio = [&](std::size_t base) { return median_ratio(subjects[k].ms, subjects[base].ms); };
+    const auto cpu_ratio = [&](std::size_t base) { return median_ratio(subjects[k].cpu_ms, subjects[base].cpu_ms); };
+    const auto rms = [](const ZoneError& e) { return e.pixels == 0 ? kNoFigure : e.rms; };
+    const auto max = [](const ZoneError& e) { return e.pixels == 0 ? kNoFigure : e.max; };
+    report.rows.push_back({view.name, method.name, method.has_a_and_band ? method.a : kNoFigure,
+                           method.has_a_and_band ? method.band : kNoFigure,
+                           method.has_anisotropy ? method.sphere->anisotropy : kNoFigure, median(subjects[k].ms),
+                           median(subjects[k].cpu_ms), ratio(0), cpu_ratio(0), ratio(1), cpu_ratio(1),
+                           rms(figures.pole), max(figures.pole), rms(figures.twin), rms(figures.mid), max(figures.mid),
+                           figures.triangles, figures.vertices, figures.tiles});
+  }
+
+  static constexpr std::int64_t kVerticesOfPatch = 25 * 25;
+
+  const BenchOptions& options_;
+  Size size_;
+  Viewport viewport_;
+  TestPlanet planet_;
+  PaperSphere sphere_;
+  OffscreenTarget target_;
+  std::vector<PolarMethod> methods_;
+  std::vector<std::unique_ptr<Globe>> globes_;  ///< of the methods that have one
+};
+
+std::vector<Column> polar_columns() {
+  return {{"view", ""},
+          {"method", ""},
+          {"a", "", 0},
+          {"band", "of height"},
+          {"anisotropy", "", 0},
+          {"time", "ms"},
+          {"cpu_time", "ms"},
+          {"ratio_plain", "time / plain"},
+          {"cpu_ratio_plain", "cpu / plain"},
+          {"ratio_vertex", "time / vertex"},
+          {"cpu_ratio_vertex", "cpu / vertex"},
+          {"rms_pole", "8-bit levels"},
+          {"max_pole", "levels", 0},
+          {"rms_twin", "the same pixels at 35°"},
+          {"rms_mid", "8-bit levels"},
+          {"max_mid", "levels", 0},
+          {"triangles", ""},
+          {"vertices", ""},
+          {"tiles", ""}};
+}
+
+double figure(const Report& report, std::string_view view, std::string_view method, const char* column) {
+  for (const std::vector<Cell>& row : report.rows) {
+    if (std::get<std::string>(row[0]) == view && std::get<std::string>(row[1]) == method) {
+      return std::get<double>(row[report.column(column)]);
+    }
+  }
+  return kNoFigure;
+}
+
+/// The points of the list that this table answers.
+void add_findings(const std::vector<PolarView>& views, Report& report) {
+  constexpr double kSideLimit = 1.02, kPoleLimit = 1.15, kErrorLimit = 1.0;
+  for (const PolarView& view : views) {
+    if (!view.twin) continue;
+    report.findings.push_back(
+        {fmt::format("{}: RMS of auto in the pole band over the same pixels at 35°", view.name),
+         figure(report, view.name, kAutoGlobe, "rms_pole") / figure(report, view.name, kAutoGlobe, "rms_twin"),
+         kErrorLimit});
+  }
+  for (const auto& [name, limit] : {std::pair{"inscribed, side", kSideLimit}, {"inscribed, pole", kPoleLimit}}) {
+    if (std::ranges::find(views, name, &PolarView::name) == views.end()) continue;
+    report.findings.push_back(
+        {fmt::format("{}: time of auto over vertex", name), figure(report, name, kAutoGlobe, "ratio_vertex"), limit});
+    report.findings.push_back({fmt::format("{}: processor time of auto over vertex", name),
+                               figure(report, name, kAutoGlobe, "cpu_ratio_vertex"), limit});
+  }
+}
+
+Report measure_polar(const BenchOptions& options, TestPlanet planet) {
+  Report report{.name = "polar",
+                .title = "Polar texturing: paper 1's sphere and the globe, time beside error",
+                .facts = {{"renderer", renderer_name()}, {"time", timing_method()}},
+                .columns = polar_columns()};
+  report.facts.emplace_back(
+      "picture", fmt::format("noise planet, {}x{}", planet.source.picture.width, planet.source.picture.height));
+  PolarLab lab(options, std::move(planet));
+  report.facts.emplace_back("paper 1's sphere", fmt::format("n = 48, {} triangles, {} vertices",
+                                                            lab.sphere().triangles(), lab.sphere().vertices()));
+  std::vector<PolarView> views = polar_views(options.effort);
+  std::erase_if(views, [&](const PolarView& view) { return !options.wants(view.name); });
+  for (const PolarView& view : views) lab.measure(view, report);
+  report.plots = {{.title = "error in the pole band beside time, inscribed, over the pole",
+                   .x = "ratio_plain",
+                   .y = "rms_pole",
+                   .series = "method",
+                   .only_column = "view",
+                   .only_value = "inscribed, pole",
+                   .lines = false},
+                  {.title = "error in the pole band beside time, 1500 km, beside the pole",
+                   .x = "ratio_plain",
+                   .y = "rms_pole",
+                   .series = "method",
+                   .only_column = "view",
+                   .only_value = "1500 km, beside the pole",
+                   .lines = false}};
+  add_findings(views, report);
+  return report;
+}
+
+}  // namespace
+
+Result<Report> bench_polar(const BenchOptions& options) {
+  auto planet = noise_test_planet(options);
+  if (!planet) return planet.error();
+  const auto context = HeadlessContext::create();
+  if (!context) return context.error();
+  try {
+    return measure_polar(options, *std::move(planet));
+  } catch (const std::exception& error) {
+    return Error{error.what()};
+  }
+}
+
+}  // namespace terrella::bench

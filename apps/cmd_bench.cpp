@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <array>
+#include <memory>
+#include <string>
+
+#include "apps/bench/benches.h"
+#include "apps/bench/report_files.h"
+#include "apps/commands.h"
+#include "apps/open_imagery.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedBench {
+  const char* name;
+  Result<bench::Report> (*run)(const bench::BenchOptions&);
+};
+constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBench{"traverse", bench::bench_traverse},
+                              NamedBench{"stream", bench::bench_stream}};
+
+constexpr const char* kBenchExamples =
+    "polar      texturing at the poles: paper 1's sphere and the globe, time beside error\n"
+    "traverse   flights: selection, draws and uploads on the way, and what was drawn in vain\n"
+    "stream     from nothing to a settled view: time, requests and bytes beside the error on the screen\n"
+    "Examples:\n"
+    "  terrella bench polar --out results        results/polar.csv, .json, .gnuplot and .png\n"
+    "  terrella bench polar --quick --json       seconds, to see that it works";
+
+struct BenchCommand {
+  std::string name;
+  std::string out = "terrella-bench";
+  std::string work, only;
+  bool quick = false, full = false, json = false;
+};
+
+const NamedBench& bench_named(const std::string& name) {
+  std::string names;
+  for (const NamedBench& bench : kBenches) {
+    if (name == bench.name) return bench;
+    names += (names.empty() ? "" : "|") + std::string(bench.name);
+  }
+  throw CLI::ValidationError("NAME", "'" + name + "' is none of " + names);
+}
+
+int run(const BenchCommand& command) {
+  const NamedBench& chosen = bench_named(command.name);
+  bench::BenchOptions options;
+  if (command.quick) options.effort = bench::Effort::quick;
+  options.only = command.only;
+  if (command.full) options.effort = bench::Effort::full;
+  const Result<fs::path> cache = picture_cache_folder(command.work);
+  if (!cache) return fail("bench", cache.error().message);
+  options.work = command.work.empty() ? *cache / "bench" : *cache;
+  options.progress = [&](const std::string& doing) { fmt::print(stderr, "bench {}: {}\n", chosen.name, doing); };
+  // Not after minutes of measuring.
+  if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
+  const Result<bench::Report> report = chosen.run(options);
+  if (!report) return fail("bench", report.error().message);
+  if (report->rows.empty())
+    return fail("bench", fmt::format("no view of {} has '{}' in its name", command.name, command.only));
+  const Result<bench::ReportFiles> files = bench::write_report(*report, command.out);
+  if (!files) return fail("bench", files.error().message);
+  fmt::print("{}", command.json ? as_json(*report) : as_text(*report));
+  for (const fs::path& file : files->written) fmt::print(stderr, "bench {}: wrote {}\n", chosen.name, file.string());
+  if (!files->remark.empty()) fmt::print(stderr, "bench {}: {}\n", chosen.name, files->remark);
+  return report->failed ? kFailed : kDone;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("bench", "Measures speed beside error, and writes a table and a plot");
+  sub.footer(kBenchExamples);
+  const auto command = std::make_shared<BenchCommand>();
+  sub.add_option("NAME", command->name, "What to measure")->required()->type_name("polar|traverse|stream");
+  sub.add_option("-o,--out", command->out, "Folder for NAME.csv, NAME.json, NAME.gnuplot and NAME.png")
+      ->capture_default_str();
+  sub.add_option(
+      "--work", command->work,
+      "Folder that keeps the planet, its tiles and the ground truth from run to run (default: in the cache)");
+  sub.add_option("--only", command->only, "Only the views or flights whose name has this text");
+  CLI::Option* quick = sub.add_flag("--quick", command->quick, "Seconds: small pictures, figures not to be quoted");
+  sub.add_flag("--full", command->full, "The whole grid of parameters and views")->excludes(quick);
+  sub.add_flag("--json", command->json, "Print the result as one JSON object");
+  sub.callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace terrella

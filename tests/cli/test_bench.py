@@ -1,0 +1,88 @@
+"""terrella bench: the files that it writes, and wrong names."""
+
+import csv
+import json
+import math
+import shutil
+import unittest
+
+from program import DONE, FAILED, WRONG_USAGE, ProgramTest
+
+# Every row of a benchmark has a time and an error.
+BENCHES = {
+    "polar": ("time", "rms_mid"),
+    "traverse": ("time", "rms_lag"),
+    "stream": ("time", "rms"),
+}
+
+
+# Seconds, but drawn by a software rasteriser, perhaps with sanitizers on a busy machine.
+BENCH_LIMIT_S = 250
+
+
+class Bench(ProgramTest):
+    def run_bench(self, name):
+        done = self.assert_done("bench", name, "--quick", "--json", "--out", "out", "--work", "work",
+                                time_limit_s=BENCH_LIMIT_S)
+        return json.loads(done.stdout)
+
+    def check_files(self, name, result):
+        with open(self.folder / "out" / f"{name}.csv", newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+        self.assertEqual(header, [column["name"] for column in result["columns"]])
+        self.assertGreater(len(rows), 0)
+        for row, same in zip(rows, result["rows"], strict=True):
+            self.assertEqual(len(row), len(header))
+            for field, value in zip(row, same.values(), strict=True):
+                if value is None:
+                    self.assertEqual(field, "")
+                elif isinstance(value, str):
+                    self.assertEqual(field, value)
+                else:
+                    self.assertEqual(float(field), value)
+        written = json.loads((self.folder / "out" / f"{name}.json").read_text(encoding="utf-8"))
+        self.assertEqual(written, result)
+        self.assertTrue((self.folder / "out" / f"{name}.gnuplot").read_text(encoding="utf-8"))
+        if shutil.which("gnuplot"):
+            picture = (self.folder / "out" / f"{name}.png").read_bytes()
+            self.assertTrue(picture.startswith(b"\x89PNG\r\n"))
+        return result["rows"]
+
+    def test_each_writes_a_table_that_is_well_formed(self):
+        for name, (time, error) in BENCHES.items():
+            with self.subTest(name):
+                rows = self.check_files(name, self.run_bench(name))
+                for row in rows:
+                    self.assertGreater(row[time], 0.0, row)
+                    # Looking down on the pole there are no mid latitudes.
+                    found = [row[e] for e in (error, "rms_pole") if row.get(e) is not None]
+                    self.assertTrue(found and all(math.isfinite(e) and 0.0 <= e < 60.0 for e in found), row)
+                if name == "polar":
+                    self.check_the_papers_sphere(rows)
+
+    def check_the_papers_sphere(self, rows):
+        plain = [row for row in rows if row["method"] == "sphere: plain"]
+        self.assertEqual({row["triangles"] for row in plain}, {27648})
+        self.assertEqual({row["ratio_plain"] for row in plain if row["anisotropy"] == 1}, {1.0})
+
+    def test_the_table_is_printed(self):
+        done = self.assert_done("bench", "stream", "--quick", "--only", "mid", "--work", "work", time_limit_s=BENCH_LIMIT_S)
+        self.assertIn("settled", done.stdout)
+        self.assertIn("8-bit levels", done.stdout)
+        self.assertNotIn("pole", done.stdout)
+        self.assertTrue((self.folder / "terrella-bench" / "stream.csv").exists())
+
+    def test_wrong_names(self):
+        self.assert_fails(WRONG_USAGE, "bench", "speed", says=["speed", "polar", "terrella bench --help"])
+        self.assert_fails(WRONG_USAGE, "bench", says=["NAME"])
+        self.assert_fails(WRONG_USAGE, "bench", "polar", "--quick", "--full", says=["--full", "--quick"])
+        self.assert_fails(FAILED, "bench", "stream", "--quick", "--only", "nowhere", "--work", "work", says=["nowhere"],
+                          time_limit_s=BENCH_LIMIT_S)
+
+    def test_a_folder_that_cannot_be_made(self):
+        self.write("file", b"")
+        self.assert_fails(FAILED, "bench", "polar", "--quick", "--work", "work", "--out", "file", says=["file"])
+
+
+if __name__ == "__main__":
+    unittest.main()
