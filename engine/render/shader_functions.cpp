@@ -24,7 +24,8 @@ struct Arguments {
 // Half of the angles evenly round the circle, half by size down to the smallest: there it is the relative error that a
 // coarse polynomial loses.
 double angle_at(int k) {
-  const double part = (k / 2 + 0.5) / (0.5 * kArguments);
+  const int pair = k / 2;
+  const double part = (pair + 0.5) / (0.5 * kArguments);
   if (k % 2 == 0) return std::numbers::pi * (2.0 * part - 1.0);
   return (k % 4 == 1 ? 1.0 : -1.0) * std::pow(kSmallestAngle, part);
 }
