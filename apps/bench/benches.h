@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "apps/bench/report.h"
 #include "geo/result.h"
+#include "render/shader_functions.h"
 
 namespace terrella::bench {
 
@@ -18,8 +20,9 @@ enum class Effort {
 
 struct BenchOptions {
   Effort effort = Effort::normal;
-  std::filesystem::path work;  ///< keeps the planet, its tiles and the ground truth between runs
-  std::string only = {};       ///< views or flights whose name has this; empty: all
+  std::filesystem::path work;                     ///< keeps the planet, its tiles and the ground truth between runs
+  std::string only = {};                          ///< views or flights whose name has this; empty: all
+  std::optional<ShaderFunctions> functions = {};  ///< of the self-test's shaders; none: what the engine chooses
   std::function<void(const std::string& doing)> progress = [](const std::string&) {};
 
   [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
@@ -30,5 +33,6 @@ struct BenchOptions {
 [[nodiscard]] Result<Report> bench_polar(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stream(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_stability(const BenchOptions& options);
 
 }  // namespace terrella::bench

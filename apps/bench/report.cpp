@@ -16,7 +16,8 @@ std::string printed(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   const double number = std::get<double>(cell);
-  return std::isnan(number) ? "" : fmt::format("{:.{}f}", number, column.decimals);
+  if (std::isnan(number)) return "";
+  return column.decimals < 0 ? fmt::format("{:.3g}", number) : fmt::format("{:.{}f}", number, column.decimals);
 }
 
 std::string csv_field(const Cell& cell) {

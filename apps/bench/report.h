@@ -14,7 +14,7 @@ namespace terrella::bench {
 struct Column {
   std::string name;
   std::string unit;
-  int decimals = 2;  ///< of printed numbers; the CSV and the JSON have them in full
+  int decimals = 2;  ///< of printed numbers, negative: three digits; the CSV and the JSON have them in full
 };
 
 /// A NaN is a figure that there is not: an empty field, JSON's null.
