@@ -65,6 +65,18 @@ class Bench(ProgramTest):
         self.assertEqual({row["triangles"] for row in plain}, {27648})
         self.assertEqual({row["ratio_plain"] for row in plain if row["anisotropy"] == 1}, {1.0})
 
+    def test_the_self_test_passes_and_fails(self):
+        rows = self.check_files("stability", self.run_bench("stability"))
+        for row in rows:
+            self.assertGreater(row["time"], 0.0, row)
+            self.assertIsNotNone(row["error"], row)
+            self.assertIn(row["passed"], ("pass", "-"), row)
+        # Mesa's software rasteriser has a coarse arc tangent: held to the limit it fails.
+        result = json.loads(self.assert_done("bench", "stability", "--quick", "--json", "--only", "functions").stdout)
+        if result["facts"]["functions the engine chooses here"] == "own":
+            self.assert_fails(FAILED, "bench", "stability", "--quick", "--only", "functions", "--functions", "driver",
+                              says=["stability.csv"])
+
     def test_the_table_is_printed(self):
         done = self.assert_done("bench", "stream", "--quick", "--only", "mid", "--work", "work", time_limit_s=BENCH_LIMIT_S)
         self.assertIn("settled", done.stdout)
