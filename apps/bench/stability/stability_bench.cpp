@@ -4,6 +4,7 @@
 #include <array>
 
 #include "apps/bench/benches.h"
+#include "apps/bench/frame_timing.h"
 #include "apps/bench/stability/check.h"
 #include "render/offscreen.h"
 
@@ -17,11 +18,6 @@ struct Section {
 constexpr std::array kSections{Section{"functions", check_functions}, Section{"depth", check_depth},
                                Section{"jitter", check_jitter},       Section{"places", check_places},
                                Section{"geodesy", check_geodesy},     Section{"same pixels", check_same_pixels}};
-
-std::string gl_string(GLenum name) {
-  const auto* text = reinterpret_cast<const char*>(glGetString(name));
-  return text == nullptr ? "" : text;
-}
 
 std::string words_for(ShaderFunctions functions) { return functions == ShaderFunctions::own ? "own" : "driver's"; }
 
@@ -73,8 +69,8 @@ Result<Report> bench_stability(const BenchOptions& options) {
     if (Status done = section.run(stability, checks); !done) return done.error();
   }
   Report report = report_of(checks);
-  report.facts = {{"renderer", gl_string(GL_RENDERER)},
-                  {"OpenGL", gl_string(GL_VERSION)},
+  report.facts = {{"renderer", renderer_name()},
+                  {"OpenGL", reinterpret_cast<const char*>(glGetString(GL_VERSION))},
                   {"functions the engine chooses here", words_for(*chosen)},
                   {"functions measured with", words_for(stability.functions)}};
   return report;
