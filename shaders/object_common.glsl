@@ -17,11 +17,12 @@ float w_of(vec3 from_eye_ecef) {
   return -dot(vec3(view_from_ecef[0].z, view_from_ecef[1].z, view_from_ecef[2].z), from_eye_ecef);
 }
 
-// Whether all of a ball lies behind the hiding sphere: the way to its centre passes that sphere's centre by less than the
-// difference of their radii, and before it ends.
+// Whether all of a ball lies in or behind the hiding sphere, which the eye is outside of: behind it, the way to the ball's
+// centre passes that sphere's centre by less than the difference of their radii, and before it ends.
 bool is_hidden(vec3 center_from_eye, float away, float radius) {
   float within = 0.999 * hiding_radius - radius;
   float passes = -dot(eye_high_ecef.xyz, center_from_eye) / away;
+  if (within > 0.0 && length(eye_high_ecef.xyz + center_from_eye) < within) return true;
   if (within <= 0.0 || passes <= 0.0 || passes >= away) return false;
   return dot(eye_high_ecef.xyz, eye_high_ecef.xyz) - passes * passes < within * within;
 }

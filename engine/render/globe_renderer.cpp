@@ -58,8 +58,7 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
   targets_.copy_to(framebuffer);
-  if (pictures.size() == 1 &&
-      !objects_) {  // where nothing goes over it, the limb can be drawn as the picture is copied
+  if (limb_comes_last({input, pictures.front(), tiles, counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_STENCIL_TEST);
     draw_limb({input, pictures.front(), tiles, counts}, targets_.color());
@@ -89,7 +88,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_surface(pass, translucent ? SurfaceFromBelow::translucent : SurfaceFromBelow::opaque);
   draw_sky(pass);
-  if (pass.input.eyes || objects_) draw_limb(pass, targets_.copy_of_color());
+  if (!limb_comes_last(pass)) draw_limb(pass, targets_.copy_of_color());
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
@@ -114,17 +113,28 @@ void GlobeRenderer::draw_naively(const Pass& pass) {
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
-// Of the inner sphere where it is drawn: what it hides need not be begun.
-double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
-  const bool drawn = under_ground(pass) || pass.input.surface.alpha < 1.0;
-  return drawn && !pass.input.naive_translucency ? inner_radius_m(pass.input) : 0.0;
+// Where nothing goes over it, the limb can be drawn as the picture is copied.
+bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
+  if (pass.input.eyes) return false;
+  return !objects_ || !(under_ground(pass) || objects_->has(ObjectPart::above_ground));
 }
 
-void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) const {
+// Of the inner sphere where it is drawn, or one in an opaque surface: what it hides need not be begun.
+double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
+  if (pass.input.naive_translucency) return 0.0;
+  double radius_m = inner_radius_m(pass.input);
+  if (!under_ground(pass) && pass.input.surface.alpha >= 1.0) {
+    const double lowest_m = tree_.relief() != nullptr ? tree_.relief()->range_m().min_m : 0.0;
+    radius_m = tree_.ellipsoid().b_m() + std::min(lowest_m, 0.0);
+  }
+  return glm::length(pass.eye.view.eye.xyz_m) > radius_m ? radius_m : 0.0;
+}
+
+void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) {
   if (!objects_ || !objects_->has(part)) return;
   stencil(pass.eye, 0, mark);
   depth_test(GL_GREATER);
-  pass.counts.draw_calls += objects_->draw(part, pass.eye.view.viewport, choice, hiding_radius_m(pass));
+  pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, choice, hiding_radius_m(pass));
   glEnable(GL_CULL_FACE);
   stencil(pass.eye, 0, 0);
 }
@@ -317,12 +327,13 @@ double GlobeRenderer::near_m(const Pass& pass) const {
   return std::max(std::min(0.1, 0.9 * cos_corner) * free_m, 0.05);
 }
 
-void GlobeRenderer::upload_frame(const Pass& pass) const {
+void GlobeRenderer::upload_frame(const Pass& pass) {
   const View& view = pass.eye.view;
   const Ellipsoid& e = tree_.ellipsoid();
   const SlotLayout& layout = pass.tiles.layout();
   const double far_m = glm::length(view.eye.xyz_m) + 1.5 * e.a_m();
-  FrameBlock block = frame_of_camera(view, near_m(pass), far_m);
+  FrameBlock& block = frame_;
+  block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   const double polar_scale = tree_.grid().latitude == LatitudeKind::centric ? e.one_minus_e2() : 1.0;
   block.texels = glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), pass.tiles.mips(), polar_scale);

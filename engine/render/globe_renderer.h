@@ -90,15 +90,16 @@ class GlobeRenderer {
   void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
   void blend(const SurfaceLook& look) const;
   void draw_sky(const Pass& pass);
-  void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) const;
+  void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
   void draw_limb(const Pass& pass, GLuint picture) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts) const;
   void begin_picture(const Pass& pass) const;
   void color_mask(const EyePicture& eye, bool on) const;
   void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
   void depth_test(GLenum test) const;
-  void upload_frame(const Pass& pass) const;
+  void upload_frame(const Pass& pass);
   [[nodiscard]] double near_m(const Pass& pass) const;
+  [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
@@ -113,6 +114,7 @@ class GlobeRenderer {
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   FrameTargets targets_;
+  FrameBlock frame_{};  ///< of the eye whose picture is drawn
   gl::Buffer frame_block_;
 };
 

@@ -11,6 +11,8 @@ namespace {
 // Part of its distance that what lies on the ground is drawn nearer: more than depth's own steps, and than the ground's
 // mesh lies under the ellipsoid.
 constexpr float kGroundBias = 1.0e-4F;
+// Fewer spheres are drawn as triangles on software GL too.
+constexpr std::size_t kFewestSplats = 2048;
 constexpr GLint kViewportUniform = 0;
 constexpr GLint kBiasUniform = 1;
 constexpr GLint kHidingUniform = 2;
@@ -46,9 +48,14 @@ Batch<char> ranges_of(const Batch<T>& batch) {
 
 }  // namespace
 
-Result<std::unique_ptr<ObjectPass>> ObjectPass::create(DepthMode depth) {
+Result<std::unique_ptr<ObjectPass>> ObjectPass::create(DepthMode depth, SpherePath path) {
   std::unique_ptr<ObjectPass> pass(new ObjectPass);
   if (const Status built = pass->build_programs(depth); !built) return built.error();
+  pass->splat_ = path == SpherePath::splats || (path == SpherePath::automatic && is_software_gl());
+  pass->fewest_splats_ = path == SpherePath::splats ? 1 : kFewestSplats;
+  if (pass->splat_) {
+    if (const Status built = pass->splats_.create(depth); !built) return built.error();
+  }
   pass->set_up_arrays();
   return pass;
 }
@@ -96,6 +103,7 @@ void ObjectPass::set_objects(const ObjectBatches& batches) {
   sphere_ranges_ = ranges_of(batches.spheres);
   line_ranges_ = ranges_of(batches.lines);
   marker_ranges_ = ranges_of(batches.markers);
+  if (splat_) splats_.set_spheres(batches.spheres);
   glVertexArrayVertexBuffer(fill_array_.name(), 0, fill_vertices_.name(), 0, sizeof(FillVertex));
   glVertexArrayElementBuffer(fill_array_.name(), fill_indices_.name());
   glVertexArrayVertexBuffer(sphere_array_.name(), 0, spheres_.name(), 0, sizeof(DotInstance));
@@ -115,7 +123,8 @@ bool ObjectPass::has(ObjectPart part) const {
   return false;
 }
 
-int ObjectPass::draw(ObjectPart part, Viewport viewport, ObjectChoice choice, double hiding_radius_m) const {
+int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice,
+                     double hiding_radius_m) {
   if (!has(part)) return 0;
   for (const gl::Program* program : {&fill_, &sphere_, &line_, &marker_}) {
     glProgramUniform2f(program->name(), kViewportUniform, float(viewport.width_px), float(viewport.height_px));
@@ -136,7 +145,7 @@ int ObjectPass::draw(ObjectPart part, Viewport viewport, ObjectChoice choice, do
   }
   for (const bool opaque : {true, false}) {
     glDepthMask(opaque ? GL_TRUE : GL_FALSE);
-    calls += draw_dots(sphere_ranges_, sphere_array_, sphere_, part, opaque, choice);
+    calls += draw_spheres(part, opaque, choice, frame, viewport, hiding_radius_m);
     calls += draw_lines(part, opaque, choice);
     calls += draw_dots(marker_ranges_, marker_array_, marker_, part, opaque, choice);
   }
@@ -164,6 +173,25 @@ int ObjectPass::draw_dots(const Ranges& ranges, const gl::VertexArray& array, co
   glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(range.count),
                                     static_cast<GLuint>(range.first));
   return 1;
+}
+
+int ObjectPass::draw_spheres(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame,
+                             Viewport viewport, double hiding_radius_m) {
+  const auto range = sphere_ranges_.range(part, opaque, choice);
+  if (!splat_ || !opaque || range.count < fewest_splats_) {
+    return draw_dots(sphere_ranges_, sphere_array_, sphere_, part, opaque, choice);
+  }
+  splats_.prepare(range.first, range.count, frame, viewport, hiding_radius_m);
+  int calls = 0;
+  if (splats_.large_count() > 0) {
+    glUseProgram(sphere_.name());
+    glBindVertexArray(sphere_array_.name());
+    glVertexArrayVertexBuffer(sphere_array_.name(), 0, splats_.large_buffer(), 0, sizeof(DotInstance));
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, splats_.large_count());
+    glVertexArrayVertexBuffer(sphere_array_.name(), 0, spheres_.name(), 0, sizeof(DotInstance));
+    calls = 1;
+  }
+  return calls + splats_.draw(viewport);
 }
 
 int ObjectPass::draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const {

@@ -26,7 +26,7 @@ void ObjectCanvas::TearDown() {
 }
 
 void ObjectCanvas::use(DepthMode depth, Viewport size) {
-  auto pass = ObjectPass::create(depth);
+  auto pass = ObjectPass::create(depth, sphere_path_);
   ASSERT_TRUE(pass) << pass.error().message;
   pass_ = std::move(*pass);
   depth_mode_ = depth;
@@ -40,17 +40,18 @@ void ObjectCanvas::use(DepthMode depth, Viewport size) {
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
-void ObjectCanvas::upload_frame(const View& view) const {
+FrameBlock ObjectCanvas::upload_frame(const View& view) const {
   const double height = std::abs(ellipsoid_.to_geodetic(view.eye).height_m);
   const double near_m = std::max(0.1 * height, 0.05);
   const double far_m = glm::length(view.eye.xyz_m) + 1.5 * ellipsoid_.a_m();
   FrameBlock block = frame_of_camera(view, near_m, far_m);
   block.sun_ecef = glm::vec4(glm::vec3(glm::normalize(view.eye.xyz_m)), lit_ ? 1.0F : 0.0F);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
+  return block;
 }
 
 ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
-  upload_frame(view);
+  const FrameBlock frame = upload_frame(view);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, size_.width_px, size_.height_px);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -65,7 +66,7 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   pass_->set_objects(scene, ellipsoid_);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
-    draw_calls_ += pass_->draw(part, size_, ObjectChoice::all, hiding_radius_m_);
+    draw_calls_ += pass_->draw(part, frame, size_, ObjectChoice::all, hiding_radius_m_);
   }
   const auto row = static_cast<std::size_t>(size_.width_px) * 4;
   std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_.height_px));

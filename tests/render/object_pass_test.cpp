@@ -129,6 +129,46 @@ TEST_F(ObjectPassTest, HundredThousandSpheresAreOneDraw) {
   EXPECT_EQ(draw(scene, over(10.0, 20.0, 1.0e7)).rgba, first.rgba) << "the same scene gives other pixels";
 }
 
+TEST_F(ObjectPassTest, SmallSpheresByWayOfMemoryLookAsTheirTrianglesDo) {
+  // Apart from each other, so that no pixel belongs to two; one of them too wide for the picture in memory.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> radius_m(1.0e3, 130.0e3), height_m(-600.0e3, 500.0e3);
+  ObjectScene scene{.points = {sphere(at(0.0, 0.0), 600.0e3, kBlue)}};
+  for (int lat = -80; lat <= 80; lat += 8) {
+    for (int lon = -180; lon < 180; lon += 8) {
+      if (std::abs(lat) + std::abs(lon) < 20) continue;
+      const auto shade = static_cast<std::uint8_t>(120 + lat);
+      scene.points.push_back(sphere(at(lat, lon, height_m(random)), radius_m(random), {shade, 200, 90}));
+    }
+  }
+  for (const DepthMode depth : {DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard}) {
+    for (const bool lit : {false, true}) {
+      lit_ = lit;
+      for (Camera camera : {over(10.0, 12.0, 1.0e7), over(-30.0, 100.0, 3.0e6, -80.0, 20.0)}) {
+        camera.fov_y = Angle::degrees(lit ? 75.0 : 40.0);
+        sphere_path_ = SpherePath::triangles;
+        use(depth, {300, 200});
+        const ObjectPicture triangles = draw(scene, camera);
+        sphere_path_ = SpherePath::splats;
+        use(depth, {300, 200});
+        const ObjectPicture splats = draw(scene, camera);
+        int covered = 0, other = 0;
+        for (int y = 0; y < 200; ++y) {
+          for (int x = 0; x < 300; ++x) {
+            const ObjectColor a = triangles.at(x, y), b = splats.at(x, y);
+            covered += a.alpha > 0 ? 1 : 0;
+            constexpr int kLevels = 24;  // a tenth of a pixel of an edge
+            const auto differ = [](int p, int q) { return std::abs(p - q) > kLevels; };
+            other += differ(a.red, b.red) || differ(a.green, b.green) || differ(a.blue, b.blue) ? 1 : 0;
+          }
+        }
+        EXPECT_GT(covered, 3000);
+        EXPECT_LT(other, covered / 50) << "of " << covered;
+      }
+    }
+  }
+}
+
 TEST_F(ObjectPassTest, WhatASphereHidesIsNotDrawnAndAllElseIs) {
   // Spheres all round, with and without the hiding sphere drawn as an object that hides them: the same picture.
   std::mt19937 random(3);

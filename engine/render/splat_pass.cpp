@@ -1,0 +1,87 @@
+#include "render/splat_pass.h"
+
+#include <array>
+#include <string_view>
+
+#include "render/shader_library.h"
+
+namespace terrella {
+namespace {
+
+constexpr GLint kSplatViewportUniform = 0;
+
+template <class T>
+void fill(StreamBuffer& stream, std::span<const T> items) {
+  stream.fill(items.data(), items.size_bytes());
+}
+
+SplatView splat_view(const FrameBlock& frame, Viewport viewport, double hiding_radius_m) {
+  return {.view_from_ecef = glm::mat3(frame.view_from_ecef),
+          .eye_high_ecef = glm::vec3(frame.eye_high_ecef),
+          .eye_low_ecef = glm::vec3(frame.eye_low_ecef),
+          .focal = glm::vec2(frame.clip_scale),
+          .sun_ecef = glm::vec3(frame.sun_ecef),
+          .lit = frame.sun_ecef.w > 0.0F,
+          .viewport = viewport,
+          .hiding_radius_m = hiding_radius_m};
+}
+
+}  // namespace
+
+void StreamBuffer::fill(const void* data, std::size_t bytes) {
+  turn_ = (turn_ + 1) % buffers_.size();
+  Part& part = buffers_[turn_];
+  if (!part.buffer) part.buffer = gl::make_buffer();
+  if (part.capacity < bytes) {
+    part.capacity = bytes + bytes / 4;
+    glNamedBufferData(part.buffer.name(), static_cast<GLsizeiptr>(part.capacity), nullptr, GL_STREAM_DRAW);
+  }
+  if (bytes > 0) glNamedBufferSubData(part.buffer.name(), 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+bool is_software_gl() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  if (renderer == nullptr) return false;
+  constexpr std::array<std::string_view, 3> kSoftware{"llvmpipe", "softpipe", "SWR"};
+  for (const std::string_view name : kSoftware) {
+    if (std::string_view(renderer).find(name) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+Status SplatPass::create(DepthMode depth) {
+  auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_splat.vert"}},
+                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_splat.frag"}}},
+                             {depth_define(depth)});
+  if (!built) return built.error();
+  program_ = std::move(*built);
+  pixel_texture_ = gl::make_texture(GL_TEXTURE_BUFFER);
+  array_ = gl::make_vertex_array();
+  glEnableVertexArrayAttrib(array_.name(), 0);
+  glVertexArrayAttribIFormat(array_.name(), 0, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(array_.name(), 0, 0);
+  glVertexArrayBindingDivisor(array_.name(), 0, 1);
+  return Done{};
+}
+
+void SplatPass::prepare(std::size_t first, std::size_t count, const FrameBlock& frame, Viewport viewport,
+                        double hiding_radius_m) {
+  splats_.draw(spheres_, first, count, splat_view(frame, viewport, hiding_radius_m));
+  fill(large_, splats_.large());
+}
+
+int SplatPass::draw(Viewport viewport) {
+  if (splats_.blocks().empty()) return 0;
+  fill(places_, splats_.places());
+  fill(pixels_, splats_.blocks());
+  glVertexArrayVertexBuffer(array_.name(), 0, places_.name(), 0, sizeof(std::uint32_t));
+  glTextureBuffer(pixel_texture_.name(), GL_R32UI, pixels_.name());
+  glProgramUniform2f(program_.name(), kSplatViewportUniform, float(viewport.width_px), float(viewport.height_px));
+  glUseProgram(program_.name());
+  glBindVertexArray(array_.name());
+  glBindTextureUnit(0, pixel_texture_.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(splats_.blocks().size()));
+  return 1;
+}
+
+}  // namespace terrella

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "geo/result.h"
+#include "render/frame_block.h"
+#include "render/gl_handle.h"
+#include "scene/render_modes.h"
+#include "scene/sphere_splats.h"
+
+namespace terrella {
+
+/// A buffer that is filled each time it is used; the ones before it may still be in use.
+class StreamBuffer {
+ public:
+  void fill(const void* data, std::size_t bytes);
+  [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }
+
+ private:
+  struct Part {
+    gl::Buffer buffer;
+    std::size_t capacity = 0;  ///< bytes
+  };
+  std::array<Part, 3> buffers_;
+  std::size_t turn_ = 0;
+};
+
+/// Draws many small opaque spheres on software GL: in memory first (scene/sphere_splats.h), then as blocks of a picture
+/// with depth. thread: main
+class SplatPass {
+ public:
+  [[nodiscard]] Status create(DepthMode depth);
+  void set_spheres(const Batch<DotInstance>& spheres) { spheres_ = SphereGroups(spheres); }
+
+  /// Makes the picture of a range of the spheres; what is too wide for it is for the caller to draw first, so that what
+  /// that hides is not seen at its edges.
+  void prepare(std::size_t first, std::size_t count, const FrameBlock& frame, Viewport viewport,
+               double hiding_radius_m);
+  [[nodiscard]] int large_count() const { return static_cast<int>(splats_.large().size()); }
+  [[nodiscard]] GLuint large_buffer() const { return large_.name(); }
+  /// State as for ObjectPass::draw(). Returns the draw calls made: one, or none if nothing is to be seen.
+  int draw(Viewport viewport);
+
+ private:
+  SphereGroups spheres_;
+  SphereSplats splats_;
+  gl::Program program_;
+  gl::VertexArray array_;
+  StreamBuffer places_, pixels_, large_;
+  gl::Texture pixel_texture_;
+};
+
+/// Whether the current context draws with the processor alone.
+[[nodiscard]] bool is_software_gl();
+
+}  // namespace terrella
