@@ -76,6 +76,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
   add_sky_data(options);
+  add_label_font(options, command.scene);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
   if (const Status added = add_objects(**globe, command.scene); !added) return added.error();

@@ -45,6 +45,7 @@ int view(const ViewOptions& options) {
   const std::string attribution = (*imagery)->info().attribution;
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
+  add_label_font(globe_options_with_sky, options.scene);
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
   if (const Status added = add_objects(**globe, options.scene); !added) return fail("view", added.error().message);

@@ -4,7 +4,9 @@
 
 #include <cstdio>
 
+#include "apps/data_dir.h"
 #include "apps/sky_data.h"
+#include "streaming/file_bytes.h"
 #include "streaming/objects/geojson_objects.h"
 
 namespace terrella {
@@ -15,6 +17,21 @@ void add_sky_data(GlobeOptions& options) {
   for (const std::string& problem : data.problems) fmt::print(stderr, "{}\n", problem);
   options.stars = std::move(data.stars);
   options.night_lights = std::move(data.night_lights);
+}
+
+void add_label_font(GlobeOptions& options, const SceneOptions& scene) {
+  if (scene.objects.empty()) return;
+  constexpr std::size_t kMostFontBytes = 32UL << 20;
+  try {
+    auto font = read_file(data_file("DejaVuSans.ttf"), kMostFontBytes);
+    if (font) {
+      options.label_font = std::move(*font);
+    } else {
+      fmt::print(stderr, "{}; objects are without labels\n", font.error().message);
+    }
+  } catch (const BrokenInstallation& broken) {
+    fmt::print(stderr, "{}\nobjects are without labels\n", broken.what());
+  }
 }
 
 Status add_objects(Globe& globe, const SceneOptions& options) {

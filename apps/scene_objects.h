@@ -9,6 +9,9 @@ namespace terrella {
 /// damaged is said on standard error, and left out. thread: main
 void add_sky_data(GlobeOptions& options);
 
+/// Gives the globe's options the font that the program carries, if there are objects to label. thread: main
+void add_label_font(GlobeOptions& options, const SceneOptions& scene);
+
 /// Gives the globe the objects that --objects names; what is wrong in the file is said on standard error, and the rest
 /// drawn. Fails if nothing of it can be read. thread: main
 [[nodiscard]] Status add_objects(Globe& globe, const SceneOptions& options);

@@ -288,6 +288,7 @@ Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::s
       GlobeRenderer::create(render, impl->tree, options.sky ? &sky : nullptr);
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
+  impl->renderer->set_label_font(std::move(impl->options.label_font));
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
 }
 

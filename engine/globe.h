@@ -34,10 +34,11 @@ struct GlobeOptions {
   StereoLook stereo;
   /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
   bool naive_translucency = false;
-  bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
-  std::optional<UtcTime> time;  ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
-  std::vector<Star> stars;      ///< of the sky
-  GreyPicture night_lights;     ///< of the Earth's night side, with a sky and a time; may be empty
+  bool sky = false;                   ///< stars, Sun, Moon and atmosphere; never with `unlit`
+  std::optional<UtcTime> time;        ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
+  std::vector<Star> stars;            ///< of the sky
+  GreyPicture night_lights;           ///< of the Earth's night side, with a sky and a time; may be empty
+  std::vector<std::byte> label_font;  ///< a font file for the labels of objects; empty: no labels
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};

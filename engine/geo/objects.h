@@ -44,11 +44,15 @@ struct PolygonObject {
   bool through_surface = false;
 };
 
-/// A text beside a place. UTF-8.
+/// A text beside a place, right of what marks it there. UTF-8.
 struct LabelObject {
   std::string text = {};
   Geodetic place = {};
   ObjectColor color{255, 255, 255};
+  float size_px = 10.0F;  ///< of the marker
+  double radius_m = 0.0;  ///< of the sphere
+  double priority = 0.0;  ///< where two would overlap, the higher stays; among equals the first
+  bool through_surface = false;
 };
 
 /// What is drawn over, on and under a planet beside the planet itself. Plain values: thread any.

@@ -42,9 +42,10 @@ Status GlobeRenderer::set_objects(const ObjectScene& scene) {
     Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
     if (!made) return made.error();
     objects_ = std::move(*made);
+    objects_->set_label_font(std::move(label_font_));
   }
   objects_->set_objects(scene, tree_.ellipsoid());
-  return Done{};
+  return objects_->set_labels(scene.labels, tree_.ellipsoid());
 }
 
 FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer) {
@@ -54,6 +55,8 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
   patches_->upload(*input.patches, *input.coverage, input.frame);
   const std::vector<EyePicture> pictures = pictures_of(input);
   begin_frame(input, counts);
+  // Chosen for the first eye: both are to see the same.
+  if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), tiles, counts}));
   for (const EyePicture& eye : pictures) draw_picture({input, eye, tiles, counts});
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
@@ -117,6 +120,27 @@ void GlobeRenderer::draw_naively(const Pass& pass) {
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
   if (pass.input.eyes) return false;
   return !objects_ || !(under_ground(pass) || objects_->has(ObjectPart::above_ground));
+}
+
+// What the surface or the inner sphere will hide takes no room; imagery alone has no text.
+LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
+  LabelSight sight;
+  sight.shown = pass.input.lit;
+  const SurfaceLook& surface = pass.input.surface;
+  if (under_ground(pass)) {
+    const SurfaceFromBelow look = surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque;
+    sight.above_ground = look == SurfaceFromBelow::translucent;
+    sight.chosen_above_ground = look != SurfaceFromBelow::opaque;
+  }
+  if (!under_ground(pass) && surface.alpha >= 1.0) {
+    constexpr double kNotTheGroundItself = 1.0 - 1e-5;
+    const Ellipsoid& e = tree_.ellipsoid();
+    const double lowest_m = tree_.relief() != nullptr ? std::min(tree_.relief()->range_m().min_m, 0.0) : 0.0;
+    sight.hiding_half_axes_m = kNotTheGroundItself * (glm::dvec3(e.a_m(), e.a_m(), e.b_m()) + lowest_m);
+  } else {
+    sight.hiding_half_axes_m = glm::dvec3(hiding_radius_m(pass));
+  }
+  return sight;
 }
 
 // Of the inner sphere where it is drawn, or one in an opaque surface: what it hides need not be begun.

@@ -56,6 +56,8 @@ class GlobeRenderer {
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options, PatchTree& tree,
                                                                      const SkyAssets* sky);
 
+  /// A font file's bytes, before the first objects; without one there are no labels.
+  void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
   /// In place of those before; the program for objects is made with the first.
   Status set_objects(const ObjectScene& scene);
 
@@ -99,6 +101,7 @@ class GlobeRenderer {
   void depth_test(GLenum test) const;
   void upload_frame(const Pass& pass);
   [[nodiscard]] double near_m(const Pass& pass) const;
+  [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
   [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
@@ -113,6 +116,7 @@ class GlobeRenderer {
   std::unique_ptr<SkyPass> sky_;
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
+  std::vector<std::byte> label_font_;
   FrameTargets targets_;
   FrameBlock frame_{};  ///< of the eye whose picture is drawn
   gl::Buffer frame_block_;

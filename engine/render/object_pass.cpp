@@ -56,6 +56,7 @@ Result<std::unique_ptr<ObjectPass>> ObjectPass::create(DepthMode depth, SpherePa
   if (pass->splat_) {
     if (const Status built = pass->splats_.create(depth); !built) return built.error();
   }
+  pass->depth_ = depth;
   pass->set_up_arrays();
   return pass;
 }
@@ -114,7 +115,21 @@ void ObjectPass::set_objects(const ObjectBatches& batches) {
   }
 }
 
+Status ObjectPass::set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid) {
+  has_labels_above_ = has_labels_underground_ = false;
+  if (font_.empty() || (labels.empty() && !labels_)) return Done{};
+  if (!labels_) {
+    auto made = LabelPass::create(depth_, font_);
+    if (!made) return made.error();
+    labels_ = std::move(*made);
+  }
+  for (const LabelObject& label : labels) (is_underground(label) ? has_labels_underground_ : has_labels_above_) = true;
+  labels_->set_labels(labels, ellipsoid);
+  return Done{};
+}
+
 bool ObjectPass::has(ObjectPart part) const {
+  if (part == ObjectPart::above_ground ? has_labels_above_ : has_labels_underground_) return true;
   for (const bool opaque : {true, false}) {
     for (const Ranges* ranges : {&fill_ranges_, &sphere_ranges_, &line_ranges_, &marker_ranges_}) {
       if (ranges->range(part, opaque, ObjectChoice::all).count > 0) return true;
@@ -148,6 +163,9 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
     calls += draw_spheres(part, opaque, choice, frame, viewport, hiding_radius_m);
     calls += draw_lines(part, opaque, choice);
     calls += draw_dots(marker_ranges_, marker_array_, marker_, part, opaque, choice);
+  }
+  if (labels_) {
+    calls += labels_->draw(part, choice, viewport, part == ObjectPart::above_ground ? kGroundBias : 0.0F);
   }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

@@ -6,6 +6,7 @@
 #include "geo/result.h"
 #include "render/frame_block.h"
 #include "render/gl_handle.h"
+#include "render/label_pass.h"
 #include "render/splat_pass.h"
 #include "scene/object_batches.h"
 #include "scene/render_modes.h"
@@ -27,6 +28,15 @@ class ObjectPass {
     set_objects(make_batches(scene, ellipsoid));
   }
   [[nodiscard]] bool has(ObjectPart part) const;
+
+  /// Labels are drawn with this font, a font file's bytes; without one there are none.
+  void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
+  /// In place of those before; the program for labels is made with the first.
+  Status set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
+  /// Chooses the labels of a frame; none until it is called.
+  void place_labels(const View& view, const LabelSight& sight) {
+    if (labels_) labels_->place(view, sight);
+  }
 
   /// Draws one part into the framebuffer that is bound. The caller has set the viewport (its size is `viewport`), the
   /// frame's uniform block (binding 0; `frame` is what it holds), depth test and comparison, and stencil, all of which
@@ -57,6 +67,10 @@ class ObjectPass {
   gl::VertexArray fill_array_, sphere_array_, line_array_, marker_array_;
   gl::Buffer fill_vertices_, fill_indices_, spheres_, lines_, markers_;
   SplatPass splats_;
+  DepthMode depth_ = DepthMode::reversed;
+  std::vector<std::byte> font_;
+  std::unique_ptr<LabelPass> labels_;
+  bool has_labels_above_ = false, has_labels_underground_ = false;
   bool splat_ = false;
   std::size_t fewest_splats_ = 0;
   Ranges fill_ranges_, sphere_ranges_, line_ranges_, marker_ranges_;

@@ -1,30 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "geo/result.h"
 #include "render/frame_block.h"
 #include "render/gl_handle.h"
+#include "render/stream_buffer.h"
 #include "scene/render_modes.h"
 #include "scene/sphere_splats.h"
 
 namespace terrella {
-
-/// A buffer that is filled each time it is used; the ones before it may still be in use.
-class StreamBuffer {
- public:
-  void fill(const void* data, std::size_t bytes);
-  [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }
-
- private:
-  struct Part {
-    gl::Buffer buffer;
-    std::size_t capacity = 0;  ///< bytes
-  };
-  std::array<Part, 3> buffers_;
-  std::size_t turn_ = 0;
-};
 
 /// Draws many small opaque spheres on software GL: in memory first (scene/sphere_splats.h), then as blocks of a picture
 /// with depth. thread: main

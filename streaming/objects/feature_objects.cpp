@@ -102,7 +102,13 @@ class GeometryReader {
     PointObject point = style_.point;
     point.place = *place;
     scene_.points.push_back(point);
-    if (!style_.title.empty()) scene_.labels.push_back({.text = style_.title, .place = *place});
+    if (style_.label.text.empty()) return Done{};
+    LabelObject label = style_.label;
+    label.place = *place;
+    label.size_px = point.radius_m > 0.0 ? 0.0F : point.size_px;
+    label.radius_m = point.radius_m;
+    label.through_surface = point.through_surface;
+    scene_.labels.push_back(std::move(label));
     return Done{};
   }
 

@@ -116,7 +116,9 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
   const bool through = reader.flag("through_surface");
   style.point.through_surface = style.line.through_surface = style.polygon.through_surface = through;
-  style.title = reader.text("title");
+  style.label.text = reader.text("title");
+  if (style.label.text.empty()) style.label.text = reader.text("name");
+  if (const auto priority = reader.number("label-priority", -1e9, 1e9)) style.label.priority = *priority;
   return style;
 }
 

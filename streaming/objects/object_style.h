@@ -14,7 +14,7 @@ struct ObjectStyle {
   PointObject point;      ///< all but its place
   LineObject line;        ///< all but its places
   PolygonObject polygon;  ///< all but its rings
-  std::string title;
+  LabelObject label;      ///< its text, empty for none, and priority
 };
 
 /// Told of each property that is wrong.

@@ -68,7 +68,7 @@ void style_quake(const json& feature, ObjectStyle& style) {
     style.point.radius_m = kRadiusAtZero_m * std::pow(10.0, magnitude / kTenfold);
   }
   if (member(properties, "marker-color") == nullptr) style.point.color = color_at(std::max(depth_km(feature), 0.0));
-  style.title.clear();
+  style.label.text.clear();
 }
 
 }  // namespace terrella

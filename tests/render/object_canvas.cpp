@@ -29,6 +29,7 @@ void ObjectCanvas::use(DepthMode depth, Viewport size) {
   auto pass = ObjectPass::create(depth, sphere_path_);
   ASSERT_TRUE(pass) << pass.error().message;
   pass_ = std::move(*pass);
+  pass_->set_label_font(font_);
   depth_mode_ = depth;
   size_ = size;
   color_ = gl::make_texture(GL_TEXTURE_2D);
@@ -64,6 +65,8 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   pass_->set_objects(scene, ellipsoid_);
+  EXPECT_TRUE(pass_->set_labels(scene.labels, ellipsoid_));
+  pass_->place_labels(view, label_sight_);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
     draw_calls_ += pass_->draw(part, frame, size_, ObjectChoice::all, hiding_radius_m_);

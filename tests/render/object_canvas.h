@@ -36,6 +36,8 @@ class ObjectCanvas : public GlContextTest {
   [[nodiscard]] View view(const Camera& camera) const { return make_view(camera, ellipsoid_, size_); }
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
 
+  std::vector<std::byte> font_;  ///< for use()
+  LabelSight label_sight_;
   int draw_calls_ = 0;  ///< of the last picture
   bool lit_ = false;
   double hiding_radius_m_ = 0.0;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "render/gl_handle.h"
+
+namespace terrella {
+
+/// A buffer that is filled each time it is used, while the ones before it may still be in use. thread: main
+class StreamBuffer {
+ public:
+  void fill(const void* data, std::size_t bytes);
+  [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }
+
+ private:
+  struct Part {
+    gl::Buffer buffer;
+    std::size_t capacity = 0;  ///< bytes
+  };
+  std::array<Part, 3> buffers_;
+  std::size_t turn_ = 0;
+};
+
+}  // namespace terrella

@@ -1,0 +1,15 @@
+layout(binding = 0) uniform sampler2D atlas; // red: ink, green: halo
+in vec2 texel;
+flat in vec4 text_color;
+flat in float pull;
+layout(location = 0) out vec4 color_srgb;
+
+const float kHalo = 0.7;                     // how dark
+
+void main() {
+  vec2 part = texelFetch(atlas, ivec2(texel), 0).rg;
+  float alpha = max(part.r, kHalo * part.g);
+  if (alpha <= 0.0) discard;
+  color_srgb = vec4(text_color.rgb * (part.r / alpha), text_color.a * alpha);
+  WRITE_DEPTH(pull);
+}

@@ -1,0 +1,25 @@
+// One character of a text an instance: a square of the atlas beside the text's place, on whole pixels.
+layout(location = 0) in vec3 place_high_ecef;
+layout(location = 1) in vec3 place_low_ecef;
+layout(location = 2) in vec2 offset_px;      // of the lower left corner
+layout(location = 3) in vec4 atlas_px;       // upper left corner, width and height
+layout(location = 4) in vec4 color;
+
+out vec2 texel;
+flat out vec4 text_color;
+flat out float pull;
+
+const float kReach_px = 40.0;                // as far over the ground as markers are drawn nearer, for a text's height
+
+void main() {
+  text_color = color;
+  pull = 1.0 - (depth_bias > 0.0 ? depth_bias + min(kReach_px / focal_px(), 0.5) : 0.0);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  texel = atlas_px.xy + vec2(corner.x, 1.0 - corner.y) * atlas_px.zw;
+  vec4 clip = clip_of(view_of(place_high_ecef, place_low_ecef), pull);
+  if (clip.w > 0.0) {
+    vec2 at_px = floor((clip.xy / clip.w * 0.5 + 0.5) * viewport_px + 0.5);
+    clip.xy = ((at_px + offset_px + corner * atlas_px.zw) / viewport_px * 2.0 - 1.0) * clip.w;
+  }
+  gl_Position = clip;
+}
