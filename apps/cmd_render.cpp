@@ -34,6 +34,7 @@ Status write_png(const std::filesystem::path& path, Viewport size, std::vector<s
 struct Rendered {
   FrameStats stats;
   std::vector<LackingTile> lacking;
+  bool all_objects = true;  ///< nothing in the file of --objects was wrong
 };
 
 constexpr std::size_t kMostNamed = 16;
@@ -79,7 +80,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   add_label_font(options, command.scene);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
-  if (const Status added = add_objects(**globe, command.scene); !added) return added.error();
+  const Result<bool> objects = add_objects(**globe, command.scene);
+  if (!objects) return objects.error();
   (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
   const OffscreenTarget target(command.scene.size);
   const auto limit =
@@ -88,7 +90,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
-  return Rendered{stats, {(*globe)->lacking().begin(), (*globe)->lacking().end()}};
+  return Rendered{stats, {(*globe)->lacking().begin(), (*globe)->lacking().end()}, *objects};
 }
 
 int run(const RenderCommand& command) {
@@ -98,7 +100,7 @@ int run(const RenderCommand& command) {
   }
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
-  if (stats.tiles_lacked + stats.tiles_missing == 0) return kDone;
+  if (stats.tiles_lacked + stats.tiles_missing == 0) return rendered->all_objects ? kDone : kDoneInPart;
   for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
     fmt::print(stderr, "terrella render: lacks {}\n", name_of(rendered->lacking[k]));
   }

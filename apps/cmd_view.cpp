@@ -48,7 +48,8 @@ int view(const ViewOptions& options) {
   add_label_font(globe_options_with_sky, options.scene);
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
-  if (const Status added = add_objects(**globe, options.scene); !added) return fail("view", added.error().message);
+  if (const Result<bool> added = add_objects(**globe, options.scene); !added)
+    return fail("view", added.error().message);
   (*window)->show();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,

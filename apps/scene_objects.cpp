@@ -34,13 +34,14 @@ void add_label_font(GlobeOptions& options, const SceneOptions& scene) {
   }
 }
 
-Status add_objects(Globe& globe, const SceneOptions& options) {
-  if (options.objects.empty()) return Done{};
+Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
+  if (options.objects.empty()) return true;
   const Result<ObjectFile> file = read_geojson_objects(options.objects);
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) fmt::print(stderr, "{}\n", complaint);
   if (file->complaints_left_out > 0) fmt::print(stderr, "and {} more\n", file->complaints_left_out);
-  return globe.set_objects(file->scene);
+  if (const Status set = globe.set_objects(file->scene); !set) return set.error();
+  return file->complaints.empty();
 }
 
 }  // namespace terrella

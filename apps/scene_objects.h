@@ -13,7 +13,7 @@ void add_sky_data(GlobeOptions& options);
 void add_label_font(GlobeOptions& options, const SceneOptions& scene);
 
 /// Gives the globe the objects that --objects names; what is wrong in the file is said on standard error, and the rest
-/// drawn. Fails if nothing of it can be read. thread: main
-[[nodiscard]] Status add_objects(Globe& globe, const SceneOptions& options);
+/// drawn. Returns whether all was right; fails if nothing of it can be read. thread: main
+[[nodiscard]] Result<bool> add_objects(Globe& globe, const SceneOptions& options);
 
 }  // namespace terrella

@@ -1,6 +1,7 @@
 #include "scene/object_batches.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "scene/object_shapes.h"
 #include "scene/patch_mesh.h"
@@ -89,12 +90,23 @@ void add_lines(const ObjectScene& scene, const Ellipsoid& ellipsoid, const std::
   batches.lines = joined(buckets);
 }
 
+/// Areas from the lowest to the highest, so that from above those that are translucent lie over each other as they do
+/// in space, whatever their order in the scene; where they lie equally high, that order.
+std::vector<std::size_t> by_height(const std::vector<PolygonObject>& polygons) {
+  std::vector<double> heights_m;
+  for (const PolygonObject& polygon : polygons) heights_m.push_back(mean_height_m(polygon));
+  std::vector<std::size_t> order(polygons.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&heights_m](std::size_t k) { return heights_m[k]; });
+  return order;
+}
+
 /// Returns how much each area was lifted.
 std::vector<double> add_fills(const ObjectScene& scene, const Ellipsoid& ellipsoid, ObjectBatches& batches) {
   Buckets<std::uint32_t> buckets;
   std::vector<double> lifts_m(scene.polygons.size(), 0.0);
   std::size_t triangles = 0;
-  for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
+  for (const std::size_t k : by_height(scene.polygons)) {
     const PolygonObject& polygon = scene.polygons[k];
     if (polygon.fill.alpha == 0) continue;
     const FillMesh mesh = fill_area(polygon, ellipsoid, kMostFillTriangles - triangles);

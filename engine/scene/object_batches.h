@@ -45,7 +45,7 @@ struct FillVertex {
 static_assert(sizeof(FillVertex) == 28);
 
 /// Things of one kind, sorted by part, then by opacity (what is opaque first), then by choice, and in the scene's order
-/// within these: what one draw takes lies together.
+/// within these, areas by their height: what one draw takes lies together.
 template <class T>
 struct Batch {
   struct Range {

@@ -271,6 +271,8 @@ int cells_of_half_turn(const Rings& rings) {
   return 2 * static_cast<int>(std::ceil(90.0 / wish));
 }
 
+}  // namespace
+
 double mean_height_m(const PolygonObject& polygon) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -280,8 +282,6 @@ double mean_height_m(const PolygonObject& polygon) {
   }
   return count == 0 ? 0.0 : sum / double(count);
 }
-
-}  // namespace
 
 FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles) {
   const Rings rings = rings_on_map(polygon);

@@ -38,6 +38,9 @@ struct FillMesh {
   double lift_m = 0.0;  ///< how much higher than its places it lies
 };
 
+/// Of all places of an area; 0 without any.
+[[nodiscard]] double mean_height_m(const PolygonObject& polygon);
+
 /// Fills an area, poles and ±180° included. Nothing if a ring cannot be an area's (geo/great_circle.h), or if it takes
 /// more than `most_triangles`. thread: any
 [[nodiscard]] FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles);

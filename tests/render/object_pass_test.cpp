@@ -391,5 +391,22 @@ TEST_F(ObjectPassTest, TranslucentObjectsBlendWithWhatLiesBehind) {
   EXPECT_EQ(draw_calls_, 2);
 }
 
+TEST_F(ObjectPassTest, TranslucentAreasLieOverEachOtherByHeightWhateverTheirOrder) {
+  const auto area = [](double west, double height_m, ObjectColor fill) {
+    PolygonObject polygon{.fill = fill, .stroke = {0, 0, 0, 0}};
+    polygon.rings = {{at(-2.0, west, height_m), at(-2.0, west + 4.0, height_m), at(2.0, west + 4.0, height_m),
+                      at(2.0, west, height_m)}};
+    return polygon;
+  };
+  const PolygonObject low = area(-3.0, 1.0e3, {255, 0, 0, 128}), high = area(-1.0, 50.0e3, {0, 0, 255, 128});
+  for (const Camera& camera : {over(0.0, 0.0, 1.0e6), over(-6.0, 0.0, 8.0e5, -45.0)}) {
+    const ObjectPicture first = draw({.polygons = {low, high}}, camera);
+    EXPECT_EQ(draw({.polygons = {high, low}}, camera).rgba, first.rgba);
+  }
+  const ObjectColor both = draw({.polygons = {high, low}}, over(0.0, 0.0, 1.0e6)).at(100, 100);
+  EXPECT_NEAR(both.blue, 128, 2) << "half of the nearer one";
+  EXPECT_NEAR(both.red, 64, 2) << "and half of the other behind it";
+}
+
 }  // namespace
 }  // namespace terrella::test

@@ -1,0 +1,83 @@
+"""--objects: what is wrong in a file is said by file and feature, what is good is drawn, and the exit code tells."""
+
+import json
+import random
+import unittest
+
+from program import DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
+
+SMALL = ["--size", "64x64", "--unlit", "--sky", "off"]
+
+
+def feature(kind, coordinates, **properties):
+    return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+def collection(*features):
+    return json.dumps({"type": "FeatureCollection", "features": features}).encode()
+
+
+GOOD = feature("Point", [20.0, 20.0, 1000.0], radius_m=300000)
+
+
+class Objects(ProgramTest):
+    def assert_refused(self, content, *says):
+        self.write("f.geojson", content)
+        self.assert_fails(FAILED, "render", "--objects", "f.geojson", "-o", "out.png", *SMALL, says=["f.geojson", *says])
+        self.assert_nothing_but("f.geojson")
+
+    def assert_drawn_in_part(self, content, *says):
+        self.write("f.geojson", content)
+        done = self.assert_fails(DONE_IN_PART, "render", "--objects", "f.geojson", "-o", "out.png", *SMALL,
+                                 says=["f.geojson: ", *says])
+        self.assertTrue((self.folder / "out.png").exists())
+        return done
+
+    def test_a_file_without_fault(self):
+        self.write("f.geojson", collection(GOOD, feature("Point", [0, 0], title="Null Island")))
+        self.assertEqual(self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", *SMALL).stderr, "")
+
+    def test_no_such_file(self):
+        self.assert_fails(FAILED, "render", "--objects", "nowhere.geojson", "-o", "out.png", *SMALL,
+                          says=["nowhere.geojson"])
+
+    def test_without_a_name(self):
+        self.assert_fails(WRONG_USAGE, "render", "-o", "out.png", "--objects", says=["--objects"])
+
+    def test_not_json(self):
+        self.assert_refused(b"<kml></kml>", "not JSON", "GeoJSON")
+        self.assert_refused(b"", "not JSON")
+        self.assert_refused(bytes(range(256)), "not JSON")
+
+    def test_json_but_no_geojson(self):
+        self.assert_refused(b'{"cities": []}', "no GeoJSON")
+        self.assert_refused(b"[1, 2, 3]", "no GeoJSON")
+
+    def test_coordinates_out_of_range(self):
+        self.assert_drawn_in_part(collection(GOOD, feature("Point", [8.0, 91.0], name="Above"), GOOD),
+                                  'feature 2 ("Above")', "8,91", "not on the planet")
+        self.assert_drawn_in_part(collection(feature("LineString", [[0, 0], [0, 0, 1e300]]), GOOD), "feature 1", "height")
+
+    def test_rings_that_do_not_close(self):
+        open_ring = [[[0, 0], [10, 0], [10, 10], [0, 10]]]
+        self.assert_drawn_in_part(collection(GOOD, feature("Polygon", open_ring, name="Gap")), 'feature 2 ("Gap")', "ring 1",
+                                  "not closed", "0,0", "0,10")
+
+    def test_rings_over_the_antimeridian_and_a_pole_are_no_faults(self):
+        over = [[[170, -10], [-170, -10], [-170, 10], [170, 10], [170, -10]]]
+        pole = [[[0, 70], [90, 70], [180, 70], [-90, 70], [0, 70]]]
+        self.write("f.geojson", collection(feature("Polygon", over), feature("Polygon", pole)))
+        self.assertEqual(self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", *SMALL).stderr, "")
+
+    def test_text_that_breaks_off(self):
+        self.assert_drawn_in_part(collection(GOOD, GOOD)[:-30], "not JSON at byte", "features before are drawn")
+
+    def test_a_million_points(self):
+        place = random.Random(1)
+        points = [[round(place.uniform(-180, 180), 2), round(place.uniform(-85, 85), 2)] for _ in range(1_000_000)]
+        self.write("f.geojson", collection(feature("MultiPoint", points, radius_m=2000)))
+        self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", *SMALL)
+
+
+if __name__ == "__main__":
+    unittest.main()
