@@ -21,12 +21,13 @@ struct NamedBench {
   const char* name;
   Result<bench::Report> (*run)(const bench::BenchOptions&);
 };
-constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBench{"traverse", bench::bench_traverse},
-                              NamedBench{"stream", bench::bench_stream},
+constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBench{"accuracy", bench::bench_accuracy},
+                              NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
                               NamedBench{"stability", bench::bench_stability}};
 
 constexpr const char* kBenchExamples =
     "polar      texturing at the poles: paper 1's sphere and the globe, time beside error\n"
+    "accuracy   tessellation, error threshold, tile columns at a pole: what each costs, and what it leaves\n"
     "traverse   flights: selection, draws and uploads on the way, and what was drawn in vain\n"
     "stream     from nothing to a settled view: time, requests and bytes beside the error on the screen\n"
     "stability  a self-test on this GPU, pass or fail: functions, depth, jitter, coordinates, geodesy, same pixels\n"
@@ -83,7 +84,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App& sub = *app.add_subcommand("bench", "Measures speed beside error, and writes a table and a plot");
   sub.footer(kBenchExamples);
   const auto command = std::make_shared<BenchCommand>();
-  sub.add_option("NAME", command->name, "What to measure")->required()->type_name("polar|traverse|stream|stability");
+  sub.add_option("NAME", command->name, "What to measure")
+      ->required()
+      ->type_name("polar|accuracy|traverse|stream|stability");
   sub.add_option("-o,--out", command->out, "Folder for NAME.csv, NAME.json, NAME.gnuplot and NAME.png")
       ->capture_default_str();
   sub.add_option(

@@ -31,6 +31,7 @@ struct BenchOptions {
 /// Each measures and returns its table. An error names what is missing. They make their own OpenGL context and need the
 /// processor for themselves. thread: main
 [[nodiscard]] Result<Report> bench_polar(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_accuracy(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stream(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stability(const BenchOptions& options);

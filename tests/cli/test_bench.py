@@ -11,6 +11,7 @@ from program import DONE, FAILED, WRONG_USAGE, ProgramTest
 # Every row of a benchmark has a time and an error.
 BENCHES = {
     "polar": ("time", "rms_mid"),
+    "accuracy": ("time", "position_error"),
     "traverse": ("time", "rms_lag"),
     "stream": ("time", "rms"),
 }
