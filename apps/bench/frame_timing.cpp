@@ -19,7 +19,7 @@ double processor_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-std::string gl_string(GLenum name) {
+std::string gl_text(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text == nullptr ? std::string() : text;
 }
@@ -57,14 +57,14 @@ void time_frames(std::vector<Subject>& subjects, int rounds) {
 }
 
 bool software_gl() {
-  const std::string name = gl_string(GL_RENDERER);
+  const std::string name = gl_text(GL_RENDERER);
   for (const char* software : {"llvmpipe", "softpipe", "SwiftShader", "swrast"}) {
     if (name.find(software) != std::string::npos) return true;
   }
   return false;
 }
 
-std::string renderer_name() { return gl_string(GL_RENDERER); }
+std::string renderer_name() { return gl_text(GL_RENDERER); }
 
 std::string timing_method() {
   return software_gl() ? "wall time of a frame with a finish; software GL" : "GPU time by timer queries";
