@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "streaming/elevation/float_tiff.h"
+#include "streaming/elevation/height_gaps.h"
 #include "streaming/png_codec.h"
 
 namespace terrella {
@@ -37,6 +41,8 @@ Metres metres_of(const EncodedTile& tile, const ElevationInfo& info) {
 template <class Number>
 Result<HeightTile, TileFailure> to_heights(HeightTile tile, const std::vector<Number>& numbers, const Metres& metres) {
   tile.heights_m.reserve(numbers.size());
+  std::vector<std::uint8_t> is_known;
+  is_known.reserve(numbers.size());
   for (const Number number : numbers) {
     const auto value = static_cast<double>(number);
     const double height_m = value * metres.scale + metres.offset;
@@ -47,7 +53,9 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const std::vector<Nu
           fmt::format("a height of {:.6g} m, beyond {:.0f} m: scale or offset is wrong", height_m, kMaxHeight_m));
     }
     tile.heights_m.push_back(known ? static_cast<float>(height_m) : 0.0F);
+    is_known.push_back(known ? 1 : 0);
   }
+  if (tile.unknown > 0) fill_gaps(tile.heights_m, std::move(is_known), tile.side_px);
   const auto [least, most] = std::ranges::minmax(tile.heights_m);
   tile.min_m = least;
   tile.max_m = most;

@@ -9,7 +9,8 @@ namespace terrella {
 inline constexpr double kMaxHeight_m = 1e6;
 
 /// The heights of a tile of side_px a side: metres = (number · tile's scale + tile's offset) · set's scale + set's
-/// offset (OGC 17-066r1, clause 7.4). What is the set's nodata, NaN or infinite is unknown: 0 m, and counted. Broken,
+/// offset (OGC 17-066r1, clause 7.4). What is the set's nodata, NaN or infinite is unknown: it is counted, and
+/// stands as fill_gaps() has it. Broken,
 /// with what is wrong: a picture that is no gray PNG of 16 bits (of floats: no TIFF), of another size, or with a
 /// height beyond ±kMaxHeight_m. thread: any
 [[nodiscard]] Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile,

@@ -64,10 +64,42 @@ TEST(HeightDecoder, FloatsThatAreNoHeightsAreUnknown) {
   const auto good = decode(float_tiff(values), {.nodata = -9999.1, .floats = true}, 2.0, 1.0);
   ASSERT_TRUE(good) << good.error().why;
   EXPECT_EQ(good->unknown, 3U);
-  EXPECT_EQ(good->heights_m[2], 0.0F);
   EXPECT_EQ(good->heights_m[3], 1.0F);
   EXPECT_EQ(good->max_m, 26.0F);
-  EXPECT_EQ(good->min_m, 0.0F);
+  EXPECT_EQ(good->min_m, 1.0F);
+}
+
+TEST(HeightDecoder, WhatIsUnknownIsNeitherPitNorSpike) {
+  // A plateau at 3000 m with a hole of one pixel and nothing known from column 9 on.
+  constexpr std::uint16_t kNone = 65535;
+  std::vector<std::uint16_t> values(kSide_px * kSide_px, 3000);
+  values[5 * kSide_px + 4] = kNone;
+  for (int y = 0; y < kSide_px; ++y) {
+    for (int x = 9; x < kSide_px; ++x) values[static_cast<std::size_t>(y * kSide_px + x)] = kNone;
+  }
+  const auto tile = decode(gray16_png(values), {.nodata = double{kNone}});
+  ASSERT_TRUE(tile) << tile.error().why;
+  EXPECT_EQ(tile->unknown, 7U * kSide_px + 1U);
+  EXPECT_EQ(tile->min_m, 0.0F);
+  EXPECT_EQ(tile->max_m, 3000.0F);
+  EXPECT_GE(tile->heights_m[5 * kSide_px + 4], 2000.0F);
+  for (int y = 0; y < kSide_px; ++y) {
+    for (int x = 9; x < kSide_px; ++x) {
+      const float here = tile->heights_m[static_cast<std::size_t>(y * kSide_px + x)];
+      const float before = tile->heights_m[static_cast<std::size_t>(y * kSide_px + x - 1)];
+      EXPECT_LE(here, before);
+      EXPECT_LE(before - here, 751.0F) << "a quarter of 16 pixels to come down over";
+    }
+    EXPECT_EQ(tile->heights_m[static_cast<std::size_t>(y * kSide_px + 15)], 0.0F);
+  }
+}
+
+TEST(HeightDecoder, ATileOfNothingKnownIsLevel) {
+  const auto tile = decode(gray16_png(std::vector<std::uint16_t>(kSide_px * kSide_px, 7)),
+                           {.scale = 1.0, .offset = 5.0, .nodata = 7.0});
+  ASSERT_TRUE(tile) << tile.error().why;
+  EXPECT_EQ(tile->min_m, 0.0F);
+  EXPECT_EQ(tile->max_m, 0.0F);
 }
 
 TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
