@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
@@ -33,7 +34,7 @@ Status write_png(const std::filesystem::path& path, Viewport size, std::vector<s
 
 struct Rendered {
   FrameStats stats;
-  std::vector<LackingTile> lacking;
+  std::vector<LackingTile> lacking, lacking_heights;
   bool all_objects = true;  ///< nothing in the file of --objects was wrong
 };
 
@@ -56,11 +57,14 @@ void report(const RenderCommand& command, const Rendered& rendered) {
                              {"draw_calls", stats.draw_calls},
                              {"triangles", stats.triangles}};
     for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
+    if (!command.scene.elevation.empty()) result["heights_lacked"] = stats.heights_lacked;
+    for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
     fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
   fmt::print("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
              stats.tiles_lacked + stats.tiles_missing);
+  if (stats.heights_lacked > 0) fmt::print("{}: {} tiles of heights lacked\n", command.output, stats.heights_lacked);
 }
 
 Result<Rendered> render_picture(const RenderCommand& command) {
@@ -76,6 +80,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   // Nobody watches the frames in between: as much as has come goes up at once.
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
+  options.relief_meshes_per_frame = std::numeric_limits<int>::max();
   add_sky_data(options);
   add_label_font(options, command.scene);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
@@ -90,7 +95,9 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
-  return Rendered{stats, {(*globe)->lacking().begin(), (*globe)->lacking().end()}, *objects};
+  const auto& lacking = (*globe)->lacking();
+  const auto& heights = (*globe)->lacking_heights();
+  return Rendered{stats, {lacking.begin(), lacking.end()}, {heights.begin(), heights.end()}, *objects};
 }
 
 int run(const RenderCommand& command) {
@@ -100,9 +107,15 @@ int run(const RenderCommand& command) {
   }
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
-  if (stats.tiles_lacked + stats.tiles_missing == 0) return rendered->all_objects ? kDone : kDoneInPart;
+  if (stats.tiles_lacked + stats.tiles_missing + stats.heights_lacked == 0) {
+    return rendered->all_objects ? kDone : kDoneInPart;
+  }
   for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
     fmt::print(stderr, "terrella render: lacks {}\n", name_of(rendered->lacking[k]));
+  }
+  for (std::size_t k = 0; k < std::min(rendered->lacking_heights.size(), kMostNamed); ++k) {
+    fmt::print(stderr, "terrella render: {} lacks the heights {}; coarser ones stand there\n", command.scene.elevation,
+               name_of(rendered->lacking_heights[k]));
   }
   return kDoneInPart;
 }

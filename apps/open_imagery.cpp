@@ -178,6 +178,13 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
 
 Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
   if (options.elevation.empty()) return std::optional<ElevationSource>();
+  if (is_picture(options.elevation)) {
+    return Error{
+        fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
+                    "of one of 16 bits "
+                    "or floats a pixel",
+                    options.elevation)};
+  }
   SceneOptions heights = options;
   heights.tile_set = options.elevation;
   heights.projection.reset();

@@ -15,7 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kHeightBytesPerFrame = 2UL << 20;
 constexpr int kSegments = 24;
 // Any day will do for stars without a time: noon of an equinox.
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
@@ -38,6 +37,11 @@ bool same(const Camera& a, const Camera& b) {
 }
 
 bool same(Viewport a, Viewport b) { return a.width_px == b.width_px && a.height_px == b.height_px; }
+
+void note(std::deque<LackingTile>& lacking, LackingTile tile) {
+  lacking.push_back(std::move(tile));
+  if (lacking.size() > kMostLacking) lacking.pop_front();
+}
 
 Status check_context() {
   if (epoxy_gl_version() < 45) return Error{"the globe needs a current OpenGL 4.5 context"};
@@ -79,6 +83,7 @@ struct Globe::Impl {
   FrameStats draw(unsigned framebuffer, Viewport viewport);
   [[nodiscard]] std::optional<SkyInput> sky() const;
   [[nodiscard]] glm::dvec3 sun() const;
+  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief.get()}; }
   [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
   bool roots_decided();
 
@@ -104,7 +109,7 @@ struct Globe::Impl {
   double detail = 1.0;  // less than 1 where the view wants more tiles than the budget holds
   Viewport drawn;       // the last frame's
   FrameStats stats;
-  std::deque<LackingTile> lacking;
+  std::deque<LackingTile> lacking, lacking_heights;
   std::deque<std::pair<Clock::time_point, TileId>> failed;  ///< to be asked for again, the earliest first
 };
 
@@ -118,7 +123,7 @@ void Globe::Impl::select(Viewport viewport) {
   view = make_view(camera, options.body.ellipsoid, eye_picture(viewport));
   eyes.reset();
   if (options.stereo.mode != Stereo::off) {
-    eyes = stereo_eyes(view, options.body.ellipsoid, options.stereo);
+    eyes = stereo_eyes(view, ground(), options.stereo);
     view = eyes->both;
   }
   PatchSelectionOptions selection;
@@ -163,32 +168,42 @@ std::size_t Globe::Impl::take_finished() {
   return bytes;
 }
 
+// After the picture is drawn: who steers the eye sees the new ground before it is drawn. One by one, until the frame's
+// share of meshes has to be made anew.
 void Globe::Impl::take_heights() {
   if (!heights) return;
-  for (LoadedHeights& tile : heights->poll(kHeightBytesPerFrame)) {
-    if (tile.heights) {
+  for (int meshes = 0; meshes < options.relief_meshes_per_frame;) {
+    std::vector<LoadedHeights> batch = heights->poll(1);
+    if (batch.empty()) return;
+    for (LoadedHeights& tile : batch) {
+      if (!tile.heights) {
+        relief->set_lacking(tile.id);
+        note(lacking_heights, {tile.id, tile.heights.error()});
+        continue;
+      }
+      meshes += relief->touched(tree, tile.id, patches);
       relief->add(std::move(*tile.heights));
-    } else {
-      relief->set_lacking(tile.id);
+      stats.heights_arrived = true;
     }
   }
 }
 
 void Globe::Impl::ask_heights() {
   if (!heights) return;
-  const std::vector<WantedTile> wanted = relief->want(tree, patches);
+  const std::vector<WantedTile> wanted = relief->want(patches);
   std::vector<TileRequest> requests;
   requests.reserve(wanted.size());
   for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
   heights->request(requests);
   stats.heights_missing = static_cast<int>(wanted.size());
+  stats.heights_lacked = relief->lacking();
+  stats.relief_put_off = relief->put_off();
 }
 
 void Globe::Impl::note_lacking(const TileId& id, const TileFailure& failure) {
   tiles.set_state(id, TileState::lacking);
   if (failure.kind == Absence::failed) failed.emplace_back(Clock::now() + kRetryFailed, id);
-  lacking.push_back({id, failure});
-  if (lacking.size() > kMostLacking) lacking.pop_front();
+  note(lacking, {id, failure});
 }
 
 void Globe::Impl::retry_failed() {
@@ -218,8 +233,9 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   drawn = viewport;
   retry_failed();
   stats.uploaded_bytes = take_finished();
-  take_heights();
+  if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
   const auto start = Clock::now();
+  const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
   select(viewport);
   // Slot 0 and those of the root tiles are never given up.
   const int room = tiles.capacity() - 1 - static_cast<int>(roots.size());
@@ -231,6 +247,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats.selection_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   ask();
   ask_heights();
+  if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
   const FrameInput input{.size = viewport,
                          .view = view,
                          .eyes = eyes,
@@ -253,6 +270,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   stats.tiles_missing = coverage.missing;
   stats.tiles_lacked = coverage.lacking;
   stats.patches_uncovered = coverage.uncovered;
+  take_heights();
   return stats;
 }
 
@@ -315,7 +333,9 @@ void Globe::set_stereo(const StereoLook& stereo) {
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport) { return impl_->draw(framebuffer, viewport); }
 
 bool Globe::settled() const {
-  if (impl_->frame == 0 || !impl_->coverage.wanted.empty() || impl_->stats.heights_missing > 0) return false;
+  if (impl_->frame == 0 || !impl_->coverage.wanted.empty()) return false;
+  const FrameStats& stats = impl_->stats;
+  if (stats.heights_missing > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
   return impl_->stats.patches_uncovered == 0 || impl_->roots_decided();
 }
 
@@ -328,11 +348,17 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
   }
 }
 
-double Globe::ground_height_m(Angle lat, Angle lon) const {
-  return impl_->relief ? impl_->relief->height_m(lat, lon) : 0.0;
+Ground Globe::ground() const { return impl_->ground(); }
+
+double Globe::ground_height_m(Angle lat, Angle lon) const { return ground().height_m(lat, lon); }
+
+std::optional<double> Globe::elevation_m(Angle lat, Angle lon) const {
+  if (!impl_->relief) return std::nullopt;
+  return impl_->relief->field().height_m(lat, lon);
 }
 
 const std::deque<LackingTile>& Globe::lacking() const { return impl_->lacking; }
+const std::deque<LackingTile>& Globe::lacking_heights() const { return impl_->lacking_heights; }
 
 LoaderCounts Globe::loading() const { return impl_->loader.counts(); }
 

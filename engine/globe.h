@@ -10,6 +10,7 @@
 #include "geo/objects.h"
 #include "geo/result.h"
 #include "scene/cube_picture.h"
+#include "scene/ground.h"
 #include "scene/render_modes.h"
 #include "scene/star_catalogue.h"
 #include "scene/utc_time.h"
@@ -42,6 +43,9 @@ struct GlobeOptions {
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
+  /// Patches whose relief is made anew in a frame, about 0.3 ms each, beyond those that the frame cannot do without:
+  /// tiles of heights wait, and mountains become finer, frame by frame.
+  int relief_meshes_per_frame = 24;
   int workers = 2;  ///< decoder threads
 };
 
@@ -56,7 +60,11 @@ struct FrameStats {
   int tiles_lacked = 0;       ///< of those, finally failed
   int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
-  int heights_missing = 0;  ///< elevation tiles that the view wants and that have not come or failed
+  int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
+  int heights_lacked = 0;        ///< elevation tiles that finally failed, of all that any view wanted
+  bool heights_arrived = false;  ///< since it was drawn: another frame will show the ground as it is now
+  int relief_meshes = 0;         ///< patches whose relief was made anew
+  int relief_put_off = 0;        ///< patches drawn coarser than their relief asks for, for now
   double selection_ms = 0.0;
 };
 
@@ -103,12 +111,19 @@ class Globe {
   /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)
   /// are asked for again after half a minute, if they are still wanted.
   [[nodiscard]] const std::deque<LackingTile>& lacking() const;
+  /// The same of elevation: coarser heights stand for these tiles, or the ellipsoid.
+  [[nodiscard]] const std::deque<LackingTile>& lacking_heights() const;
 
-  /// View of the camera at a picture size: picks and projections (geo/camera.h) take it.
+  /// View of the camera at a picture size: picks and projections (geo/camera.h on the ellipsoid, scene/ground.h on the
+  /// ground) take it.
   [[nodiscard]] View view(Viewport viewport) const;
+  /// The ground as it is drawn, with the heights that are there; it must not outlive the globe.
+  [[nodiscard]] Ground ground() const;
   /// Height of the drawn ground over the ellipsoid, exaggerated, where the heights that are there say it; 0 without
   /// any.
   [[nodiscard]] double ground_height_m(Angle lat, Angle lon) const;
+  /// The same not exaggerated; nothing without heights.
+  [[nodiscard]] std::optional<double> elevation_m(Angle lat, Angle lon) const;
 
  private:
   struct Impl;

@@ -32,8 +32,8 @@ std::string angle_text(Angle angle, int decimals, const char* positive, const ch
 }
 
 /// Distance from the eye to the ground at the picture's centre.
-std::optional<double> centre_distance_m(const View& view, const Ellipsoid& ellipsoid) {
-  const Grab centre = grab(view, ellipsoid, {0.5 * view.viewport.width_px, 0.5 * view.viewport.height_px});
+std::optional<double> centre_distance_m(const View& view, const Ground& ground) {
+  const Grab centre = grab(view, ground, {0.5 * view.viewport.width_px, 0.5 * view.viewport.height_px});
   if (!centre.on_surface) return {};
   return glm::distance(centre.point.xyz_m, view.eye.xyz_m);
 }
@@ -51,8 +51,8 @@ std::string length_text(double length_m) {
   return (length_m < 0.0 ? "-" : "") + three_digits(std::abs(length_m) * 1e-3) + " km";
 }
 
-std::optional<ScaleBar> scale_bar(const View& view, const Ellipsoid& ellipsoid, double most_px) {
-  const auto distance_m = centre_distance_m(view, ellipsoid);
+std::optional<ScaleBar> scale_bar(const View& view, const Ground& ground, double most_px) {
+  const auto distance_m = centre_distance_m(view, ground);
   if (!distance_m || !(*distance_m > 0.0)) return {};
   const double pixel_m = *distance_m / view.pixels_per_radian();
   const double most_m = most_px * pixel_m;
@@ -62,10 +62,10 @@ std::optional<ScaleBar> scale_bar(const View& view, const Ellipsoid& ellipsoid, 
   return ScaleBar{length_m, length_m / pixel_m};
 }
 
-double pixel_step_deg(const View& view, const Ellipsoid& ellipsoid) {
-  const double height_m = std::max(ellipsoid.to_geodetic(view.eye).height_m, 0.0);
-  const double distance_m = std::max(centre_distance_m(view, ellipsoid).value_or(height_m), height_m);
-  return Angle::radians(distance_m / view.pixels_per_radian() / ellipsoid.a_m()).deg();
+double pixel_step_deg(const View& view, const Ground& ground) {
+  const double height_m = std::max(ground.height_over_m(ground.ellipsoid().to_geodetic(view.eye)), 0.0);
+  const double distance_m = std::max(centre_distance_m(view, ground).value_or(height_m), height_m);
+  return Angle::radians(distance_m / view.pixels_per_radian() / ground.ellipsoid().a_m()).deg();
 }
 
 std::string camera_text(const Camera& camera) {

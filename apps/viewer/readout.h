@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geo/camera.h"
+#include "scene/ground.h"
 
 namespace terrella {
 
@@ -19,10 +20,10 @@ struct ScaleBar {
 };
 /// The longest bar of 1, 2 or 5 times a power of ten that is at most `most_px` wide at the picture's centre, across the
 /// line of sight; nothing if the centre shows no ground.
-[[nodiscard]] std::optional<ScaleBar> scale_bar(const View& view, const Ellipsoid& ellipsoid, double most_px);
+[[nodiscard]] std::optional<ScaleBar> scale_bar(const View& view, const Ground& ground, double most_px);
 
 /// Degrees of arc that a pixel at the picture's centre covers; at least what it covers straight below the eye.
-[[nodiscard]] double pixel_step_deg(const View& view, const Ellipsoid& ellipsoid);
+[[nodiscard]] double pixel_step_deg(const View& view, const Ground& ground);
 
 /// "LAT,LON,ALT,HEADING,PITCH,FOV" as --camera takes it; reads back as the same camera to the last bits.
 [[nodiscard]] std::string camera_text(const Camera& camera);

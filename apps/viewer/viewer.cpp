@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -29,8 +30,10 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       globe_(globe),
       options_(options),
       ui_(window),
-      navigator_(options.camera, globe.options().body.ellipsoid, window.framebuffer()),
-      input_(window, navigator_) {}
+      navigator_(options.camera, globe.ground(), window.framebuffer()),
+      input_(window, navigator_) {
+  if (options.camera.eye.height_m < 0.0) navigator_.set_deepest(deepest_m());
+}
 
 void Viewer::run() {
   while (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
@@ -118,19 +121,28 @@ void Viewer::next_stereo() {
   globe_.set_stereo(stereo);
 }
 
+// Most of the way down to the inner sphere.
+double Viewer::deepest_m() const {
+  constexpr double kDeepest = 0.8;
+  const Ellipsoid& e = globe_.options().body.ellipsoid;
+  const double below_m = globe_.options().surface.inner_sphere_below_m.value_or(kEarthEquator_m);
+  return -kDeepest * below_m * (e.a_m() / kEarthEquator_m);
+}
+
 // Under the place where it was, as deep as it was high but over the inner sphere, looking up at the ground.
 void Viewer::toggle_underground() {
   Camera camera = navigator_.camera();
-  if (above_) {
-    camera = *std::exchange(above_, std::nullopt);
+  const double ground_m = globe_.ground_height_m(camera.eye.lat, camera.eye.lon);
+  if (above_ || camera.eye.height_m < ground_m) {
+    camera.eye.height_m = 2.0 * ground_m - camera.eye.height_m;
+    camera.pitch = Angle::degrees(-90.0);
+    if (above_) camera = *std::exchange(above_, std::nullopt);
+    navigator_.set_deepest({});
     say("Over the ground");
   } else {
-    constexpr double kDeepest = 0.8;
     above_ = camera;
-    const SurfaceLook& surface = globe_.options().surface;
-    const Ellipsoid& e = globe_.options().body.ellipsoid;
-    const double below_m = surface.inner_sphere_below_m.value_or(kEarthEquator_m) * (e.a_m() / kEarthEquator_m);
-    camera.eye.height_m = -std::min(camera.eye.height_m, kDeepest * below_m);
+    navigator_.set_deepest(deepest_m());
+    camera.eye.height_m = std::max(2.0 * ground_m - camera.eye.height_m, deepest_m());
     camera.pitch = Angle::degrees(std::max(30.0, -camera.pitch.deg()));
     say("Under the ground; X goes back");
   }
@@ -165,11 +177,13 @@ void Viewer::draw_panels(Viewport framebuffer, const FrameStats& stats) {
 }
 
 PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
-  const Ellipsoid& ellipsoid = globe_.options().body.ellipsoid;
+  const Ground ground = globe_.ground();
   PanelStatus status;
   const auto cursor = input_.cursor_px();
-  if (const auto place = cursor ? pick(view, ellipsoid, *cursor) : std::nullopt) {
-    status.cursor = place_text(*place, pixel_step_deg(view, ellipsoid));
+  if (const auto place = cursor ? pick(view, ground, *cursor) : std::nullopt) {
+    status.cursor = place_text(*place, pixel_step_deg(view, ground));
+    const auto elevation_m = globe_.elevation_m(place->lat, place->lon);
+    if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
   }
   const Camera& camera = navigator_.camera();
   status.eye = "Eye " + length_text(camera.eye.height_m);
@@ -177,7 +191,7 @@ PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;
   status.attribution = options_.attribution;
-  status.scale = scale_bar(view, ellipsoid, kScaleBar_px * window_.text_scale());
+  status.scale = scale_bar(view, ground, kScaleBar_px * window_.text_scale());
   return status;
 }
 

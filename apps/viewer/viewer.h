@@ -35,6 +35,7 @@ class Viewer {
   void next_alpha();
   void next_stereo();
   void toggle_underground();
+  [[nodiscard]] double deepest_m() const;
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer, const FrameStats& stats);
   void save_screenshot(Viewport framebuffer);

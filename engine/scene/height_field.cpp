@@ -38,6 +38,17 @@ struct HeightField::Extrema {
   }
 };
 
+HeightField::HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid) : ellipsoid_(ellipsoid), grid_(grid) {
+  for (int level = 0; level <= grid.max_level; ++level) {
+    LevelSize& size = sizes_[static_cast<std::size_t>(level)];
+    size.span_deg = tile_span_deg(grid, level);
+    size.turn_px = 360.0 * grid.tile_px / size.span_deg;
+    size.columns = columns(grid, level);
+    size.rows = rows(grid, level);
+    size.last_pixel_row = pixels_over(0.5 * size.turn_px) - 1;
+  }
+}
+
 // ---- what is there
 
 void HeightField::add(HeightTile tile) {
@@ -56,6 +67,8 @@ void HeightField::add(HeightTile tile) {
     block.max_m = std::max(block.max_m, height_m);
   }
   const TileId id = held.tile.id;
+  held.own_columns = std::min<std::int64_t>(grid_.tile_px, pixels_over(turn_px(id.level)) - id.x * grid_.tile_px);
+  held.own_rows = std::min<std::int64_t>(grid_.tile_px, size_of(id.level).last_pixel_row + 1 - id.y * grid_.tile_px);
   tiles_.insert_or_assign(id, std::move(held));
   for (int up = 1; up <= id.level; ++up) ++below_[ancestor(id, up)];
   ++of_level_[static_cast<std::size_t>(id.level)];
@@ -80,43 +93,74 @@ const HeightField::Held* HeightField::find(const TileId& id) const {
 const HeightField::Held* HeightField::finest_at(double row_latitude_deg, double lon_deg) const {
   for (int level = grid_.max_level; level >= grid_.min_level; --level) {
     if (of_level_[static_cast<std::size_t>(level)] == 0) continue;
-    const TileXY xy = tile_xy(grid_, level, row_latitude_deg, lon_deg);
-    // The south pole, and what rounding lets stand on the last border, belong to the last row and column.
-    const std::int64_t x = std::clamp<std::int64_t>(whole(xy.x), 0, columns(grid_, level) - 1);
-    const std::int64_t y = std::clamp<std::int64_t>(whole(xy.y), 0, rows(grid_, level) - 1);
-    if (const Held* held = find({.level = level, .x = x, .y = y})) return held;
+    if (const Held* held = find(tile_at(level, row_latitude_deg, lon_deg))) return held;
   }
   return nullptr;
 }
 
+/// The south pole, and what rounding lets stand on the last border, belong to the last row and column.
+TileId HeightField::tile_at(int level, double row_latitude_deg, double lon_deg) const {
+  const LevelSize& size = size_of(level);
+  return {.level = level,
+          .x = std::clamp<std::int64_t>(whole((lon_deg + 180.0) / size.span_deg), 0, size.columns - 1),
+          .y = std::clamp<std::int64_t>(whole((90.0 - row_latitude_deg) / size.span_deg), 0, size.rows - 1)};
+}
+
 // ---- heights
 
+double HeightField::row_deg(Angle lat) const {
+  if (grid_.projection == Projection::equirectangular && grid_.latitude == LatitudeKind::graphic) return lat.deg();
+  return row_latitude_deg(grid_, ellipsoid_, Ellipsoid::normal(lat, Angle{}));
+}
+
 double HeightField::height_m(Angle lat, Angle lon, double exaggeration) const {
-  const EcefDir normal = Ellipsoid::normal(lat, lon);
-  return exaggeration * height_at_row_m(row_latitude_deg(grid_, ellipsoid_, normal), lon.deg());
+  return exaggeration * height_at_row_m(row_deg(lat), lon.deg());
 }
 
 double HeightField::height_at_row_m(double row_latitude_deg, double lon_deg) const {
+  return Cursor(*this).height_at_row_m(row_latitude_deg, lon_deg);
+}
+
+void HeightField::Cursor::find_tile(double row_latitude_deg, double lon_deg) {
+  if (own_ != nullptr && finest_) {
+    const TileId& id = own_->tile.id;
+    if (field_.tile_at(id.level, row_latitude_deg, lon_deg) == id) return;
+  }
+  own_ = field_.finest_at(row_latitude_deg, lon_deg);
+  finest_ = own_ != nullptr && !field_.below_.contains(own_->tile.id);
+}
+
+double HeightField::Cursor::height_at_row_m(double row_latitude_deg, double lon_deg) {
   const double lon = wrapped_lon_deg(lon_deg);
   if (std::isnan(lon) || std::isnan(row_latitude_deg)) return 0.0;
-  const Held* own = finest_at(row_latitude_deg, lon);
-  if (own == nullptr) return 0.0;
-  const TileXY xy = tile_xy(grid_, own->tile.id.level, row_latitude_deg, lon);
-  const double x = xy.x * grid_.tile_px - 0.5;
-  const double y = xy.y * grid_.tile_px - 0.5;
-  const std::int64_t x0 = whole(x);
-  const std::int64_t y0 = whole(y);
-  const double east = x - static_cast<double>(x0);
-  const double south = y - static_cast<double>(y0);
-  const double north_height = mix(pixel(*own, x0, y0), pixel(*own, x0 + 1, y0), east);
-  const double south_height = mix(pixel(*own, x0, y0 + 1), pixel(*own, x0 + 1, y0 + 1), east);
-  return mix(north_height, south_height, south);
+  find_tile(row_latitude_deg, lon);
+  if (own_ == nullptr) return 0.0;
+  const TileId& id = own_->tile.id;
+  const std::int64_t side = own_->tile.side_px;
+  const double span_deg = field_.size_of(id.level).span_deg;
+  const double x = (lon + 180.0) / span_deg * static_cast<double>(side) - 0.5;
+  const double y = (90.0 - row_latitude_deg) / span_deg * static_cast<double>(side) - 0.5;
+  const std::int64_t x0 = whole(x), y0 = whole(y);
+  const double east = x - static_cast<double>(x0), south = y - static_cast<double>(y0);
+  const std::int64_t column = x0 - id.x * side, row = y0 - id.y * side;
+  if (column >= 0 && row >= 0 && column + 1 < own_->own_columns && row + 1 < own_->own_rows) {
+    const float* north = own_->tile.heights_m.data() + row * side + column;
+    return mix(mix(double{north[0]}, double{north[1]}, east), mix(double{north[side]}, double{north[side + 1]}, east),
+               south);
+  }
+  return mix(mix(field_.pixel(*own_, x0, y0), field_.pixel(*own_, x0 + 1, y0), east),
+             mix(field_.pixel(*own_, x0, y0 + 1), field_.pixel(*own_, x0 + 1, y0 + 1), east), south);
+}
+
+double HeightField::Cursor::spacing_m() const {
+  const int level = own_ != nullptr ? own_->tile.id.level : field_.grid_.min_level;
+  const double pixel_deg = field_.size_of(level).span_deg / field_.grid_.tile_px;
+  return Angle::degrees(pixel_deg).rad() * field_.ellipsoid_.a_m();
 }
 
 /// Any pixel around a point of `own`: beyond a pole the last row.
 double HeightField::pixel(const Held& own, std::int64_t x, std::int64_t y) const {
-  const std::int64_t last_row = pixels_over(0.5 * turn_px(own.tile.id.level)) - 1;
-  return pixel_round_planet(own, x, std::clamp<std::int64_t>(y, 0, last_row));
+  return pixel_round_planet(own, x, std::clamp<std::int64_t>(y, 0, size_of(own.tile.id.level).last_pixel_row));
 }
 
 /// Where 360° are no whole number of pixels, a column beyond ±180° lies between two that are there.

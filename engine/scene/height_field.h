@@ -26,7 +26,9 @@ struct GroundRange {
 /// thread: main
 class HeightField {
  public:
-  HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid) : ellipsoid_(ellipsoid), grid_(grid) {}
+  class Cursor;
+
+  HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid);
 
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   /// A tile that exists in the grid, of its size; replaces the one that was there.
@@ -37,6 +39,8 @@ class HeightField {
   /// Changes with each add() and remove(): what was worked out under another number is out of date.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
+  /// What the rows count, degrees, where the geodetic latitude is `lat`.
+  [[nodiscard]] double row_deg(Angle lat) const;
   /// Metres times `exaggeration`. Longitude may be any turn; NaN gives 0.
   [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
   /// The same by the row latitude of grid(), degrees.
@@ -54,6 +58,16 @@ class HeightField {
     HeightTile tile;
     int blocks = 0;                    ///< a side
     std::vector<GroundRange> extrema;  ///< of kBlock_px² pixels each, row-major
+    /// Columns and rows of the tile, from its north-west corner, that lie on the planet: beyond them pixels come from
+    /// elsewhere.
+    std::int64_t own_columns = 0, own_rows = 0;
+  };
+  /// Of a level, worked out once.
+  struct LevelSize {
+    double span_deg = 0.0;  ///< of a tile
+    double turn_px = 0.0;   ///< 360°, no whole number in some grids
+    std::int64_t columns = 0, rows = 0;
+    std::int64_t last_pixel_row = 0;
   };
   /// Pixels of a level, columns and rows from the grid's north-west corner, last ones included.
   struct PixelBox {
@@ -66,8 +80,10 @@ class HeightField {
   struct Extrema;
 
   [[nodiscard]] const Held* find(const TileId& id) const;
+  [[nodiscard]] TileId tile_at(int level, double row_latitude_deg, double lon_deg) const;
   [[nodiscard]] const Held* finest_at(double row_latitude_deg, double lon_deg) const;
-  [[nodiscard]] double turn_px(int level) const { return 360.0 * grid_.tile_px / tile_span_deg(grid_, level); }
+  [[nodiscard]] const LevelSize& size_of(int level) const { return sizes_[static_cast<std::size_t>(level)]; }
+  [[nodiscard]] double turn_px(int level) const { return size_of(level).turn_px; }
   [[nodiscard]] double pixel(const Held& own, std::int64_t x, std::int64_t y) const;
   [[nodiscard]] double pixel_round_planet(const Held& own, std::int64_t x, std::int64_t y) const;
   [[nodiscard]] double pixel_in_tiles(const Held& own, std::int64_t x, std::int64_t y) const;
@@ -81,10 +97,29 @@ class HeightField {
 
   Ellipsoid ellipsoid_;
   TileGrid grid_;
+  std::array<LevelSize, kMaxTileLevel + 1> sizes_{};
   std::unordered_map<TileId, Held, TileIdHash> tiles_;
   std::unordered_map<TileId, int, TileIdHash> below_;  ///< how many finer tiles are there under a place
   std::array<int, kMaxTileLevel + 1> of_level_{};
   std::uint64_t version_ = 0;
+};
+
+/// Look-ups that lie near one another: the tile that served one is tried first for the next. Gives, to the bit, what
+/// the field gives; not to be used once the field has changed. thread: main
+class HeightField::Cursor {
+ public:
+  explicit Cursor(const HeightField& field) : field_(field) {}
+  [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg);
+  [[nodiscard]] double row_deg(Angle lat) const { return field_.row_deg(lat); }
+  /// Between the heights that served last, metres along a meridian at the equator; without any, of the coarsest level.
+  [[nodiscard]] double spacing_m() const;
+
+ private:
+  void find_tile(double row_latitude_deg, double lon_deg);
+
+  const HeightField& field_;
+  const Held* own_ = nullptr;
+  bool finest_ = false;  ///< no finer tile lies under own_
 };
 
 }  // namespace terrella

@@ -45,8 +45,8 @@ glm::dvec2 limited(glm::dvec2 speed, double most) {
 
 }  // namespace
 
-Navigator::Navigator(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport)
-    : camera_(camera), ellipsoid_(ellipsoid), viewport_(at_least_one(viewport)) {}
+Navigator::Navigator(const Camera& camera, const Ground& ground, Viewport viewport)
+    : camera_(camera), ground_(ground), viewport_(at_least_one(viewport)) {}
 
 void Navigator::set_viewport(Viewport viewport) { viewport_ = at_least_one(viewport); }
 
@@ -67,24 +67,28 @@ void Navigator::pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, 
   advance(now);
   if (button == PointerButton::left && !ctrl) {
     const Grab held = grab_at(at_px);
-    motion_ = Drag{camera_, held.point, heading_rule(camera_, ellipsoid_, held.point), at_px, {{at_px, now}}};
+    motion_ = Drag{camera_, held.point, heading_rule(camera_, body(), held.point), at_px, {{at_px, now}}};
     return;
   }
   const Grab centre = grab_at(centre_px());
   Turn turn{{}, camera_, at_px};
-  if (centre.on_surface) turn.orbit = orbit_around(camera_, ellipsoid_, centre.point);
+  if (centre.on_surface) turn.orbit = orbit_around(camera_, body(), centre.point);
   motion_ = turn;
 }
 
 void Navigator::pointer_move(glm::dvec2 at_px, Seconds now) {
   if (!finite(at_px) || !finite(now)) return;
   (void)pass(now);
-  if (const Turn* turn = std::get_if<Turn>(&motion_)) turn_to(*turn, at_px);
+  if (const Turn* turn = std::get_if<Turn>(&motion_)) {
+    turn_to(*turn, at_px);
+    stay_over_ground();
+  }
   Drag* drag = std::get_if<Drag>(&motion_);
   if (drag == nullptr || drag->trail.back().at_px == at_px) return;
   std::erase_if(drag->trail, [&](const Sample& s) { return s.when > now || now - s.when > kFlickBase; });
   drag->trail.push_back({at_px, now});
   pin_drag(*drag);
+  stay_over_ground();
 }
 
 void Navigator::pointer_up(PointerButton, Seconds now) {
@@ -105,9 +109,10 @@ void Navigator::double_click(glm::dvec2 at_px, Seconds now) {
   const Grab there = grab_at(at_px);
   if (!there.on_surface) return;
   Camera target = camera_;
-  target.eye.height_m = height_range(ellipsoid_).clamp(camera_.eye.height_m * kFlyFactor);
-  target.pitch = std::min(target.pitch, highest_pitch(ellipsoid_, target.eye.height_m, Angle{}) - Angle::degrees(5.0));
-  fly_to(pin(target, ellipsoid_, viewport_, there.point, centre_px(), heading_rule(camera_, ellipsoid_, there.point)));
+  const double base = base_m(there);
+  target.eye.height_m = base + nearer_m(camera_.eye.height_m - base, kFlyFactor);
+  target.pitch = std::min(target.pitch, highest_pitch(body(), target.eye.height_m, Angle{}) - Angle::degrees(5.0));
+  fly_to(pin(target, body(), viewport_, there.point, centre_px(), heading_rule(camera_, body(), there.point)));
 }
 
 void Navigator::wheel(glm::dvec2 at_px, double steps, Seconds now) {
@@ -115,7 +120,8 @@ void Navigator::wheel(glm::dvec2 at_px, double steps, Seconds now) {
   advance(now);
   const double factor = std::pow(kWheelFactor, std::clamp(steps, -20.0, 20.0));
   if (Drag* drag = std::get_if<Drag>(&motion_)) {
-    set_height(camera_.eye.height_m * factor);
+    const double base = base_m({drag->held, true});
+    set_height(base + nearer_m(camera_.eye.height_m - base, factor));
     drag->start = camera_;
     pin_drag(*drag);
   } else if (!std::holds_alternative<Turn>(motion_)) {
@@ -153,6 +159,7 @@ void Navigator::advance(Seconds now) {
   if (!finite(now)) return;
   const Seconds passed = pass(now);
   motion_ = std::visit([&](auto motion) { return go_on(motion, passed); }, motion_);
+  stay_over_ground();
 }
 
 // --- what the events are made of
@@ -165,19 +172,17 @@ Seconds Navigator::pass(Seconds now) {
 
 glm::dvec2 Navigator::centre_px() const { return {0.5 * viewport_.width_px, 0.5 * viewport_.height_px}; }
 
-Grab Navigator::grab_at(glm::dvec2 at_px) const {
-  return grab(make_view(camera_, ellipsoid_, viewport_), ellipsoid_, at_px);
-}
+Grab Navigator::grab_at(glm::dvec2 at_px) const { return grab(make_view(camera_, body(), viewport_), ground_, at_px); }
 
 void Navigator::pin_to(const Ecef& point, glm::dvec2 at_px, HeadingRule rule) {
-  camera_ = pin(camera_, ellipsoid_, viewport_, point, at_px, rule);
+  camera_ = pin(camera_, body(), viewport_, point, at_px, rule);
 }
 
 void Navigator::pin_drag(const Drag& drag) {
   // A carried heading depends on the way; taken from the start each time, a drag out and back ends where it began. A
   // kept heading has two solutions near a pole, and going on from the last one stays on its branch.
   const Camera& from = drag.rule == HeadingRule::carry ? drag.start : camera_;
-  camera_ = pin(from, ellipsoid_, viewport_, drag.held, drag.trail.back().at_px, drag.rule);
+  camera_ = pin(from, body(), viewport_, drag.held, drag.trail.back().at_px, drag.rule);
 }
 
 glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now) {
@@ -192,25 +197,31 @@ glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now) {
 
 void Navigator::shift(glm::dvec2 from_px, glm::dvec2 by_px) {
   const Grab held = grab_at(from_px);
-  pin_to(held.point, from_px + by_px, heading_rule(camera_, ellipsoid_, held.point));
+  pin_to(held.point, from_px + by_px, heading_rule(camera_, body(), held.point));
 }
 
 void Navigator::set_height(double height_m) {
-  const double clamped_m = height_range(ellipsoid_).clamp(height_m);
+  const double highest_m = height_range(body()).highest_m, lowest = lowest_m(camera_.eye);
+  const double clamped_m = height_m > lowest ? std::min(height_m, highest_m) : lowest;
   if (clamped_m > camera_.eye.height_m) {
     // Going out, a tilted eye looks down more and more, or it would lose the globe.
-    camera_.pitch = std::min(camera_.pitch, highest_pitch(ellipsoid_, clamped_m, camera_.fov_y));
+    camera_.pitch = std::min(camera_.pitch, highest_pitch(body(), clamped_m, camera_.fov_y));
   }
   camera_.eye.height_m = clamped_m;
 }
 
 void Navigator::zoom_by(double factor, std::optional<glm::dvec2> at_px) {
   const Zoom* running = std::get_if<Zoom>(&motion_);
-  const double from_m = running != nullptr ? running->target_m : camera_.eye.height_m;
+  const double from_m = running != nullptr ? running->base_m + running->target_m : camera_.eye.height_m;
   const glm::dvec2 px = at_px.value_or(centre_px());
   const Grab held = grab_at(px);
-  motion_ = Zoom{held.point, held.on_surface, heading_rule(camera_, ellipsoid_, held.point), px,
-                 height_range(ellipsoid_).clamp(from_m * factor)};
+  const double base = base_m(held);
+  motion_ = Zoom{held.point,
+                 held.on_surface,
+                 heading_rule(camera_, body(), held.point),
+                 px,
+                 base,
+                 nearer_m(from_m - base, factor)};
 }
 
 void Navigator::pan_by(glm::dvec2 by_px) {
@@ -218,11 +229,11 @@ void Navigator::pan_by(glm::dvec2 by_px) {
   motion_ = Pan{by_px + (running != nullptr ? running->left_px : glm::dvec2(0.0))};
 }
 
-void Navigator::fly_to(const Camera& camera) { motion_ = Fly{plan_flight(camera_, camera, ellipsoid_)}; }
+void Navigator::fly_to(const Camera& camera) { motion_ = Fly{plan_flight(camera_, camera, body())}; }
 
 void Navigator::go_whole_globe() {
   Camera target = camera_;
-  target.eye.height_m = whole_globe_height_m(ellipsoid_, camera_.fov_y, viewport_);
+  target.eye.height_m = whole_globe_height_m(body(), camera_.fov_y, viewport_);
   target.heading = Angle{};
   target.pitch = Angle::degrees(-90.0);
   fly_to(target);
@@ -233,7 +244,7 @@ void Navigator::turn_to(const Turn& turn, glm::dvec2 at_px) {
   const Angle turned = Angle::degrees(kTurnPerWidth_deg * moved.x);
   const Angle tilted = Angle::degrees(kTiltPerHeight_deg * moved.y);  // down: towards looking straight down
   if (!turn.orbit) {
-    const Angle highest = highest_pitch(ellipsoid_, turn.start.eye.height_m, turn.start.fov_y);
+    const Angle highest = highest_pitch(body(), turn.start.eye.height_m, turn.start.fov_y);
     camera_.pitch = std::clamp(turn.start.pitch - tilted, Angle::degrees(-90.0), std::max(highest, turn.start.pitch));
     camera_.heading = Angle::radians(std::remainder((turn.start.heading + turned).rad(), Angle::degrees(360.0).rad()));
     return;
@@ -242,8 +253,59 @@ void Navigator::turn_to(const Turn& turn, glm::dvec2 at_px) {
   const Angle lowest = std::min(orbit.depression, Angle::degrees(kLowestDepression_deg));
   orbit.depression = std::clamp(orbit.depression + tilted, lowest, Angle::degrees(90.0));
   orbit.azimuth = orbit.azimuth + turned;
-  const Camera camera = orbit_camera(orbit, ellipsoid_, turn.start.fov_y);
-  if (camera.eye.height_m >= std::min(height_range(ellipsoid_).lowest_m, turn.start.eye.height_m)) camera_ = camera;
+  const Camera camera = orbit_camera(over_ground(orbit, turn.start.fov_y), body(), turn.start.fov_y);
+  if (camera.eye.height_m >= std::min(lowest_m(camera.eye), turn.start.eye.height_m)) camera_ = camera;
+}
+
+// --- the ground
+
+double Navigator::lowest_m(const Geodetic& place) const {
+  if (deepest_m_) return *deepest_m_;
+  return ground_.height_m(place.lat, place.lon) + height_range(body()).lowest_m;
+}
+
+// What the eye comes nearer to or goes away from: the point under the cursor if the eye is higher, else the ground
+// below.
+double Navigator::base_m(const Grab& held) const {
+  if (!ground_.has_relief()) return 0.0;
+  const double point_m = body().to_geodetic(held.point).height_m;
+  if (held.on_surface && point_m < camera_.eye.height_m) return point_m;
+  return ground_.height_m(camera_.eye.lat, camera_.eye.lon);
+}
+
+// Under the ground the eye comes nearer to it from below.
+double Navigator::nearer_m(double over_m, double factor) const {
+  const HeightRange range = height_range(body());
+  return deepest_m_ && over_m < 0.0 ? -range.clamp(-over_m * factor) : range.clamp(over_m * factor);
+}
+
+void Navigator::stay_over_ground() {
+  if (deepest_m_ || !ground_.has_relief()) return;
+  const double lowest = lowest_m(camera_.eye);
+  if (camera_.eye.height_m < lowest) camera_.eye.height_m = lowest;
+}
+
+// Tilted as little more as keeps the eye over the ground, so that what it turns around stays where it is.
+Orbit Navigator::over_ground(Orbit orbit, Angle fov_y) const {
+  if (deepest_m_ || !ground_.has_relief()) return orbit;
+  const auto free = [&](Angle depression) {
+    Orbit tried = orbit;
+    tried.depression = depression;
+    const Camera camera = orbit_camera(tried, body(), fov_y);
+    return camera.eye.height_m >= lowest_m(camera.eye);
+  };
+  Angle buried = orbit.depression, clear = buried;
+  while (!free(clear)) {
+    if (clear >= Angle::degrees(90.0)) return orbit;
+    buried = clear;
+    clear = std::min(clear + Angle::degrees(1.0), Angle::degrees(90.0));
+  }
+  for (int k = 0; k < 20 && clear != orbit.depression; ++k) {
+    const Angle middle = 0.5 * (buried + clear);
+    (free(middle) ? clear : buried) = middle;
+  }
+  orbit.depression = clear;
+  return orbit;
 }
 
 // --- how each motion goes on
@@ -261,10 +323,11 @@ Navigator::Motion Navigator::go_on(Glide glide, Seconds passed) {
 }
 
 Navigator::Motion Navigator::go_on(Zoom zoom, Seconds passed) {
-  const double ratio = std::max(camera_.eye.height_m, height_range(ellipsoid_).lowest_m) / zoom.target_m;
+  const double nearest_m = std::copysign(height_range(body()).lowest_m, zoom.target_m);
+  const double ratio = std::max(1.0, (camera_.eye.height_m - zoom.base_m) / nearest_m) * nearest_m / zoom.target_m;
   const double left = std::pow(ratio, decay(passed, kZoomDecay));
   const bool done = std::abs(std::log(left)) < kZoomRest;
-  set_height(done ? zoom.target_m : zoom.target_m * left);
+  set_height(zoom.base_m + (done ? zoom.target_m : zoom.target_m * left));
   // Going out, the globe can shrink away from under the cursor; from there on it keeps its place.
   zoom.holds = zoom.holds && grab_at(zoom.at_px).on_surface;
   if (zoom.holds) pin_to(zoom.held, zoom.at_px, zoom.rule);

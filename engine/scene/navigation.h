@@ -7,6 +7,7 @@
 
 #include "geo/camera.h"
 #include "scene/flight.h"
+#include "scene/ground.h"
 #include "scene/orbit.h"
 #include "scene/surface_pin.h"
 
@@ -21,15 +22,21 @@ enum class NavigationKey { pan_left, pan_right, pan_up, pan_down, zoom_in, zoom_
 /// keeps the point under the cursor; right drag, or left with Ctrl, tilts (up: towards the horizon) and turns around
 /// the point at the picture's centre; a double click flies to a point. A new gesture ends what moved before.
 ///
+/// What is grabbed, zoomed to and turned around is the ground as it is drawn, mountains included, and the eye stays
+/// over it: where it would not, it is raised to 1 m over it, at the latest by advance(), and never lowered for it. With
+/// set_deepest() it may go under the ground.
+///
 /// Pure state: times come from the caller, any origin, and only their differences count, each clamped to [0 s, 0.25 s];
 /// so a clock that jumps, either way, moves nothing far. Positions are pixels of the viewport, centres at halves, and
 /// may lie outside it. Events with a value that is not finite are ignored. thread: any, one at a time
 class Navigator {
  public:
-  Navigator(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport);
+  Navigator(const Camera& camera, const Ground& ground, Viewport viewport);
 
   void set_viewport(Viewport viewport);   ///< sides below 1 count as 1
   void set_camera(const Camera& camera);  ///< stops every motion
+  /// How deep under the ellipsoid the eye may go, a negative height in metres; none: it stays over the ground.
+  void set_deepest(std::optional<double> deepest_m) { deepest_m_ = deepest_m; }
 
   void pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, Seconds now);
   void pointer_move(glm::dvec2 at_px, Seconds now);
@@ -74,7 +81,8 @@ class Navigator {
     bool holds;  ///< there is a point under the cursor to keep there
     HeadingRule rule;
     glm::dvec2 at_px;
-    double target_m;
+    double base_m;    ///< height of what is zoomed to
+    double target_m;  ///< over that; negative under it
   };
   struct Pan {
     glm::dvec2 left_px;  ///< what is still to move
@@ -90,6 +98,12 @@ class Navigator {
   };
   using Motion = std::variant<Rest, Drag, Turn, Glide, Zoom, Pan, Fly, TurnNorth>;
 
+  [[nodiscard]] const Ellipsoid& body() const { return ground_.ellipsoid(); }
+  [[nodiscard]] double lowest_m(const Geodetic& place) const;
+  [[nodiscard]] double base_m(const Grab& held) const;
+  [[nodiscard]] double nearer_m(double over_m, double factor) const;
+  void stay_over_ground();
+  [[nodiscard]] Orbit over_ground(Orbit orbit, Angle fov_y) const;
   [[nodiscard]] Seconds pass(Seconds now);
   [[nodiscard]] glm::dvec2 centre_px() const;
   [[nodiscard]] Grab grab_at(glm::dvec2 at_px) const;
@@ -114,7 +128,8 @@ class Navigator {
   [[nodiscard]] Motion go_on(TurnNorth north, Seconds passed);
 
   Camera camera_;
-  Ellipsoid ellipsoid_;
+  Ground ground_;
+  std::optional<double> deepest_m_;
   Viewport viewport_;
   Motion motion_;
   std::optional<Seconds> clock_;

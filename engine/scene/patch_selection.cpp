@@ -21,10 +21,10 @@ constexpr double kFarOverBand = 2.5;
 constexpr double kPixelsATriangle = 12.0;
 // How far the ground may lie from the mesh: with what the heights' own level leaves out, under a pixel.
 constexpr double kMostReliefError_px = 0.5;
-// Vertices closer than this would follow heights that no pixel shows.
-constexpr double kLeastSegment_px = 1.5;
 // Texels this many times as large as a pixel show what squeezing took from them.
 constexpr double kMagnified = 2.0;
+// Vertices closer than this would follow heights that no pixel shows, and that are 1 to 2 pixels apart themselves.
+constexpr double kLeastSegment_px = 1.0;
 // Deeper, a patch's vertices are centimetres apart.
 constexpr int kMostReliefLevel = 20;
 
@@ -190,13 +190,16 @@ class Selector {
   // Heights move points along the normal: looked at from above they move less on the screen.
   [[nodiscard]] bool follows_ground_badly(PatchNode& node, const SelectedPatch& patch) const {
     if (tree_.relief() == nullptr || node.id.level >= kMostReliefLevel) return false;
-    if (2.0 * node.relief.flat.radius_m < kLeastSegment_px * tree_.segments() * patch.pixel_m) return false;
+    // A child's side is half the patch's, which is √2 of its radius.
+    const double child_side_m = node.relief.flat.radius_m * (0.5 * std::numbers::sqrt2);
+    if (child_side_m < kLeastSegment_px * tree_.segments() * patch.pixel_m) return false;
     tree_.relief()->refresh_mesh(tree_, node);
     const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
     const double distance = std::max(glm::length(to_eye), 1e-9);
     const double up = glm::dot(to_eye, node.normal) / distance;
     const double sine = std::min(1.0, std::sqrt(std::max(0.0, 1.0 - up * up)) + node.sphere.radius_m / distance);
-    return node.relief.error_m * sine * error_scale_px_ / nearest_m(node) > kMostReliefError_px;
+    const double error_px = node.relief.error_m * sine * error_scale_px_ / nearest_m(node);
+    return error_px > kMostReliefError_px && tree_.relief()->may_split(node);
   }
 
   // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
@@ -325,6 +328,7 @@ int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& s
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
                     std::vector<SelectedPatch>& out) {
   out.clear();
+  if (tree.relief() != nullptr) tree.relief()->begin_selection();
   if (!finite(view)) return;
   Selector selector(tree, view, options, tree.next_stamp(), out);
   for (int f = 0; f < kCubeFaces; ++f) selector.visit(tree.root(static_cast<CubeFace>(f)), false);

@@ -58,7 +58,7 @@ struct PatchRelief {
   std::vector<glm::vec2> slopes;  ///< of the ground there: rise a metre towards east and north
   double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
   std::uint64_t made = 0;         ///< counts up as heights_m changes
-  std::size_t bounds_seen = 0, mesh_seen = 0;
+  std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
 
 /// What never changes about a patch, worked out once and kept in the tree.

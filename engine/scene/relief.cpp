@@ -14,6 +14,8 @@ constexpr double kPixelsPerHeight = 2.0;
 constexpr std::int64_t kMostColumns = 6;
 // The two grids may count rows by different latitudes: so far apart they are at most for f = 0.1, degrees.
 constexpr double kLatitudeKinds_deg = 7.0;
+// Changes that are remembered one by one. What has not been looked at for longer counts as changed.
+constexpr std::size_t kMostChanges = 1024;
 
 double span_m(const Ellipsoid& e, const TileGrid& grid) {
   return e.a_m() * (std::numbers::pi / 180.0) * grid.root_span_deg / grid.tile_px;
@@ -38,13 +40,35 @@ void Relief::add(HeightTile tile) {
 }
 
 // A tile's heights reach half a pixel over its border, into what its neighbours serve.
-void Relief::note_change(const TileId& id) {
+Relief::Change Relief::change_of(const TileId& id) const {
   const TileBounds b = tile_bounds(grid(), id);
   const double pixel_deg = (b.east_deg - b.west_deg) / grid().tile_px;
-  changes_.push_back({.west = b.west_deg - pixel_deg,
-                      .east = b.east_deg + pixel_deg,
-                      .south = b.south_deg - pixel_deg,
-                      .north = b.north_deg + pixel_deg});
+  return {.west = b.west_deg - pixel_deg,
+          .east = b.east_deg + pixel_deg,
+          .south = b.south_deg - pixel_deg,
+          .north = b.north_deg + pixel_deg};
+}
+
+void Relief::note_change(const TileId& id) {
+  changes_.push_back(change_of(id));
+  if (changes_.size() <= kMostChanges) return;
+  changes_.pop_front();
+  ++changes_forgotten_;
+}
+
+int Relief::touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const {
+  const Change change = change_of(id);
+  return static_cast<int>(
+      std::ranges::count_if(patches, [&](const SelectedPatch& patch) { return touches(tree, *patch.node, change); }));
+}
+
+bool Relief::may_split(const PatchNode& node) {
+  const bool children_made = node.children[0] != nullptr && std::ranges::none_of(node.children, [](const PatchNode* c) {
+                               return c->relief.heights_m.empty();
+                             });
+  if (children_made || meshes_left_ > 0) return true;
+  ++put_off_;
+  return false;
 }
 
 bool Relief::touches(const PatchTree& tree, const PatchNode& node, const Change& change) const {
@@ -58,8 +82,9 @@ bool Relief::touches(const PatchTree& tree, const PatchNode& node, const Change&
   return std::abs(wrapped_deg(middle - own)) <= half;
 }
 
-bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::size_t since) const {
-  for (std::size_t k = since; k < changes_.size(); ++k) {
+bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const {
+  if (since < changes_forgotten_) return true;
+  for (std::uint64_t k = since - changes_forgotten_; k < changes_.size(); ++k) {
     if (touches(tree, node, changes_[k])) return true;
   }
   return false;
@@ -68,7 +93,7 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::si
 void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) {
   PatchRelief& relief = node.relief;
   const bool changed = changed_since(tree, node, relief.bounds_seen);
-  relief.bounds_seen = changes_.size();
+  relief.bounds_seen = changes_seen();
   if (!changed) return;
   const GroundRange range = field_.range_m(tree, node, exaggeration_);
   relief.middle_m = 0.5 * (range.min_m + range.max_m);
@@ -88,46 +113,63 @@ void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) {
 void Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) {
   PatchRelief& relief = node.relief;
   const bool changed = relief.heights_m.empty() || changed_since(tree, node, relief.mesh_seen);
-  relief.mesh_seen = changes_.size();
+  relief.mesh_seen = changes_seen();
   if (!changed) return;
+  measure_vertices(tree, node);
+  measure_error(tree, node);
+  ++relief.made;
+  ++meshes_made_;
+  --meshes_left_;
+}
+
+void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
   const int n = tree.segments();
-  const auto side = static_cast<std::size_t>(n) + 1;
   const double step_rad = 0.5 * std::numbers::pi / (std::ldexp(1.0, node.id.level) * n);
-  relief.heights_m.resize(side * side);
-  relief.slopes.resize(side * side);
-  const auto place = [this](const EcefDir& normal) {
-    const auto at = Ellipsoid::lat_lon(normal);
-    return std::pair(at, height_m(at.lat, at.lon));
-  };
+  PatchRelief& relief = node.relief;
+  relief.heights_m.clear();
+  relief.slopes.clear();
+  HeightField::Cursor ground(field_);
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
-      const std::size_t k = static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
-      const auto [at, height] = place(patch_point(node.id, i, j, n, tree.mapping()));
-      relief.heights_m[k] = height;
-      const double cosine = std::max(1e-6, std::cos(at.lat.rad()));
-      const Angle step = Angle::radians(step_rad);
-      const Angle north_lat = Angle::radians(std::min(at.lat.rad() + step_rad, 0.5 * std::numbers::pi));
-      const Angle south_lat = Angle::radians(std::max(at.lat.rad() - step_rad, -0.5 * std::numbers::pi));
-      const double run_m = 2.0 * step_rad * ellipsoid_.a_m();
-      const Angle turn = Angle::radians(std::min(step.rad() / cosine, 1.0));
-      relief.slopes[k] = glm::vec2((height_m(at.lat, at.lon + turn) - height_m(at.lat, at.lon - turn)) / run_m,
-                                   (height_m(north_lat, at.lon) - height_m(south_lat, at.lon)) / run_m);
+      const Geodetic at = Ellipsoid::lat_lon(patch_point(node.id, i, j, n, tree.mapping()));
+      relief.heights_m.push_back(exaggeration_ * ground.height_at_row_m(field_.row_deg(at.lat), at.lon.deg()));
+      relief.slopes.push_back(slope(ground, at.lat, at.lon, step_rad));
     }
   }
+}
+
+// Over two steps around the point, east and north.
+glm::vec2 Relief::slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const {
+  const auto height = [&](double row_deg, Angle at_lon) { return ground.height_at_row_m(row_deg, at_lon.deg()); };
+  const double row_deg = field_.row_deg(lat);
+  const double north_deg = field_.row_deg(Angle::radians(std::min(lat.rad() + step_rad, 0.5 * std::numbers::pi)));
+  const double south_deg = field_.row_deg(Angle::radians(std::max(lat.rad() - step_rad, -0.5 * std::numbers::pi)));
+  const Angle turn = Angle::radians(std::min(step_rad / std::max(1e-6, std::cos(lat.rad())), 1.0));
+  const double run_m = 2.0 * step_rad * ellipsoid_.a_m();
+  return glm::vec2(exaggeration_ * (height(row_deg, lon + turn) - height(row_deg, lon - turn)) / run_m,
+                   exaggeration_ * (height(north_deg, lon) - height(south_deg, lon)) / run_m);
+}
+
+// In the middle of its quads, where a mesh strays furthest.
+void Relief::measure_error(const PatchTree& tree, PatchNode& node) const {
+  const int n = tree.segments();
+  const auto side = static_cast<std::size_t>(n) + 1;
+  PatchRelief& relief = node.relief;
   relief.error_m = 0.0;
+  HeightField::Cursor ground(field_);
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const std::size_t k = static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
-      const double middle = place(patch_point(node.id, 2 * i + 1, 2 * j + 1, 2 * n, tree.mapping())).second;
+      const Geodetic at = Ellipsoid::lat_lon(patch_point(node.id, 2 * i + 1, 2 * j + 1, 2 * n, tree.mapping()));
+      const double middle = exaggeration_ * ground.height_at_row_m(field_.row_deg(at.lat), at.lon.deg());
       const double a = 0.5 * (relief.heights_m[k] + relief.heights_m[k + side + 1]);
       const double b = 0.5 * (relief.heights_m[k + 1] + relief.heights_m[k + side]);
       relief.error_m = std::max({relief.error_m, std::abs(middle - a), std::abs(middle - b)});
     }
   }
-  ++relief.made;
 }
 
-std::vector<WantedTile> Relief::want(const PatchTree& tree, const std::vector<SelectedPatch>& patches) {
+std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) {
   ++round_;
   std::vector<WantedTile> wanted;
   for (const TileId& id : root_tiles(grid())) want_tile(id, 1e9, wanted);
@@ -148,7 +190,6 @@ std::vector<WantedTile> Relief::want(const PatchTree& tree, const std::vector<Se
       }
     }
   }
-  (void)tree;
   return wanted;
 }
 

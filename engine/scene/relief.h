@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "geo/camera.h"
@@ -22,16 +24,32 @@ class Relief {
   Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggeration, std::size_t budget_bytes = 256UL << 20);
 
   [[nodiscard]] const TileGrid& grid() const { return field_.grid(); }
+  [[nodiscard]] const HeightField& field() const { return field_; }
   [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
   /// A tile has come; what lies under it is raised anew.
   void add(HeightTile tile);
   /// The source lacks it for good: its ancestors serve.
-  void set_lacking(const TileId& id) { lacking_.insert_or_assign(id, true); }
+  void set_lacking(const TileId& id) { lacking_.insert(id); }
+  [[nodiscard]] int lacking() const { return static_cast<int>(lacking_.size()); }
   /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const { return field_.height_m(lat, lon, exaggeration_); }
   /// Of all that was ever drawn from.
   [[nodiscard]] GroundRange range_m() const { return range_; }
+
+  /// How many meshes of these patches the coming of a tile puts out of date.
+  [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
+
+  /// From now on this many meshes may be made before may_split() asks for patience: a frame's share.
+  void set_mesh_budget(int meshes) { meshes_left_ = meshes; }
+  /// A selection begins: none of its patches has been put off.
+  void begin_selection() { put_off_ = 0; }
+  /// Whether a patch that follows the ground badly gives way to its children now. Not, and it is counted, if they were
+  /// never made and the budget is spent: it is drawn for a frame more. What must be drawn is made in any case.
+  [[nodiscard]] bool may_split(const PatchNode& node);
+  /// Patches that the last selection drew coarser than it should.
+  [[nodiscard]] int put_off() const { return put_off_; }
+  [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
 
   /// Brings a node's bounds up to date with the heights: its sphere, the cone that the horizon is tested by.
   void refresh_bounds(const PatchTree& tree, PatchNode& node);
@@ -40,7 +58,7 @@ class Relief {
 
   /// The tiles that the patches of a view want and that are neither there nor lacking; the coarsest level always. Tiles
   /// that no view has wanted for long give way to the budget.
-  [[nodiscard]] std::vector<WantedTile> want(const PatchTree& tree, const std::vector<SelectedPatch>& patches);
+  [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
 
  private:
   /// Where heights have changed, degrees; row latitudes of the heights' grid.
@@ -48,8 +66,13 @@ class Relief {
     double west, east, south, north;
   };
   [[nodiscard]] bool touches(const PatchTree& tree, const PatchNode& node, const Change& change) const;
-  [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::size_t since) const;
+  [[nodiscard]] Change change_of(const TileId& id) const;
+  [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const;
+  [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
   void note_change(const TileId& id);
+  void measure_vertices(const PatchTree& tree, PatchNode& node) const;
+  void measure_error(const PatchTree& tree, PatchNode& node) const;
+  [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
   void want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted);
   void keep_to_budget();
 
@@ -57,9 +80,13 @@ class Relief {
   HeightField field_;
   double exaggeration_;
   std::size_t most_tiles_;
-  std::vector<Change> changes_;
+  std::deque<Change> changes_;  ///< the latest ones
+  std::uint64_t changes_forgotten_ = 0;
+  int meshes_left_ = 0;
+  int put_off_ = 0;
+  std::uint64_t meshes_made_ = 0;
   GroundRange range_;
-  std::unordered_map<TileId, bool, TileIdHash> lacking_;
+  std::unordered_set<TileId, TileIdHash> lacking_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> last_wanted_;
   std::uint64_t round_ = 0;
 };

@@ -17,12 +17,16 @@ View eye_beside(View view, double right_m, double convergence_m) {
 
 }  // namespace
 
-EyePair stereo_eyes(const View& view, const Ellipsoid& ellipsoid, const StereoLook& look) {
+EyePair stereo_eyes(const View& view, const Ground& ground, const StereoLook& look) {
   EyePair pair;
-  const std::optional<double> ahead_m = ellipsoid.intersect_m(view.eye, EcefDir{view.forward});
-  pair.convergence_m =
-      std::max(kLeastConvergence_m, ahead_m ? *ahead_m : std::abs(ellipsoid.to_geodetic(view.eye).height_m));
-  pair.separation_m = look.eye_separation_m.value_or(kSeparationPerDistance * pair.convergence_m);
+  const double over_m = std::abs(ground.height_over_m(ground.ellipsoid().to_geodetic(view.eye)));
+  const std::optional<double> ahead_m =
+      ground.intersect_m(view.eye, EcefDir{view.forward}, 1.0 / view.pixels_per_radian());
+  pair.convergence_m = std::max(kLeastConvergence_m, ahead_m.value_or(over_m));
+  double natural_m = kSeparationPerDistance * pair.convergence_m;
+  // No eye goes into the mountain beside it.
+  if (ground.has_relief()) natural_m = std::min(natural_m, over_m);
+  pair.separation_m = look.eye_separation_m.value_or(natural_m);
   const double half_m = 0.5 * pair.separation_m;
   pair.left = eye_beside(view, -half_m, pair.convergence_m);
   pair.right = eye_beside(view, half_m, pair.convergence_m);

@@ -2,6 +2,7 @@
 
 #include "geo/camera.h"
 #include "geo/ellipsoid.h"
+#include "scene/ground.h"
 #include "scene/render_modes.h"
 
 namespace terrella {
@@ -16,9 +17,9 @@ struct EyePair {
 };
 
 /// The eyes to either side of a view's eye, each with the view's picture size. They converge on what the picture's
-/// middle shows of the ellipsoid, or, where that is the sky, at the height over it; unless it is told, they stand a
+/// middle shows of the ground, or, where that is the sky, at the height over it; unless it is told, they stand a
 /// thirtieth of that apart, which keeps the parallax of everything behind the screen under 1/30 of its distance, from
-/// orbit to street. thread: any
-[[nodiscard]] EyePair stereo_eyes(const View& view, const Ellipsoid& ellipsoid, const StereoLook& look);
+/// orbit to street; over relief never further apart than the eye is high over it. thread: as Ground's
+[[nodiscard]] EyePair stereo_eyes(const View& view, const Ground& ground, const StereoLook& look);
 
 }  // namespace terrella

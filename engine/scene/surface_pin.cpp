@@ -70,14 +70,22 @@ glm::dvec3 turning_centre(const Ellipsoid& ellipsoid, const glm::dvec3& up) {
   return ellipsoid.position(EcefDir{up}).xyz_m - up * ellipsoid.prime_vertical_radius_m(up.z);
 }
 
+/// The body, as much larger as the point lies over it.
+Ellipsoid ellipsoid_through(const Ellipsoid& body, const Ecef& point) {
+  constexpr double kOnSurface = 1e-12;
+  const double scale = glm::length(point.xyz_m / glm::dvec3(body.a_m(), body.a_m(), body.b_m()));
+  if (!(scale > 0.0) || std::abs(scale - 1.0) < kOnSurface) return body;
+  return Ellipsoid(scale * body.a_m(), body.f());
+}
+
 }  // namespace
 
-Grab grab(const View& view, const Ellipsoid& ellipsoid, glm::dvec2 pixel_px) {
+Grab grab(const View& view, const Ground& ground, glm::dvec2 pixel_px) {
   const EcefDir ray = pixel_ray(view, pixel_px);
-  if (const auto distance_m = ellipsoid.intersect_m(view.eye, ray)) {
+  if (const auto distance_m = ground.intersect_m(view.eye, ray, 1.0 / view.pixels_per_radian())) {
     return {Ecef{view.eye.xyz_m + ray.xyz * *distance_m}, true};
   }
-  return {Ecef{past_the_limb(view, ellipsoid, ray.xyz)}, false};
+  return {Ecef{past_the_limb(view, ground.ellipsoid(), ray.xyz)}, false};
 }
 
 HeadingRule heading_rule(const Camera& camera, const Ellipsoid& ellipsoid, const Ecef& held) {
@@ -94,8 +102,9 @@ Camera pin(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport, 
            HeadingRule rule) {
   GroundFrame frame = ground_frame(camera);
   Camera moved = camera;
+  const Ellipsoid surface = ellipsoid_through(ellipsoid, point);
   for (int i = 0; i < kIterations; ++i) {
-    const Grab now = grab(make_view(moved, ellipsoid, viewport), ellipsoid, pixel_px);
+    const Grab now = grab(make_view(moved, ellipsoid, viewport), surface, pixel_px);
     const glm::dvec3 centre = turning_centre(ellipsoid, frame.up);
     const glm::dvec3 from = glm::normalize(now.point.xyz_m - centre);
     const glm::dvec3 to = glm::normalize(point.xyz_m - centre);

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "geo/camera.h"
+#include "scene/ground.h"
 
 namespace terrella {
 
@@ -12,10 +13,10 @@ struct Grab {
   bool on_surface = false;  ///< the cursor's ray really meets the body there
 };
 
-/// The surface point under a pixel. Beside the globe the answer goes on continuously over the limb: the angle from
-/// the sub-eye point grows with the cursor's distance from the globe's middle, so a drag that leaves the globe keeps
-/// turning it, as an arcball does. thread: any
-[[nodiscard]] Grab grab(const View& view, const Ellipsoid& ellipsoid, glm::dvec2 pixel_px);
+/// The point of the ground under a pixel. Beside the globe the answer goes on continuously over the limb: the angle
+/// from the sub-eye point grows with the cursor's distance from the globe's middle, so a drag that leaves the globe
+/// keeps turning it, as an arcball does. thread: any
+[[nodiscard]] Grab grab(const View& view, const Ground& ground, glm::dvec2 pixel_px);
 
 /// What becomes of the heading when the eye travels. `keep`: it stays, as far as a solution exists; north stays where
 /// it is in the picture, and the eye may go over the pole. `carry`: it is carried along the shortest way (parallel
@@ -26,9 +27,9 @@ enum class HeadingRule { keep, carry };
 /// heading would spin the picture. A gesture asks once, when it starts, so that it never changes its mind midway.
 [[nodiscard]] HeadingRule heading_rule(const Camera& camera, const Ellipsoid& ellipsoid, const Ecef& held);
 
-/// The camera moved at constant height and pitch so that `point` is seen at `pixel_px`: ≤ 0.01 px off wherever the
-/// pixel's ray meets the body away from the limb's last pixel. Beyond the limb the point goes where grab() puts it.
-/// Never NaN for finite input. thread: any
+/// The camera moved at constant height and pitch so that `point`, on the ellipsoid or raised, is seen at `pixel_px`: ≤
+/// 0.01 px off wherever the pixel's ray meets the body away from the limb's last pixel. Beyond the limb the point goes
+/// where grab() puts it. Never NaN for finite input. thread: any
 [[nodiscard]] Camera pin(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport, const Ecef& point,
                          glm::dvec2 pixel_px, HeadingRule rule);
 

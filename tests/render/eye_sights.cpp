@@ -41,7 +41,7 @@ std::vector<EyeSight> eye_sights(const Globe& globe, const Picture& picture) {
   if (look.mode == Stereo::side_by_side) size.width_px /= 2;
   const View middle = globe.view(size);
   if (look.mode == Stereo::off) return {{.name = "one eye", .picture = &picture, .view = middle}};
-  const EyePair pair = stereo_eyes(middle, globe.options().body.ellipsoid, look);
+  const EyePair pair = stereo_eyes(middle, globe.ground(), look);
   EyeSight left{.name = "left eye", .picture = &picture, .view = pair.left}, right = left;
   right.view = pair.right;
   if (look.mode == Stereo::interlaced) left.rows_apart = right.rows_apart = 2;
