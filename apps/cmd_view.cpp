@@ -16,10 +16,10 @@ namespace {
 constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
 
 constexpr const char* kHelpFooter =
-    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns, "
-    "a\n"
-    "double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "U translucent, X under the ground, S stereo, F12 saves a picture, F1 or ? lists the keys, Esc leaves.\n"
+    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
+    "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
+    "U translucent, X under the ground, B sky, S stereo, P a panel with all of that, F12 saves a picture,\n"
+    "F1 or ? lists the keys, Esc leaves.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"

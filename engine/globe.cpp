@@ -323,6 +323,18 @@ void Globe::set_surface(const SurfaceLook& surface) {
   impl_->detail = 1.0;
 }
 void Globe::set_sky(bool on) { impl_->sky_on = on; }
+bool Globe::has_relief() const { return impl_->relief != nullptr; }
+void Globe::set_exaggeration(double exaggeration) {
+  impl_->options.exaggeration = exaggeration;
+  if (impl_->relief) impl_->relief->set_exaggeration(exaggeration);
+}
+Status Globe::set_time(std::optional<UtcTime> time) {
+  const Result<Almanac> almanac = almanac_at(time.value_or(kQuietSky));
+  if (!almanac) return almanac.error();
+  impl_->options.time = time;
+  if (impl_->almanac) impl_->almanac = *almanac;
+  return Done{};
+}
 void Globe::set_patch_shuffle(std::optional<unsigned> seed) { impl_->patch_shuffle = seed; }
 Status Globe::set_objects(const ObjectScene& objects) { return impl_->renderer->set_objects(objects); }
 void Globe::set_stereo(const StereoLook& stereo) {

@@ -93,7 +93,12 @@ class Globe {
   void set_unlit(bool unlit);
   void set_surface(const SurfaceLook& surface);
   void set_stereo(const StereoLook& stereo);
-  void set_sky(bool on);  ///< nothing if the globe was made without one
+  void set_sky(bool on);                       ///< nothing if the globe was made without one
+  [[nodiscard]] bool has_relief() const;       ///< made with elevation
+  void set_exaggeration(double exaggeration);  ///< of heights, [0, 100]
+  /// Of the sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes nothing. City lights are
+  /// there only in a globe that was made with a time.
+  Status set_time(std::optional<UtcTime> time);
   /// For tests: the seed of another order of patches; none: as they are chosen.
   void set_patch_shuffle(std::optional<unsigned> seed);
   /// In place of those before. Fails if their programs cannot be made.

@@ -58,8 +58,8 @@ bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
   return second;
 }
 
-Input::Input(Window& window, Navigator& navigator)
-    : window_(window), navigator_(navigator), pointer_px_(window.cursor_px()) {
+Input::Input(Window& window, Ui& ui, Navigator& navigator)
+    : window_(window), ui_(ui), navigator_(navigator), pointer_px_(window.cursor_px()) {
   glfwSetWindowUserPointer(window_.handle(), this);
   listen_to_pointer();
   listen_to_keys();
@@ -79,7 +79,10 @@ std::optional<glm::dvec2> Input::cursor_px() const {
 
 void Input::listen_to_pointer() {
   glfwSetMouseButtonCallback(window_.handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
-    input_of(w).on_button(button, action, modifiers);
+    input_of(w).dirty_ = true;
+    if (!Ui::on_button(w, button, action, modifiers) || action == GLFW_RELEASE) {
+      input_of(w).on_button(button, action, modifiers);
+    }
   });
   glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double x, double y) {
     Input& self = input_of(w);
@@ -87,19 +90,26 @@ void Input::listen_to_pointer() {
     self.navigator_.pointer_move(self.pointer_px_, now());
     self.dirty_ = true;
   });
-  glfwSetCursorEnterCallback(window_.handle(), [](GLFWwindow* w, int) { input_of(w).dirty_ = true; });
-  glfwSetScrollCallback(window_.handle(), [](GLFWwindow* w, double, double steps) {
+  glfwSetCursorEnterCallback(window_.handle(), [](GLFWwindow* w, int entered) {
+    Ui::on_enter(w, entered);
+    input_of(w).dirty_ = true;
+  });
+  glfwSetScrollCallback(window_.handle(), [](GLFWwindow* w, double across, double steps) {
     Input& self = input_of(w);
-    self.navigator_.wheel(self.pointer_px_, steps, now());
     self.dirty_ = true;
+    if (!Ui::on_scroll(w, across, steps)) self.navigator_.wheel(self.pointer_px_, steps, now());
   });
 }
 
 void Input::listen_to_keys() {
-  glfwSetKeyCallback(window_.handle(),
-                     [](GLFWwindow* w, int key, int, int action, int) { input_of(w).on_key(key, action); });
+  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int code, int action, int modifiers) {
+    input_of(w).on_key(key, action, input_of(w).ui_.on_key(w, key, code, action, modifiers));
+  });
   // Letters and signs come as characters: so they are where the keyboard's layout has them.
-  glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) { input_of(w).on_character(character); });
+  glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
+    input_of(w).dirty_ = true;
+    if (!Ui::on_character(w, character)) input_of(w).on_character(character);
+  });
 }
 
 void Input::listen_to_window() {
@@ -124,10 +134,11 @@ void Input::on_button(int button, int action, int modifiers) {
   }
 }
 
-void Input::on_key(int key, int action) {
+// What a panel has taken is not the globe's, but for the function keys and Esc, which closes the panel.
+void Input::on_key(int key, int action, bool taken) {
   repeating_ = action == GLFW_REPEAT;
-  if (action == GLFW_RELEASE) return;
   dirty_ = true;
+  if (action == GLFW_RELEASE || (taken && !function_key(key))) return;
   if (const auto moves = navigation_key(key)) {
     navigator_.key(*moves, now());
   } else if (const auto asked = function_key(key); asked && !repeating_) {
@@ -150,6 +161,9 @@ void Input::on_character(unsigned character) {
     case 'g':
     case 'G':
       return actions_.push_back(ViewerAction::toggle_graticule);
+    case 'p':
+    case 'P':
+      return actions_.push_back(ViewerAction::toggle_panel);
     case 'u':
     case 'U':
       return actions_.push_back(ViewerAction::next_alpha);

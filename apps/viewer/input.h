@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/viewer/ui.h"
 #include "apps/viewer/window.h"
 #include "scene/navigation.h"
 
@@ -13,6 +14,7 @@ namespace terrella {
 enum class ViewerAction {
   toggle_help,
   toggle_graticule,
+  toggle_panel,
   toggle_full_screen,
   save_screenshot,
   next_alpha,
@@ -40,7 +42,7 @@ class ClickPair {
 /// the window does. thread: main
 class Input {
  public:
-  Input(Window& window, Navigator& navigator);
+  Input(Window& window, Ui& ui, Navigator& navigator);
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
@@ -57,10 +59,11 @@ class Input {
   void listen_to_keys();
   void listen_to_window();
   void on_button(int button, int action, int modifiers);
-  void on_key(int key, int action);
+  void on_key(int key, int action, bool taken);
   void on_character(unsigned character);
 
   Window& window_;
+  Ui& ui_;  ///< hears of everything first
   Navigator& navigator_;
   /// Of the last event. The window would say where the cursor is now, and after a slow frame that is not where a button
   /// went down.

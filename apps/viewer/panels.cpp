@@ -28,6 +28,7 @@ constexpr const char* kHelp[][2] = {
     {"N", "north up"},
     {"Home", "whole globe"},
     {"G", "graticule"},
+    {"P", "panel of what can be changed"},
     {"U", "translucent surface"},
     {"X", "eye under the ground, and back"},
     {"B", "sky"},
@@ -97,11 +98,16 @@ void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
   ImGui::End();
 }
 
-void shaded_text(ImDrawList* list, ImVec2 at, const char* text) {
+ImU32 tinted(glm::vec3 color, const glm::vec3& tint, int alpha) {
+  color *= tint;
+  return IM_COL32(static_cast<int>(color.x), static_cast<int>(color.y), static_cast<int>(color.z), alpha);
+}
+
+void shaded_text(ImDrawList* list, ImVec2 at, const char* text, ImU32 ink) {
   for (const ImVec2 off : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1)}) {
     list->AddText({at.x + off.x, at.y + off.y}, kShade, text);
   }
-  list->AddText(at, kInk, text);
+  list->AddText(at, ink, text);
 }
 
 }  // namespace
@@ -118,8 +124,10 @@ void draw_status(const PanelStatus& status, double unit_px) {
 }
 
 void draw_help() {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float line = 1.45F * ImGui::GetFontSize();
+  ImVec2 size = ImGui::GetIO().DisplaySize;
+  size.y -= (kFootOfMessage + 2.2F) * ImGui::GetFontSize();  // the message keeps its place
+  const float room = (size.y - 3.0F * ImGui::GetStyle().WindowPadding.y) / float(std::size(kHelp));
+  const float line = std::clamp(room, ImGui::GetFontSize(), 1.45F * ImGui::GetFontSize());
   float keys = 0.0F, whats = 0.0F;
   for (const auto& [key, what] : kHelp) {
     keys = std::max(keys, ImGui::CalcTextSize(key).x);
@@ -140,22 +148,27 @@ void draw_help() {
   ImGui::End();
 }
 
-void draw_graticule(const Graticule& graticule, double unit_px) {
+void draw_graticule(const Graticule& graticule, const GraticulePart& part, double unit_px) {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const glm::dvec2 corner(part.left_px, 0);
+  list->PushClipRect(to_ui(corner, unit_px),
+                     to_ui(corner + glm::dvec2(part.size.width_px, part.size.height_px), unit_px));
   std::vector<ImVec2> points;
   for (const GraticuleLine& line : graticule.lines) {
     points.clear();
-    for (const glm::dvec2 px : line.points_px) points.push_back(to_ui(px, unit_px));
-    const ImU32 colour = line.principal ? IM_COL32(255, 226, 150, 190) : IM_COL32(255, 255, 255, 105);
+    for (const glm::dvec2 px : line.points_px) points.push_back(to_ui(corner + px, unit_px));
+    const ImU32 colour =
+        line.principal ? tinted({255, 226, 150}, part.tint, 190) : tinted(glm::vec3(255.0F), part.tint, 105);
     list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, line.principal ? 1.6F : 1.0F);
   }
   for (const GraticuleLabel& label : graticule.labels) {
     const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
-    const ImVec2 at = to_ui(label.at_px, unit_px);
+    const ImVec2 at = to_ui(corner + label.at_px, unit_px);
     shaded_text(
         list, {at.x - static_cast<float>(label.anchor.x) * size.x, at.y - static_cast<float>(label.anchor.y) * size.y},
-        label.text.c_str());
+        label.text.c_str(), tinted({232, 240, 248}, part.tint, 255));
   }
+  list->PopClipRect();
 }
 
 }  // namespace terrella

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
@@ -27,7 +28,13 @@ struct PanelStatus {
 void draw_status(const PanelStatus& status, double unit_px);
 /// The list of keys, in the middle.
 void draw_help();
+/// Where a graticule is drawn, framebuffer pixels; nothing of it reaches out of its part of the picture.
+struct GraticulePart {
+  int left_px = 0;
+  Viewport size;
+  glm::vec3 tint{1.0F};  ///< of lines and labels
+};
 /// Lines and labels, under the panels.
-void draw_graticule(const Graticule& graticule, double unit_px);
+void draw_graticule(const Graticule& graticule, const GraticulePart& part, double unit_px);
 
 }  // namespace terrella

@@ -1,10 +1,12 @@
 #include "apps/viewer/ui.h"
 
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <filesystem>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -43,6 +45,8 @@ void set_style(float scale) {
   style.ScaleAllSizes(scale);
 }
 
+bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
+
 }  // namespace
 
 Ui::Ui(const Window& window) {
@@ -73,8 +77,47 @@ void Ui::begin_frame() {
 
 void Ui::end_frame() {
   ImGui::Render();
+  for (const int key : std::exchange(released_keys_, {})) ImGui::GetIO().KeysDown[key] = false;
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
+
+void Ui::take_events(bool on) {
+  int& flags = ImGui::GetIO().ConfigFlags;
+  flags = on ? ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NavEnableKeyboard
+             : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
+}
+
+bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {
+  if (!takes_events()) return false;
+  ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::on_scroll(GLFWwindow* window, double x, double y) {
+  if (!takes_events()) return false;
+  ImGui_ImplGlfw_ScrollCallback(window, x, y);
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+  if (!takes_events()) return false;
+  // Panels look at keys once a frame: one that is let go before that was down for it all the same.
+  const bool known = key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown);
+  if (action == GLFW_RELEASE && known) {
+    released_keys_.push_back(key);
+  } else {
+    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
+  }
+  return ImGui::GetIO().WantCaptureKeyboard;
+}
+
+bool Ui::on_character(GLFWwindow* window, unsigned character) {
+  if (!takes_events()) return false;
+  ImGui_ImplGlfw_CharCallback(window, character);
+  return ImGui::GetIO().WantTextInput;
+}
+
+void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterCallback(window, entered); }
 
 double Ui::text_height() { return double(ImGui::GetFontSize()); }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "apps/viewer/window.h"
 
 namespace terrella {
 
-/// Dear ImGui bound to a window: context, font, style, drawing. It takes no events: the viewer's panels are read only.
-/// thread: main
+/// Dear ImGui bound to a window: context, font, style, drawing. It takes events only while a panel is open that changes
+/// something, from whoever listens to the window. thread: main
 class Ui {
  public:
   explicit Ui(const Window& window);
@@ -16,8 +18,19 @@ class Ui {
   /// Between begin_frame() and end_frame() panels may be made; end_frame() draws them into the current framebuffer.
   void begin_frame();
   void end_frame();
+  /// Whether mouse and keyboard work in panels.
+  void take_events(bool on);
+  // Hand an event of the window on; true if the panel keeps it. Without effect while no events are taken.
+  static bool on_button(GLFWwindow* window, int button, int action, int modifiers);
+  static bool on_scroll(GLFWwindow* window, double x, double y);
+  bool on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+  static bool on_character(GLFWwindow* window, unsigned character);
+  static void on_enter(GLFWwindow* window, int entered);
   /// Of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
+
+ private:
+  std::vector<int> released_keys_;  ///< since the last frame
 };
 
 }  // namespace terrella

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/viewer/screenshot.h"
+#include "scene/stereo.h"
 
 namespace terrella {
 namespace {
@@ -21,6 +22,7 @@ constexpr std::chrono::seconds kMessageTime(4);
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between frames that only wait for tiles
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kEarthEquator_m = 6378137.0;
+constexpr int kPanelFrames = 3;
 constexpr double kFoot = 3.4;  // of the text's height, that the panels below take
 
 }  // namespace
@@ -31,7 +33,7 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       options_(options),
       ui_(window),
       navigator_(options.camera, globe.ground(), window.framebuffer()),
-      input_(window, navigator_) {
+      input_(window, ui_, navigator_) {
   if (options.camera.eye.height_m < 0.0) navigator_.set_deepest(deepest_m());
 }
 
@@ -50,7 +52,9 @@ void Viewer::run() {
 }
 
 void Viewer::wait_for_work() {
-  if (input_.take_dirty() || navigator_.animating() || screenshot_wanted_) return glfwPollEvents();
+  const bool dirty = input_.take_dirty();
+  if (dirty && panel_) panel_frames_ = kPanelFrames;
+  if (dirty || panel_frames_-- > 0 || navigator_.animating() || screenshot_wanted_) return glfwPollEvents();
   if (!globe_.settled()) return glfwWaitEventsTimeout(kLoadingPause_s);
   if (message_.empty()) return glfwWaitEvents();
   const std::chrono::duration<double> left = message_until_ - Clock::now();
@@ -65,6 +69,8 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::toggle_graticule:
       graticule_ = !graticule_;
       return;
+    case ViewerAction::toggle_panel:
+      return toggle_panel();
     case ViewerAction::toggle_full_screen:
       window_.toggle_full_screen();
       return;
@@ -83,6 +89,7 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::toggle_underground:
       return toggle_underground();
     case ViewerAction::leave:
+      if (panel_) return toggle_panel();
       glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
       return;
   }
@@ -149,6 +156,56 @@ void Viewer::toggle_underground() {
   navigator_.set_camera(camera);
 }
 
+void Viewer::toggle_panel() {
+  panel_ = !panel_;
+  ui_.take_events(panel_);
+  panel_opened_ = panel_;
+  panel_frames_ = kPanelFrames;
+  const GlobeOptions& options = globe_.options();
+  settings_.has_sky = options.sky;
+  settings_.has_relief = globe_.has_relief();
+  settings_.exaggeration = options.exaggeration;
+}
+
+// What keys have changed since is in the globe.
+void Viewer::draw_settings() {
+  const GlobeOptions& options = globe_.options();
+  settings_.surface = options.surface;
+  settings_.stereo = options.stereo;
+  settings_.sky = sky_;
+  settings_.under_ground = above_.has_value();
+  const std::optional<UtcTime> time = settings_.time = options.time;
+  draw_view_settings(settings_, std::exchange(panel_opened_, false));
+  globe_.set_surface(settings_.surface);
+  globe_.set_stereo(settings_.stereo);
+  globe_.set_sky(sky_ = settings_.sky);
+  if (settings_.under_ground != above_.has_value()) toggle_underground();
+  if (settings_.exaggeration != options.exaggeration) globe_.set_exaggeration(settings_.exaggeration);
+  if (settings_.time == time) return;
+  const Status set = globe_.set_time(settings_.time);
+  settings_.time_problem = set ? "" : set.error().message;
+}
+
+// Each eye's own lines; the rows of interlaced pictures are too few for two.
+void Viewer::draw_graticules(const View& view) {
+  const Ellipsoid& body = globe_.options().body.ellipsoid;
+  const double unit_px = window_.pixels_per_unit().x, text_px = Ui::text_height() * unit_px;
+  const LabelSize label{.character_px = 0.62 * text_px, .line_px = 1.2 * text_px, .foot_px = kFoot * text_px};
+  const StereoLook& stereo = globe_.options().stereo;
+  if (stereo.mode == Stereo::off || stereo.mode == Stereo::interlaced) {
+    return draw_graticule(make_graticule(view, body, label), {.size = view.viewport}, unit_px);
+  }
+  const bool halves = stereo.mode == Stereo::side_by_side;
+  Viewport size = view.viewport;
+  if (halves) size.width_px = std::max(1, size.width_px / 2);
+  const EyePair eyes = stereo_eyes(globe_.view(size), body, stereo);
+  GraticulePart left{.size = size}, right{.left_px = halves ? size.width_px : 0, .size = size};
+  if (!halves) left.tint = {1.0F, 0.0F, 0.0F};
+  if (!halves) right.tint = {0.0F, 1.0F, 1.0F};
+  draw_graticule(make_graticule(eyes.left, body, label), left, unit_px);
+  draw_graticule(make_graticule(eyes.right, body, label), right, unit_px);
+}
+
 void Viewer::draw_frame(Viewport framebuffer) {
   const auto start = Clock::now();
   globe_.set_camera(navigator_.camera());
@@ -166,12 +223,9 @@ void Viewer::draw_panels(Viewport framebuffer, const FrameStats& stats) {
   const double unit_px = window_.pixels_per_unit().x;
   if (!message_.empty() && Clock::now() >= message_until_) message_.clear();
   ui_.begin_frame();
-  if (graticule_) {
-    const double text_px = Ui::text_height() * unit_px;
-    const LabelSize label{.character_px = 0.62 * text_px, .line_px = 1.2 * text_px, .foot_px = kFoot * text_px};
-    draw_graticule(make_graticule(view, globe_.options().body.ellipsoid, label), unit_px);
-  }
+  if (graticule_) draw_graticules(view);
   draw_status(status(view, stats), unit_px);
+  if (panel_) draw_settings();
   if (help_) draw_help();
   ui_.end_frame();
 }

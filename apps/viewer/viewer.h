@@ -6,6 +6,7 @@
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels.h"
 #include "apps/viewer/ui.h"
+#include "apps/viewer/view_settings.h"
 #include "apps/viewer/window.h"
 #include "engine/globe.h"
 
@@ -36,6 +37,9 @@ class Viewer {
   void next_stereo();
   void toggle_underground();
   [[nodiscard]] double deepest_m() const;
+  void toggle_panel();
+  void draw_settings();
+  void draw_graticules(const View& view);
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer, const FrameStats& stats);
   void save_screenshot(Viewport framebuffer);
@@ -52,6 +56,10 @@ class Viewer {
   std::optional<Camera> above_;  ///< where the eye was before it went under the ground
   bool sky_ = true;
   bool help_ = false;
+  bool panel_ = false;
+  bool panel_opened_ = false;  ///< since the last frame
+  int panel_frames_ = 0;       ///< still to be drawn: a panel shows an event one frame later
+  ViewSettings settings_;
   bool graticule_ = false;
   bool screenshot_wanted_ = false;
   std::string message_;

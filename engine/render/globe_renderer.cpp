@@ -60,6 +60,7 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& til
   for (const EyePicture& eye : pictures) draw_picture({input, eye, tiles, counts});
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
+  glDisable(GL_SCISSOR_TEST);
   targets_.copy_to(framebuffer);
   if (limb_comes_last({input, pictures.front(), tiles, counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -288,6 +289,9 @@ void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) co
 void GlobeRenderer::begin_picture(const Pass& pass) const {
   const EyePicture& eye = pass.eye;
   glViewport(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
+  // A point's square may reach over the middle of a picture of two halves, and a clear knows no viewport.
+  glScissor(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
+  glEnable(GL_SCISSOR_TEST);
   color_mask(eye, true);
   glStencilMask(kSurfaceBit | kThroughBit);
   glDepthMask(GL_TRUE);

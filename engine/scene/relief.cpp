@@ -30,10 +30,14 @@ Relief::Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggera
       most_tiles_(std::max<std::size_t>(64, budget_bytes / (sizeof(float) * static_cast<std::size_t>(grid.tile_px) *
                                                             static_cast<std::size_t>(grid.tile_px)))) {}
 
+void Relief::set_exaggeration(double exaggeration) {
+  exaggeration_ = exaggeration;
+  note_change({.west = -180.0, .east = 180.0, .south = -90.0, .north = 90.0});
+}
+
 void Relief::add(HeightTile tile) {
-  const double low = exaggeration_ * double(tile.min_m), high = exaggeration_ * double(tile.max_m);
-  range_ = {.min_m = std::min(range_.min_m, low), .max_m = std::max(range_.max_m, high)};
-  note_change(tile.id);
+  range_ = {.min_m = std::min(range_.min_m, double(tile.min_m)), .max_m = std::max(range_.max_m, double(tile.max_m))};
+  note_change(change_of(tile.id));
   last_wanted_[tile.id] = round_;
   field_.add(std::move(tile));
   keep_to_budget();
@@ -49,8 +53,8 @@ Relief::Change Relief::change_of(const TileId& id) const {
           .north = b.north_deg + pixel_deg};
 }
 
-void Relief::note_change(const TileId& id) {
-  changes_.push_back(change_of(id));
+void Relief::note_change(const Change& change) {
+  changes_.push_back(change);
   if (changes_.size() <= kMostChanges) return;
   changes_.pop_front();
   ++changes_forgotten_;

@@ -27,6 +27,8 @@ class Relief {
   [[nodiscard]] const HeightField& field() const { return field_; }
   [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
+  /// From now on: everything is raised anew.
+  void set_exaggeration(double exaggeration);
   /// A tile has come; what lies under it is raised anew.
   void add(HeightTile tile);
   /// The source lacks it for good: its ancestors serve.
@@ -35,7 +37,9 @@ class Relief {
   /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const { return field_.height_m(lat, lon, exaggeration_); }
   /// Of all that was ever drawn from.
-  [[nodiscard]] GroundRange range_m() const { return range_; }
+  [[nodiscard]] GroundRange range_m() const {
+    return {.min_m = exaggeration_ * range_.min_m, .max_m = exaggeration_ * range_.max_m};
+  }
 
   /// How many meshes of these patches the coming of a tile puts out of date.
   [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
@@ -69,7 +73,7 @@ class Relief {
   [[nodiscard]] Change change_of(const TileId& id) const;
   [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const;
   [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
-  void note_change(const TileId& id);
+  void note_change(const Change& change);
   void measure_vertices(const PatchTree& tree, PatchNode& node) const;
   void measure_error(const PatchTree& tree, PatchNode& node) const;
   [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
@@ -85,7 +89,7 @@ class Relief {
   int meshes_left_ = 0;
   int put_off_ = 0;
   std::uint64_t meshes_made_ = 0;
-  GroundRange range_;
+  GroundRange range_;  ///< as the tiles have it
   std::unordered_set<TileId, TileIdHash> lacking_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> last_wanted_;
   std::uint64_t round_ = 0;

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "eye_sights.h"
 #include "scene/almanac.h"
+#include "scene/stereo.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {
@@ -142,6 +144,46 @@ TEST_P(Paper2Sky, IsUnderWhatIsOverTheGroundAndTranslucent) {
     }
     EXPECT_GT(brighter, 0) << lit[k].name << ": no sky behind it";
   }
+}
+
+TEST_P(Paper2Sky, IsNotSeenFromUnderTheGround) {
+  const auto globe = night_side();
+  globe->set_camera(camera_at(-23.4, -179.5, -2.0e5, 0, 60));
+  for (const SurfaceFromBelow mode : {SurfaceFromBelow::opaque, SurfaceFromBelow::translucent}) {
+    std::vector<Picture> seen;
+    for (const bool sky : {true, false}) {
+      globe->set_surface({.alpha = 0.5, .from_below = mode});
+      globe->set_sky(sky);
+      settle(*globe, size());
+      seen.push_back(picture());
+    }
+    EXPECT_EQ(seen[0].rgba, seen[1].rgba) << "mode " << static_cast<int>(mode);
+  }
+}
+
+class Paper2Halves : public GlTest {};
+
+TEST_F(Paper2Halves, AStarAtTheEdgeOfOneStaysInIt) {
+  // As bright as Venus and more: a spot many pixels wide, whose middle is the left half's last column.
+  constexpr float kWideSpot = -7.0F;
+  const UtcTime time = *parse_utc("2026-06-21T12:00Z");
+  GlobeOptions options;
+  options.sky = true;
+  options.time = time;
+  options.stereo = {.mode = Stereo::side_by_side, .eye_separation_m = {}};
+  const Camera camera = camera_at(-23.4, -179.5, 1.0e8);
+  const View view = make_view(camera, earth().ellipsoid, kSkyPicture);
+  const glm::dvec2 edge(kSkyPicture.width_px - 0.5, 0.25 * kSkyPicture.height_px);
+  const EyePair eyes = stereo_eyes(view, earth().ellipsoid, options.stereo);
+  const glm::dvec3 j2000 = glm::transpose(almanac_at(time)->ecef_from_j2000) * pixel_ray(eyes.left, edge).xyz;
+  options.stars = {{glm::vec3(j2000), kWideSpot, glm::vec3(1.0F)}};
+  const auto globe = make_globe(options, one_colour({.tile_px = 64, .max_level = 1}, kDarkGround));
+  globe->set_camera(camera);
+  settle(*globe, {2 * kSkyPicture.width_px, kSkyPicture.height_px});
+  const Picture seen = picture();
+  const int row = kSkyPicture.height_px / 4;
+  EXPECT_GT(seen.at(kSkyPicture.width_px - 1, row)[0], 200) << "no star at the edge";
+  for (int x = kSkyPicture.width_px; x < kSkyPicture.width_px + 10; ++x) EXPECT_LT(seen.at(x, row)[0], 10) << x;
 }
 
 INSTANTIATE_TEST_SUITE_P(ByEye, Paper2Sky, testing::ValuesIn(kAllStereo), &stereo_test_name);

@@ -97,6 +97,50 @@ class Keys(WindowTest):
         viewer.key("x")
         self.assertAlmostEqual(viewer.next_camera().height_m, 1.2e7, delta=1.0)
 
+    def test_b_switches_the_sky(self):
+        viewer = self.start("--camera", "20,10,20000000")
+        stars = png.read(self.screenshot(viewer, "sky"))
+        viewer.key("b")
+        dark = png.read(self.screenshot(viewer, "no_sky"))
+        self.assertGreater(png.changed(stars, dark), 300)
+        viewer.key("b")
+        self.assertLess(png.changed(stars, png.read(self.screenshot(viewer, "sky_again"))), 6000)
+
+    def test_p_opens_a_panel_that_keys_and_pointer_move(self):
+        viewer = self.start("--camera", "20,10,12000000", "--unlit")
+        ground = [SIZE[0] - 120, SIZE[1] // 2]
+        plain = png.read(self.screenshot(viewer, "without"))
+        viewer.key("p")
+        panel = png.read(self.screenshot(viewer, "panel"))
+        self.assertGreater(png.changed(plain, panel), 20000)
+        # The first arrow shows which item has the keyboard, the slider of opacity; space takes it, an arrow moves it.
+        for key in ("Left", "space"):
+            viewer.key(key)
+            time.sleep(1.0)
+        viewer.xdotool("keydown", "Left", "sleep", "3", "keyup", "Left")
+        keyed = png.read(self.screenshot(viewer, "slid_by_keys"))
+        self.assertLess(sum(png.pixel(keyed, *ground)), 0.97 * sum(png.pixel(plain, *ground)))
+        self.assertTrue(viewer.camera_stays(), "the arrows were the panel's")
+        # Its left half is most transparent.
+        viewer.drag((150, 48), (30, 48))
+        dragged = png.read(self.screenshot(viewer, "slid_by_pointer"))
+        self.assertLess(sum(png.pixel(dragged, *ground)), 0.4 * sum(png.pixel(plain, *ground)))
+        self.assertTrue(viewer.camera_stays(), "the drag was the panel's")
+        viewer.key("Escape")
+        closed = png.read(self.screenshot(viewer, "closed"))
+        self.assertIsNone(viewer.program.poll(), "Esc closes the panel first")
+        self.assertGreater(png.changed(dragged, closed), 20000)
+
+    def test_g_is_there_for_both_eyes(self):
+        viewer = self.start("--camera", "20,10,12000000", "--unlit", "--stereo", "side-by-side")
+        plain = png.read(self.screenshot(viewer, "without"))
+        viewer.key("g")
+        lined = png.read(self.screenshot(viewer, "graticule"))
+        half = SIZE[0] // 2
+        for first in (0, half):
+            part = [(half, SIZE[1], [row[3 * first : 3 * (first + half)] for row in p[2]]) for p in (plain, lined)]
+            self.assertGreater(png.changed(*part), 1000, first)
+
     def test_f_fills_the_screen_and_goes_back(self):
         viewer = self.start("--camera", "20,10,12000000")
         before = viewer.geometry()

@@ -1,0 +1,157 @@
+// What each feature costs: a settled frame with it as a ratio to the plain opaque globe, all in turn in one run.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/sky_data.h"
+#include "apps/bench/frame_timing.h"
+#include "render/offscreen.h"
+
+#include <epoxy/gl.h>
+
+namespace {
+
+using namespace terrella;
+using bench::median;
+using bench::Subject;
+using Clock = std::chrono::steady_clock;
+
+constexpr Viewport kSize{1024, 1024};
+constexpr double kHeight_m = 3.0 * 6378137.0;
+
+struct Inputs {
+  std::string tiles, elevation;
+  Camera camera;
+};
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+std::unique_ptr<Globe> make_globe(const Inputs& inputs, GlobeOptions options, bool relief) {
+  options.upload_bytes_per_frame = options.gpu_bytes;
+  options.upload_time_per_frame = std::chrono::seconds(1);
+  std::optional<ElevationSource> heights;
+  if (relief) {
+    heights = value_or_throw(
+        ElevationSource::open(std::shared_ptr<TileSource>(value_or_throw(open_tile_set(inputs.elevation))), "heights"));
+  }
+  auto globe = value_or_throw(Globe::create(
+      options, std::shared_ptr<TileSource>(value_or_throw(open_tile_set(inputs.tiles))), std::move(heights)));
+  globe->set_camera(inputs.camera);
+  return globe;
+}
+
+GlobeOptions with_sky(bool time) {
+  GlobeOptions options;
+  SkyData data = load_sky_data();
+  if (!data.problems.empty()) throw std::runtime_error(data.problems.front());
+  options.sky = true;
+  options.stars = std::move(data.stars);
+  if (time) options.time = value_or_throw(parse_utc("2026-06-21T12:00Z"));
+  if (time) options.night_lights = std::move(data.night_lights);
+  return options;
+}
+
+/// Globes and what is drawn of them; all on one target.
+class Features {
+ public:
+  /// The globe of add_look().
+  void set_first(std::unique_ptr<Globe> globe) { globes_.push_back(std::move(globe)); }
+  /// A frame of a new globe.
+  void add(const std::string& name, std::unique_ptr<Globe> globe) {
+    globes_.push_back(std::move(globe));
+    settle(*globes_.back());
+    add_frame(name, *globes_.back(), [] {});
+  }
+  /// A frame of the first globe with another look.
+  void add_look(const std::string& name, const SurfaceLook& surface, Stereo stereo) {
+    Globe& globe = *globes_.front();
+    const auto look = [&globe, surface, stereo] {
+      globe.set_surface(surface);
+      globe.set_stereo({.mode = stereo, .eye_separation_m = {}});
+    };
+    look();
+    settle(globe);
+    add_frame(name, globe, look);
+  }
+  std::vector<Subject>& subjects() { return subjects_; }
+
+ private:
+  void settle(Globe& globe) const {
+    if (!globe.render_until_settled(target_.framebuffer(), kSize, Clock::now() + std::chrono::seconds(60))) {
+      throw std::runtime_error("the globe has not settled after a minute");
+    }
+  }
+  template <class Look>
+  void add_frame(const std::string& name, Globe& globe, Look look) {
+    subjects_.push_back({name, [this, &globe, look] {
+                           look();
+                           globe.render(target_.framebuffer(), kSize);
+                         }});
+  }
+
+  OffscreenTarget target_{kSize};
+  std::vector<std::unique_ptr<Globe>> globes_;
+  std::vector<Subject> subjects_;
+};
+
+void add_all(const Inputs& inputs, Features& features) {
+  const SurfaceLook opaque, glass{.alpha = 0.5};
+  features.set_first(make_globe(inputs, {}, false));
+  features.add_look("plain opaque globe", opaque, Stereo::off);
+  features.add_look("the same again", opaque, Stereo::off);
+  auto switched_off = make_globe(inputs, with_sky(false), false);
+  switched_off->set_sky(false);
+  features.add("sky there but off", std::move(switched_off));
+  features.add_look("translucent", glass, Stereo::off);
+  features.add_look("stereo, side by side", opaque, Stereo::side_by_side);
+  features.add_look("stereo, interlaced", opaque, Stereo::interlaced);
+  features.add_look("stereo, anaglyph", opaque, Stereo::anaglyph);
+  features.add_look("translucent, interlaced", glass, Stereo::interlaced);
+  features.add("sky", make_globe(inputs, with_sky(false), false));
+  features.add("sky, Sun, Moon, city lights", make_globe(inputs, with_sky(true), false));
+  if (!inputs.elevation.empty()) features.add("relief", make_globe(inputs, {}, true));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Cost of each feature as a ratio to the plain opaque globe, in one run");
+  Inputs inputs;
+  std::string camera;
+  int rounds = 15;
+  app.add_option("--tiles", inputs.tiles, "tile set for the globe")->required();
+  app.add_option("--elevation", inputs.elevation, "tile set of heights; none: relief is not measured");
+  app.add_option("--camera", camera, "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]] (default: four radii, over 10 N 20 E)");
+  app.add_option("--rounds", rounds, "frames of each subject");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    inputs.camera.eye = {.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0), .height_m = kHeight_m};
+    if (!camera.empty()) inputs.camera = value_or_throw(parse_camera(camera));
+    const auto context = value_or_throw(HeadlessContext::create());
+    fmt::print("{}\n\n| frame | processor | wall |\n|---|---|---|\n",
+               reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    Features features;
+    add_all(inputs, features);
+    bench::time_frames(features.subjects(), rounds);
+    const Subject& base = features.subjects().front();
+    for (const Subject& s : features.subjects()) {
+      fmt::print("| {} | {:.2f} | {:.2f} |\n", s.name, median(s.cpu_ms) / median(base.cpu_ms),
+                 median(s.ms) / median(base.ms));
+    }
+    fmt::print("\nplain opaque globe: {:.1f} ms of processor time, {:.1f} ms\n", median(base.cpu_ms), median(base.ms));
+  } catch (const std::exception& wrong) {
+    fmt::print(stderr, "{}\n", wrong.what());
+    return 1;
+  }
+  return 0;
+}
