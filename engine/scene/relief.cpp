@@ -216,7 +216,7 @@ void Relief::keep_to_budget() {
     if (field_.size() <= most_tiles_ * 7 / 8) return;
     field_.remove(id);
     last_wanted_.erase(id);
-    note_change(id);
+    note_change(change_of(id));
   }
 }
 
