@@ -36,7 +36,7 @@ std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
   options.naive_translucency = naive;
   add_sky_data(options);
   auto globe = value_of(Globe::create(options, std::move(imagery), std::move(elevation)));
-  if (const Status added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
+  if (const auto added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
   globe->set_camera(first_camera(scene, body, scene.size));
   const OffscreenTarget target(scene.size);
   globe->render_until_settled(target.framebuffer(), scene.size,
