@@ -43,10 +43,10 @@ class EndlessSource : public TileSource {
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
     if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the grid"};
     Image image{kTile_px, kTile_px, {}};
-    image.rgba.reserve(4 * kTile_px * kTile_px);
+    image.rgba.reserve(4UL * kTile_px * kTile_px);
     const std::vector<float> east = waves(id.level, id.x, 1.0), south = waves(id.level, id.y, 2.0);
-    for (int y = 0; y < kTile_px; ++y) {
-      for (int x = 0; x < kTile_px; ++x) add_texel(&east[kWaves * x], &south[kWaves * y], image.rgba);
+    for (std::size_t y = 0; y < kTile_px; ++y) {
+      for (std::size_t x = 0; x < kTile_px; ++x) add_texel(&east[kWaves * x], &south[kWaves * y], image.rgba);
     }
     Result<std::vector<std::byte>> png = encode_png(image);
     if (!png) return TileFailure{Absence::broken, png.error().message};

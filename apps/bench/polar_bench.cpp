@@ -150,7 +150,7 @@ class PolarLab {
                            figures.triangles, figures.vertices, figures.tiles});
   }
 
-  static constexpr std::int64_t kVerticesOfPatch = 25 * 25;
+  static constexpr std::int64_t kVerticesOfPatch = 25L * 25L;
 
   const BenchOptions& options_;
   Size size_;

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Status write_text(const fs::path& file, const std::string& text, ReportFiles& files) {
-  const Status written = write_file(file, std::as_bytes(std::span(text)));
+  Status written = write_file(file, std::as_bytes(std::span(text)));
   if (written) files.written.push_back(file);
   return written;
 }

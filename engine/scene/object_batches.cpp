@@ -94,6 +94,7 @@ void add_lines(const ObjectScene& scene, const Ellipsoid& ellipsoid, const std::
 /// in space, whatever their order in the scene; where they lie equally high, that order.
 std::vector<std::size_t> by_height(const std::vector<PolygonObject>& polygons) {
   std::vector<double> heights_m;
+  heights_m.reserve(polygons.size());
   for (const PolygonObject& polygon : polygons) heights_m.push_back(mean_height_m(polygon));
   std::vector<std::size_t> order(polygons.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/sky_data.h"
 #include "apps/bench/frame_timing.h"
+#include "apps/sky_data.h"
 #include "render/offscreen.h"
 
 #include <epoxy/gl.h>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "ground_truth/accuracy_views.h"
 #include "apps/bench/truth/judge.h"
+#include "ground_truth/accuracy_views.h"
 
 namespace terrella::truth {
 

@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
-#include "ground_truth/accuracy_report.h"
 #include "apps/bench/truth/noise_planet.h"
-#include "ground_truth/terrella_process.h"
 #include "apps/bench/truth/truth_cache.h"
+#include "ground_truth/accuracy_report.h"
+#include "ground_truth/terrella_process.h"
 
 namespace terrella::truth {
 namespace {

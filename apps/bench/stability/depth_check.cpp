@@ -70,7 +70,7 @@ class DepthPair {
       glUniform1f(1, distance_m <= std::min(first_m, second_m) ? 1.0F : 0.5F);
       glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
-    std::vector<std::uint8_t> shades(kSide_px * kSide_px);
+    std::vector<std::uint8_t> shades(std::size_t{kSide_px} * kSide_px);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, kSide_px, kSide_px, GL_RED, GL_UNSIGNED_BYTE, shades.data());
     return std::ranges::all_of(shades, [](std::uint8_t shade) { return shade == 255; });
