@@ -1,6 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,13 +59,53 @@ struct LabelObject {
   bool through_surface = false;
 };
 
+/// A corner of a mesh, in the model's own frame: metres, y up, z forward, x to the left (glTF 2.0).
+struct MeshVertex {
+  glm::vec3 position_m{0.0F};
+  glm::vec3 normal{0.0F};        ///< unit; 0: its triangle's own
+  glm::vec2 uv{0.0F};            ///< of the texture, v down
+  glm::vec4 color_linear{1.0F};  ///< goes with the part's colour
+};
+
+/// A picture for parts of meshes: RGBA8, sRGB, rows from the top.
+struct MeshTexture {
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint8_t> rgba = {};
+};
+
+/// Triangles with one material.
+struct MeshPart {
+  std::vector<MeshVertex> vertices = {};
+  std::vector<std::uint32_t> indices = {};  ///< three a triangle, each less than the number of vertices
+  glm::vec4 color_linear{1.0F};
+  bool translucent = false;  ///< else alpha counts only where it is less than `cutoff`, which is then not drawn
+  float cutoff = 0.0F;
+  std::shared_ptr<const MeshTexture> texture = {};  ///< none: white
+};
+
+struct MeshModel {
+  std::vector<MeshPart> parts = {};
+};
+
+/// A model that stands at a place, upright there. Those that share a model are drawn together.
+struct MeshObject {
+  std::shared_ptr<const MeshModel> model = {};
+  Geodetic place = {};
+  Angle heading = {};  ///< clockwise from north, of the model's forward
+  double scale = 1.0;  ///< > 0
+  bool through_surface = false;
+};
+
 /// What is drawn over, on and under a planet beside the planet itself. Plain values: thread any.
 struct ObjectScene {
   std::vector<PointObject> points = {};
   std::vector<LineObject> lines = {};
   std::vector<PolygonObject> polygons = {};
   std::vector<LabelObject> labels = {};
-  [[nodiscard]] bool empty() const { return points.empty() && lines.empty() && polygons.empty() && labels.empty(); }
+  std::vector<MeshObject> meshes = {};
+  [[nodiscard]] bool empty() const {
+    return points.empty() && lines.empty() && polygons.empty() && labels.empty() && meshes.empty();
+  }
 };
 
 /// An object lies under the ground if any of its places does (height < 0): then the surface is drawn over it.
@@ -75,6 +119,7 @@ struct ObjectScene {
 [[nodiscard]] inline bool is_underground(const PointObject& point) { return is_underground(point.place); }
 [[nodiscard]] inline bool is_underground(const LineObject& line) { return is_underground(line.places); }
 [[nodiscard]] inline bool is_underground(const LabelObject& label) { return is_underground(label.place); }
+[[nodiscard]] inline bool is_underground(const MeshObject& mesh) { return is_underground(mesh.place); }
 [[nodiscard]] inline bool is_underground(const PolygonObject& polygon) {
   for (const auto& ring : polygon.rings) {
     if (is_underground(ring)) return true;

@@ -128,8 +128,20 @@ Status ObjectPass::set_labels(const std::vector<LabelObject>& labels, const Elli
   return Done{};
 }
 
+Status ObjectPass::set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid) {
+  if (meshes.empty() && !meshes_) return Done{};
+  if (!meshes_) {
+    auto made = MeshPass::create(depth_);
+    if (!made) return made.error();
+    meshes_ = std::move(*made);
+  }
+  meshes_->set_meshes(meshes, ellipsoid);
+  return Done{};
+}
+
 bool ObjectPass::has(ObjectPart part) const {
   if (part == ObjectPart::above_ground ? has_labels_above_ : has_labels_underground_) return true;
+  if (meshes_ && meshes_->has(part)) return true;
   for (const bool opaque : {true, false}) {
     for (const Ranges* ranges : {&fill_ranges_, &sphere_ranges_, &line_ranges_, &marker_ranges_}) {
       if (ranges->range(part, opaque, ObjectChoice::all).count > 0) return true;
@@ -141,9 +153,10 @@ bool ObjectPass::has(ObjectPart part) const {
 int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice,
                      double hiding_radius_m) {
   if (!has(part)) return 0;
+  const float bias = part == ObjectPart::above_ground ? kGroundBias : 0.0F;
   for (const gl::Program* program : {&fill_, &sphere_, &line_, &marker_}) {
     glProgramUniform2f(program->name(), kViewportUniform, float(viewport.width_px), float(viewport.height_px));
-    glProgramUniform1f(program->name(), kBiasUniform, part == ObjectPart::above_ground ? kGroundBias : 0.0F);
+    glProgramUniform1f(program->name(), kBiasUniform, bias);
   }
   for (const gl::Program* program : {&sphere_, &marker_}) {
     glProgramUniform1f(program->name(), kHidingUniform, static_cast<float>(hiding_radius_m));
@@ -160,12 +173,13 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
   }
   for (const bool opaque : {true, false}) {
     glDepthMask(opaque ? GL_TRUE : GL_FALSE);
+    if (meshes_) calls += meshes_->draw(part, opaque, choice, bias);
     calls += draw_spheres(part, opaque, choice, frame, viewport, hiding_radius_m);
     calls += draw_lines(part, opaque, choice);
     calls += draw_dots(marker_ranges_, marker_array_, marker_, part, opaque, choice);
   }
   if (labels_) {
-    calls += labels_->draw(part, choice, viewport, part == ObjectPart::above_ground ? kGroundBias : 0.0F);
+    calls += labels_->draw(part, choice, viewport, bias);
   }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

@@ -7,6 +7,7 @@
 #include "render/frame_block.h"
 #include "render/gl_handle.h"
 #include "render/label_pass.h"
+#include "render/mesh_pass.h"
 #include "render/splat_pass.h"
 #include "scene/object_batches.h"
 #include "scene/render_modes.h"
@@ -16,7 +17,8 @@ namespace terrella {
 /// How opaque spheres are drawn: many on software GL by way of a picture in memory, else each as a triangle.
 enum class SpherePath { automatic, triangles, splats };
 
-/// Draws the objects of a scene: areas, spheres, lines, markers. Everything is drawn relative to the eye. thread: main
+/// Draws the objects of a scene: areas, spheres, meshes, lines, markers. Everything is drawn relative to the eye.
+/// thread: main
 class ObjectPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth,
@@ -33,6 +35,8 @@ class ObjectPass {
   void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
   /// In place of those before; the program for labels is made with the first.
   Status set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
+  /// In place of those before; the program for meshes is made with the first.
+  Status set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   /// Chooses the labels of a frame; none until it is called.
   void place_labels(const View& view, const LabelSight& sight) {
     if (labels_) labels_->place(view, sight);
@@ -44,9 +48,9 @@ class ObjectPass {
   /// do not; whatever lies over or on the ground is drawn a little towards the eye, what lies under it is not. Leaves
   /// blending and face culling off and the depth mask on. Returns the draw calls made: at most one for each of areas,
   /// spheres, lines and markers, opaque and translucent, and one more where spheres are drawn by way of memory and some
-  /// are too wide for that. Where the caller knows of an opaque sphere around the planet's centre, `hiding_radius_m`,
-  /// which the eye is outside of, spheres and markers in and behind it are not even begun: on software GL they would
-  /// cost as much as those in sight.
+  /// are too wide for that, and those of MeshPass::draw(). Where the caller knows of an opaque sphere around the
+  /// planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and markers in and behind it are not even
+  /// begun: on software GL they would cost as much as those in sight.
   int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
            double hiding_radius_m = 0.0);
 
@@ -70,6 +74,7 @@ class ObjectPass {
   DepthMode depth_ = DepthMode::reversed;
   std::vector<std::byte> font_;
   std::unique_ptr<LabelPass> labels_;
+  std::unique_ptr<MeshPass> meshes_;
   bool has_labels_above_ = false, has_labels_underground_ = false;
   bool splat_ = false;
   std::size_t fewest_splats_ = 0;

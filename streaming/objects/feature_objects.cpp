@@ -101,7 +101,13 @@ class GeometryReader {
     if (!place) return place.error();
     PointObject point = style_.point;
     point.place = *place;
-    scene_.points.push_back(point);
+    if (style_.mesh.model) {
+      MeshObject mesh = style_.mesh;
+      mesh.place = *place;
+      scene_.meshes.push_back(std::move(mesh));
+    } else {
+      scene_.points.push_back(point);
+    }
     if (style_.label.text.empty()) return Done{};
     LabelObject label = style_.label;
     label.place = *place;

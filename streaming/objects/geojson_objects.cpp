@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "streaming/objects/feature_objects.h"
+#include "streaming/objects/model_shelf.h"
 #include "streaming/objects/quake_catalogue.h"
 #include "streaming/preload/geojson_text.h"
 
@@ -22,7 +23,8 @@ struct TooMuch : std::exception {};
 /// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
 class FeatureTaker {
  public:
-  FeatureTaker(std::string where, ObjectFile& file) : where_(std::move(where)), file_(file) {}
+  FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectFile& file)
+      : where_(std::move(where)), models_(folder), file_(file) {}
 
   /// What the parser asks after each piece: keep it? Depth 0 is the document, 1 its members, 2 the features.
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
@@ -50,6 +52,7 @@ class FeatureTaker {
     const auto properties = feature.find("properties");
     ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
     if (quakes_) style_quake(feature, style);
+    if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
     add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,
                  complain);
   }
@@ -66,6 +69,7 @@ class FeatureTaker {
 
  private:
   std::string where_;
+  ModelShelf models_;
   ObjectFile& file_;
   std::string member_;
   std::size_t count_ = 0;
@@ -90,9 +94,10 @@ Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
 
 }  // namespace
 
-Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where) {
+Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
+                                         const std::filesystem::path& folder) {
   ObjectFile file;
-  FeatureTaker taker(where, file);
+  FeatureTaker taker(where, folder, file);
   const auto broken = [&](const std::string& what) -> Result<ObjectFile> {
     if (file.scene.empty()) return Error{fmt::format("{}: {}", where, what)};
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
@@ -123,7 +128,7 @@ Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path) {
   }
   std::ifstream text(path, std::ios::binary);
   if (!text) return Error{fmt::format("{}: it cannot be opened", path.string())};
-  return parse_geojson_objects(text, path.string());
+  return parse_geojson_objects(text, path.string(), path.has_parent_path() ? path.parent_path() : ".");
 }
 
 }  // namespace terrella

@@ -27,13 +27,14 @@ struct ObjectFile {
 
 /// The objects of GeoJSON (RFC 7946): all its geometries; longitude, latitude, and metres over the ellipsoid, negative
 /// under it. Properties: simplestyle's marker-color, marker-size, stroke, stroke-width, stroke-opacity, fill,
-/// fill-opacity, title; radius_m makes a Point a sphere; through_surface. See streaming/objects/README.md, also for
-/// catalogues of earthquakes, whose third coordinate is a depth in kilometres.
+/// fill-opacity, title; radius_m makes a Point a sphere, model a glTF model; through_surface. See
+/// streaming/objects/README.md, also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
 ///
 /// A geometry that is wrong is left out with a complaint; a property that is wrong is as if it were not there, with a
 /// complaint. Where the text ends being JSON, what came before stays. It is an error if nothing was read at all.
-/// `where` (a path) begins each message. thread: any
-[[nodiscard]] Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where);
+/// `where` (a path) begins each message; models are looked for in `folder`, and not read if it is empty. thread: any
+[[nodiscard]] Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
+                                                       const std::filesystem::path& folder = {});
 /// The same from a file.
 [[nodiscard]] Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path);
 

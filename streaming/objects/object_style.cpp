@@ -98,7 +98,7 @@ std::optional<ObjectColor> read_color(std::string_view text) {
 }
 
 ObjectStyle read_object_style(const json& properties, const Complain& complain) {
-  constexpr double kMostRadius_m = 1.0e9, kMostWidth_px = 256.0;
+  constexpr double kMostRadius_m = 1.0e9, kMostWidth_px = 256.0, kLeastScale = 1.0e-6, kMostScale = 1.0e6;
   const StyleReader reader(properties, complain);
   ObjectStyle style;
   set_color(style.point.color, reader.color("marker-color"));
@@ -115,7 +115,13 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   set_color(style.polygon.fill, reader.color("fill"));
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
   const bool through = reader.flag("through_surface");
-  style.point.through_surface = style.line.through_surface = style.polygon.through_surface = through;
+  style.model = reader.text("model");
+  if (!style.model.empty()) {  // others may mean something else by these names
+    if (const auto scale = reader.number("scale", kLeastScale, kMostScale)) style.mesh.scale = *scale;
+    if (const auto heading = reader.number("heading_deg", -360.0, 360.0)) style.mesh.heading = Angle::degrees(*heading);
+  }
+  style.mesh.through_surface = style.point.through_surface = style.line.through_surface =
+      style.polygon.through_surface = through;
   style.label.text = reader.text("title");
   if (style.label.text.empty()) style.label.text = reader.text("name");
   if (const auto priority = reader.number("label-priority", -1e9, 1e9)) style.label.priority = *priority;

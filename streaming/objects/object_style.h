@@ -15,6 +15,8 @@ struct ObjectStyle {
   LineObject line;        ///< all but its places
   PolygonObject polygon;  ///< all but its rings
   LabelObject label;      ///< its text, empty for none, and priority
+  std::string model;      ///< the file of a point's model; empty: none
+  MeshObject mesh;        ///< all but its place; without a model the point is drawn
 };
 
 /// Told of each property that is wrong.

@@ -11,6 +11,7 @@
 #include "streaming/cut/gray16_png.h"
 #include "streaming/image.h"
 #include "streaming/tileset_json.h"
+#include "support/model_file.h"
 
 namespace {
 
@@ -24,6 +25,27 @@ void write(const fs::path& path, std::string_view text) {
 
 void write(const fs::path& path, const std::vector<std::byte>& bytes) {
   write(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// A box as .glb with a picture in its buffer, and as .gltf with its buffer in the text and nodes that turn it.
+void write_models(const fs::path& folder) {
+  test::ModelFixture box = test::box_model<std::uint8_t>({-1, 0, -1}, {1, 2, 1}, {1.0, 0.5, 0.0, 1.0});
+  write(folder / "plain.glb", box.bytes());
+  const auto png = encode_png({1, 1, {9, 99, 199, 255}});
+  box.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", box.buffer.size()}, {"byteLength", png->size()}});
+  box.buffer.append(reinterpret_cast<const char*>(png->data()), png->size());
+  box.buffer.resize((box.buffer.size() + 3) / 4 * 4);
+  box.json["images"] = {{{"bufferView", 2}, {"mimeType", "image/png"}}};
+  box.json["textures"] = {{{"source", 0}}};
+  box.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  write(folder / "picture.glb", box.bytes());
+  write(
+      folder / "a.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"rotation":[0,0,1,0]},)"
+      R"({"mesh":0,"scale":[1,2,3]}],"meshes":[{"primitives":[{"mode":5,"attributes":{"POSITION":0}}]}],"accessors":)"
+      R"([{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+      R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
 }
 
 Image picture(std::uint8_t alpha) {
@@ -185,6 +207,7 @@ int main(int argc, char** argv) {
       R"("coordinates":[170,10,35]}},{"type":"Feature","properties":null,"geometry":{"type":"GeometryCollection",)"
       R"("geometries":[{"type":"MultiLineString","coordinates":[[[170,10],[-170,80]]]},{"type":"Polygon",)"
       R"("coordinates":[[[170,10],[-170,10],[0,80],[170,10]],[[1,2],[2,2],[2,3],[1,2]]]}]}}]})");
+  write_models(folder / "gltf");
   const std::string ours =
       std::string(kTables) +
       "CREATE TABLE terrella_tileset (key, value); INSERT INTO terrella_tileset VALUES "

@@ -66,6 +66,7 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   pass_->set_objects(scene, ellipsoid_);
   EXPECT_TRUE(pass_->set_labels(scene.labels, ellipsoid_));
+  EXPECT_TRUE(pass_->set_meshes(scene.meshes, ellipsoid_));
   pass_->place_labels(view, label_sight_);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {

@@ -1,0 +1,156 @@
+#include "render/mesh_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include "render/shader_library.h"
+#include "render/vertex_attribute.h"
+#include "scene/patch_mesh.h"
+
+namespace terrella {
+namespace {
+
+constexpr GLint kMeshBiasUniform = 1;
+constexpr GLint kMeshColorUniform = 3;
+constexpr GLint kMeshCutoffUniform = 4;
+constexpr GLuint kStandBinding = 1;
+
+gl::Texture texture_of(const std::uint8_t* rgba, int width_px, int height_px) {
+  gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
+  const int levels = 1 + static_cast<int>(std::log2(std::max(width_px, height_px)));
+  glTextureStorage2D(texture.name(), levels, GL_SRGB8_ALPHA8, width_px, height_px);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  glGenerateTextureMipmap(texture.name());
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  return texture;
+}
+
+template <class T>
+gl::Buffer kept(const std::vector<T>& items) {
+  gl::Buffer buffer = gl::make_buffer();
+  if (!items.empty()) {
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(items.size() * sizeof(T)), items.data(), 0);
+  }
+  return buffer;
+}
+
+/// Of a model's x (left), y (up) and z (forward) at its place, as long as a metre of the model.
+std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
+  const double sin_lat = std::sin(mesh.place.lat.rad()), cos_lat = std::cos(mesh.place.lat.rad());
+  const double sin_lon = std::sin(mesh.place.lon.rad()), cos_lon = std::cos(mesh.place.lon.rad());
+  const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat), east(-sin_lon, cos_lon, 0.0);
+  const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
+  const double s = std::sin(mesh.heading.rad()), c = std::cos(mesh.heading.rad());
+  const glm::dvec3 forward = s * east + c * north, left = s * north - c * east;
+  return {glm::vec3(mesh.scale * left), glm::vec3(mesh.scale * up), glm::vec3(mesh.scale * forward)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
+  auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.vert"}},
+                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.frag"}}},
+                             {depth_define(depth)});
+  if (!built) return built.error();
+  std::unique_ptr<MeshPass> pass(new MeshPass);
+  pass->program_ = std::move(*built);
+  constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
+  pass->white_ = texture_of(kWhite.data(), 1, 1);
+  return pass;
+}
+
+MeshPass::Part MeshPass::upload(const MeshPart& part, GLuint stands) {
+  Part made;
+  made.vertices = kept(part.vertices);
+  made.indices = kept(part.indices);
+  made.count = static_cast<GLsizei>(part.indices.size());
+  made.color_linear = part.color_linear;
+  made.cutoff = part.cutoff;
+  made.translucent = part.translucent;
+  made.array = gl::make_vertex_array();
+  const GLuint array = made.array.name();
+  gl::float_attribute(array, 0, 0, 3, offsetof(MeshVertex, position_m));
+  gl::float_attribute(array, 1, 0, 3, offsetof(MeshVertex, normal));
+  gl::float_attribute(array, 2, 0, 2, offsetof(MeshVertex, uv));
+  gl::float_attribute(array, 3, 0, 4, offsetof(MeshVertex, color_linear));
+  gl::float_attribute(array, 4, kStandBinding, 3, offsetof(Stand, high_m));
+  gl::float_attribute(array, 5, kStandBinding, 3, offsetof(Stand, low_m));
+  for (GLuint k = 0; k < 3; ++k) {
+    gl::float_attribute(array, 6 + k, kStandBinding, 3, offsetof(Stand, ecef_from_model) + k * sizeof(glm::vec3));
+  }
+  glVertexArrayVertexBuffer(array, 0, made.vertices.name(), 0, sizeof(MeshVertex));
+  glVertexArrayVertexBuffer(array, kStandBinding, stands, 0, sizeof(Stand));
+  glVertexArrayBindingDivisor(array, kStandBinding, 1);
+  glVertexArrayElementBuffer(array, made.indices.name());
+  return made;
+}
+
+void MeshPass::set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid) {
+  models_.clear();
+  std::map<const MeshModel*, std::array<std::vector<Stand>, Batch<char>::kBuckets>> stands_of;
+  for (const MeshObject& mesh : meshes) {
+    if (!mesh.model) continue;
+    const ObjectPart part = is_underground(mesh) ? ObjectPart::underground : ObjectPart::above_ground;
+    const SplitPosition p = split_position(ellipsoid.to_ecef(mesh.place).xyz_m);
+    stands_of[mesh.model.get()][Batch<char>::bucket(part, true, mesh.through_surface)].push_back(
+        {p.high, p.low, axes_of(mesh)});
+  }
+  for (const auto& [model, buckets] : stands_of) {
+    Model made;
+    std::vector<Stand> all;
+    for (std::size_t k = 0; k < buckets.size(); ++k) {
+      made.ranges.first[k] = all.size();
+      all.insert(all.end(), buckets[k].begin(), buckets[k].end());
+    }
+    made.ranges.first.back() = all.size();
+    made.stands = kept(all);
+    std::map<const MeshTexture*, GLuint> textures;
+    for (const MeshPart& part : model->parts) {
+      made.parts.push_back(upload(part, made.stands.name()));
+      made.parts.back().texture = white_.name();
+      if (!part.texture) continue;
+      const auto [found, first] = textures.try_emplace(part.texture.get(), 0);
+      if (first) {
+        made.textures.push_back(texture_of(part.texture->rgba.data(), part.texture->width_px, part.texture->height_px));
+        found->second = made.textures.back().name();
+      }
+      made.parts.back().texture = found->second;
+    }
+    models_.push_back(std::move(made));
+  }
+}
+
+bool MeshPass::has(ObjectPart part) const {
+  for (const Model& model : models_) {
+    if (model.ranges.range(part, true, ObjectChoice::all).count > 0) return true;
+  }
+  return false;
+}
+
+int MeshPass::draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const {
+  glProgramUniform1f(program_.name(), kMeshBiasUniform, depth_bias);
+  int calls = 0;
+  for (const Model& model : models_) {
+    const auto range = model.ranges.range(part, true, choice);
+    if (range.count == 0) continue;
+    for (const Part& made : model.parts) {
+      if (made.translucent == opaque) continue;
+      glUseProgram(program_.name());
+      glUniform4f(kMeshColorUniform, made.color_linear.x, made.color_linear.y, made.color_linear.z,
+                  made.color_linear.w);
+      glUniform2f(kMeshCutoffUniform, made.cutoff, made.translucent ? 1.0F : 0.0F);
+      glBindTextureUnit(0, made.texture);
+      glBindSampler(0, 0);
+      glBindVertexArray(made.array.name());
+      glDrawElementsInstancedBaseInstance(GL_TRIANGLES, made.count, GL_UNSIGNED_INT, nullptr,
+                                          static_cast<GLsizei>(range.count), static_cast<GLuint>(range.first));
+      ++calls;
+    }
+  }
+  return calls;
+}
+
+}  // namespace terrella

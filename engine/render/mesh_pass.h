@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "geo/ellipsoid.h"
+#include "geo/objects.h"
+#include "geo/result.h"
+#include "render/gl_handle.h"
+#include "scene/object_batches.h"
+#include "scene/render_modes.h"
+
+namespace terrella {
+
+/// Draws triangle meshes: each model is kept once, and drawn once for all the places where it stands. thread: main
+class MeshPass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<MeshPass>> create(DepthMode depth);
+
+  /// In place of those before. Those without a model are left out.
+  void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
+  [[nodiscard]] bool has(ObjectPart part) const;
+  /// State as for ObjectPass::draw(), blending on and the depth mask as `opaque` has it. Returns the draw calls made:
+  /// one for each material of each model.
+  [[nodiscard]] int draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const;
+
+ private:
+  /// Where a model stands: positions as PatchVertex has them, and the model's axes in metres.
+  struct Stand {
+    glm::vec3 high_m, low_m;
+    std::array<glm::vec3, 3> ecef_from_model;
+  };
+  struct Part {
+    gl::VertexArray array;
+    gl::Buffer vertices, indices;
+    GLuint texture = 0;  ///< of the model's, or white_
+    GLsizei count = 0;
+    glm::vec4 color_linear;
+    float cutoff = 0.0F;
+    bool translucent = false;
+  };
+  struct Model {
+    std::vector<Part> parts;
+    std::vector<gl::Texture> textures;
+    gl::Buffer stands;
+    Batch<char> ranges;  ///< all of them opaque: a part says whether it is
+  };
+
+  MeshPass() = default;
+  [[nodiscard]] static Part upload(const MeshPart& part, GLuint stands);
+
+  gl::Program program_;
+  gl::Texture white_;
+  std::vector<Model> models_;
+};
+
+}  // namespace terrella

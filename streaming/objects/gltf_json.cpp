@@ -1,0 +1,65 @@
+#include "streaming/objects/gltf_json.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMostGltfDepth = 64;
+constexpr std::size_t kMostGltfValues = 4'000'000;
+
+struct BadGltfJson : std::exception {};
+
+/// The text of a binary file's first chunk.
+Result<std::string_view> first_chunk(std::string_view file) {
+  constexpr std::size_t kHeader = 20, kLengthAt = 12, kChunkHeader = 8;
+  const auto length_at = [file](std::size_t offset) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + offset, sizeof length);
+    return std::size_t(length);
+  };
+  if (file.size() < kHeader) return Error{"a binary glTF file of fewer than 20 bytes"};
+  const std::size_t length = length_at(kLengthAt);
+  if (length > file.size() - kHeader) return Error{"a binary glTF file that breaks off in its JSON"};
+  const std::size_t next = kHeader + length;
+  if (file.size() - next >= kChunkHeader && length_at(next) > file.size() - next - kChunkHeader) {
+    return Error{"a binary glTF file that breaks off in its buffer"};
+  }
+  return file.substr(kHeader, length);
+}
+
+}  // namespace
+
+Result<json> gltf_json(std::span<const std::byte> bytes) {
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("glTF")) {
+    const auto chunk = first_chunk(text);
+    if (!chunk) return chunk.error();
+    text = *chunk;
+  }
+  std::size_t values = 0;
+  try {
+    json document = json::parse(text, [&values](int depth, json::parse_event_t, const json&) {
+      if (depth > kMostGltfDepth || ++values > kMostGltfValues) throw BadGltfJson();
+      return true;
+    });
+    if (!document.is_object() || !document.contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
+    return document;
+  } catch (const json::parse_error& problem) {
+    return Error{fmt::format("not JSON at byte {}; a .gltf or .glb file is needed", problem.byte)};
+  } catch (const json::exception&) {
+    return Error{"a number in it is too large"};
+  } catch (const BadGltfJson&) {
+    return Error{fmt::format("its JSON is deeper than {} or has more than {} values", kMostGltfDepth, kMostGltfValues)};
+  }
+}
+
+}  // namespace terrella

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+
+#include "geo/objects.h"
+#include "geo/result.h"
+#include "streaming/objects/gltf_accessor.h"
+
+namespace terrella {
+
+/// The pictures of a glTF model, PNG or JPEG, each decoded once, when it is first asked for. thread: one
+class GltfTextures {
+ public:
+  GltfTextures(const tinygltf::Model& model, const GltfAccessors& accessors);
+
+  [[nodiscard]] Result<std::shared_ptr<const MeshTexture>> get(int texture);
+
+ private:
+  Result<std::shared_ptr<const MeshTexture>> decode(int image);
+
+  const tinygltf::Model& model_;
+  const GltfAccessors& accessors_;
+  std::map<int, Result<std::shared_ptr<const MeshTexture>>> decoded_;  ///< by image
+  std::size_t left_bytes_;
+};
+
+}  // namespace terrella
