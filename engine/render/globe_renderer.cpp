@@ -45,7 +45,7 @@ Status GlobeRenderer::set_objects(const ObjectScene& scene) {
     objects_->set_label_font(std::move(label_font_));
   }
   objects_->set_objects(scene, tree_.ellipsoid());
-  if (const Status set = objects_->set_meshes(scene.meshes, tree_.ellipsoid()); !set) return set;
+  if (Status set = objects_->set_meshes(scene.meshes, tree_.ellipsoid()); !set) return set;
   return objects_->set_labels(scene.labels, tree_.ellipsoid());
 }
 
