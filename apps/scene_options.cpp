@@ -1,5 +1,7 @@
 #include "apps/scene_options.h"
 
+#include <fmt/format.h>
+
 #include <map>
 
 #include "apps/option_checks.h"
@@ -118,7 +120,9 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
 Result<UtcTime> parse_time(std::string_view text) {
   Result<UtcTime> time = parse_utc(text);
   if (!time) return time;
-  if (const Result<Almanac> almanac = almanac_at(*time); !almanac) return almanac.error();
+  if (const Result<Almanac> almanac = almanac_at(*time); !almanac) {
+    return Error{fmt::format("{}: {}", text, almanac.error().message)};
+  }
   return time;
 }
 
