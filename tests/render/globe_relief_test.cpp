@@ -83,7 +83,7 @@ TEST_F(GlobeRelief, MountainsStandAgainstTheSkyWhereRaysMeetThem) {
 }
 
 TEST_F(GlobeRelief, HasNoCrackFromAThousandRandomCamerasHoweverExaggerated) {
-  constexpr Viewport kSmall{32, 32};
+  constexpr Viewport kTiny{32, 32};
   Draw draw(61);
   int cameras = 0;
   for (const double exaggeration : {1.0, 2.0, 3.5, 5.0, 7.5, 10.0, 12.0, 15.0, 18.0, 20.0}) {
@@ -95,12 +95,12 @@ TEST_F(GlobeRelief, HasNoCrackFromAThousandRandomCamerasHoweverExaggerated) {
     for (int k = 0; k < 100 && !HasFailure(); ++k, ++cameras) {
       const Camera camera = random_camera(draw, 1.1 * top_m, 5.0e7);
       globe->set_camera(camera);
-      settle(*globe, kSmall);
-      const View view = globe->view(kSmall);
+      settle(*globe, kTiny);
+      const View view = globe->view(kTiny);
       const Picture seen = picture();
       int holes = 0;
-      for (int y = 0; y < kSmall.height_px; ++y) {
-        for (int x = 0; x < kSmall.width_px; ++x) {
+      for (int y = 0; y < kTiny.height_px; ++y) {
+        for (int x = 0; x < kTiny.width_px; ++x) {
           const EcefDir ray = pixel_ray(view, glm::dvec2(x + 0.5, y + 0.5));
           if (lowest.intersect_m(view.eye, ray) && seen.at(x, y)[0] < 100) ++holes;
         }
