@@ -15,7 +15,7 @@ set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/terrella)
 install(DIRECTORY engine/geo engine/scene engine/render streaming DESTINATION ${include_dir} FILES_MATCHING PATTERN *.h)
 install(FILES engine/globe.h DESTINATION ${include_dir}/engine)
 
-configure_package_config_file(cmake/TerrellaConfig.cmake.in ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake
+configure_package_config_file(engine/package/TerrellaConfig.cmake.in ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/TerrellaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake ${PROJECT_BINARY_DIR}/TerrellaConfigVersion.cmake
