@@ -1,23 +1,44 @@
-# The libraries, their headers and a package description: find_package(Terrella) and link Terrella::terrella.
+# The libraries, their public headers and two descriptions of the package: for find_package(Terrella) and for pkg-config.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Terrella)
-set(libraries terrella_geo terrella_scene terrella_streaming terrella_cut terrella_shaders terrella_render terrella)
-foreach(library IN LISTS libraries)
-  if(TARGET ${library})
-    install(TARGETS ${library} EXPORT TerrellaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  endif()
-endforeach()
-install(EXPORT TerrellaTargets NAMESPACE Terrella:: DESTINATION ${package_dir})
+set(data_dir ${CMAKE_INSTALL_DATADIR}/terrella)
 
-# Installed as they lie in the source: includes read the same in both.
-set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/terrella)
-install(DIRECTORY engine/geo engine/scene engine/render streaming DESTINATION ${include_dir} FILES_MATCHING PATTERN *.h)
-install(FILES engine/globe.h DESTINATION ${include_dir}/engine)
+# A component is a set of libraries that is found as a whole: Terrella::terrella, Terrella::streaming, Terrella::cut.
+function(terrella_component component)
+  foreach(library IN LISTS ARGN)
+    string(REPLACE "terrella_" "" name ${library})
+    set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+    add_library(Terrella::${name} ALIAS ${library})
+  endforeach()
+  install(TARGETS ${ARGN} EXPORT Terrella_${component}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT Terrella_${component} NAMESPACE Terrella:: DESTINATION ${package_dir} COMPONENT development)
+endfunction()
+terrella_component(streaming terrella_geo terrella_streaming)
+terrella_component(cut terrella_cut)
+terrella_component(globe terrella_scene terrella_shaders terrella_render terrella)
 
-configure_package_config_file(engine/package/TerrellaConfig.cmake.in ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake
-  INSTALL_DESTINATION ${package_dir})
+# cmake --install --strip and cpack: of static libraries CMake strips nothing by itself.
+install(CODE "
+  if(CMAKE_INSTALL_DO_STRIP)
+    file(GLOB libraries \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libterrella*.a\")
+    execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \${libraries} COMMAND_ERROR_IS_FATAL ANY)
+  endif()" COMPONENT development)
+
+install(CODE "
+  set(TERRELLA_SOURCE \"${PROJECT_SOURCE_DIR}\")
+  set(TERRELLA_INCLUDE_DIR \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/terrella\")" COMPONENT development)
+install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_headers.cmake COMPONENT development)
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/TerrellaConfig.cmake.in ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake
+  INSTALL_DESTINATION ${package_dir} PATH_VARS data_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/TerrellaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake ${PROJECT_BINARY_DIR}/TerrellaConfigVersion.cmake
-  DESTINATION ${package_dir})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/terrella)
+  DESTINATION ${package_dir} COMPONENT development)
+
+file(RELATIVE_PATH pc_prefix /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/terrella.pc.in ${PROJECT_BINARY_DIR}/terrella.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/terrella.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+include(${CMAKE_CURRENT_LIST_DIR}/Debian.cmake)

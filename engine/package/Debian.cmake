@@ -1,0 +1,32 @@
+# cpack -G DEB: terrella, the program with its data, and libterrella-dev, what other programs are built with.
+set(CPACK_PACKAGE_NAME terrella)
+set(CPACK_PACKAGE_VENDOR "Terrella developers")
+set(CPACK_PACKAGE_CONTACT "Terrella developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_COMPONENTS_ALL program development)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME terrella)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# What is opened at run time alone: shlibdeps does not see it.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl-mesa0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS gnuplot-nox)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Looks at the Earth, or at any planet that there is an equirectangular picture of, of any size.
+Cuts pictures into tiles, streams tiles from servers and fills caches with them.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrella-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libcurl4-openssl-dev, libepoxy-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libglm-dev, libglu1-mesa-dev, "
+  "libjpeg62-turbo-dev, libpng-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, "
+  "nlohmann-json3-dev, pkg-config, zlib1g-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS terrella)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The globe as a C++20 library: static libraries, headers, CMake and pkg-config descriptions.")
+
+include(CPack)

@@ -1,0 +1,50 @@
+# What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
+set(TERRELLA_PUBLIC_HEADERS
+  engine/globe.h
+  engine/geo/great_circle.h
+  engine/render/offscreen.h
+  engine/scene/graticule.h
+  engine/scene/navigation.h
+  engine/scene/star_catalogue.h
+  streaming/cache/tile_cache.h
+  streaming/cut.h
+  streaming/image.h
+  streaming/objects/geojson_objects.h
+  streaming/preload/preloader.h
+  streaming/remote/describe_remote.h
+  streaming/remote/grid_check.h
+  streaming/remote/remote_source.h
+  streaming/tile_source.h)
+
+# Which header of the source tree an include of another means; empty: none of the project's.
+function(terrella_find_header source include out)
+  foreach(root engine/ "")
+    if(EXISTS ${source}/${root}${include})
+      set(${out} ${root}${include} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  set(${out} "" PARENT_SCOPE)
+endfunction()
+
+# All public headers, as paths in the source tree.
+function(terrella_public_headers source out)
+  set(found)
+  set(next ${TERRELLA_PUBLIC_HEADERS})
+  while(next)
+    list(POP_FRONT next header)
+    if(header IN_LIST found)
+      continue()
+    endif()
+    list(APPEND found ${header})
+    file(STRINGS ${source}/${header} includes REGEX "^#include \"")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" include "${line}")
+      terrella_find_header(${source} ${include} inner)
+      if(inner)
+        list(APPEND next ${inner})
+      endif()
+    endforeach()
+  endwhile()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
