@@ -1,0 +1,131 @@
+"""Installs the build to an empty prefix, moves it, and uses it where the source tree cannot be reached."""
+
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+BUILD = pathlib.Path(os.environ["TERRELLA_BUILD"])
+CMAKE = os.environ["CMAKE_COMMAND"]
+COMPILER = os.environ["CXX"]
+
+sys.path.insert(0, str(HERE.parent / "window"))
+import png  # noqa: E402
+
+# The eye of outside/main.cpp looks straight down on the first: it is in the middle of the picture, the other is behind the limb.
+QUAKES = """{"type": "FeatureCollection", "features": [
+  {"type": "Feature", "geometry": {"type": "Point", "coordinates": [170, -20]}, "properties": {"marker-color": "#ff00ff"}},
+  {"type": "Feature", "geometry": {"type": "Point", "coordinates": [-10, 20]}, "properties": {"marker-color": "#00ffff"}}
+]}"""
+
+
+def run(*command, **options):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, **options)
+    if done.returncode != 0:
+        raise AssertionError(f"{shlex.join(map(str, command))}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def hiding_source():
+    """What runs a command where an empty folder lies over the source tree; nothing where the machine forbids that."""
+    hide = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
+            f'mount -t tmpfs none {shlex.quote(str(SOURCE))} && exec "$@"', "sh"]
+    try:
+        return hide if subprocess.run([*hide, "true"], capture_output=True).returncode == 0 else []
+    except FileNotFoundError:
+        return []
+
+
+class PackageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = pathlib.Path(tempfile.mkdtemp(prefix="terrella-package-"))
+        cls.addClassCleanup(shutil.rmtree, cls.scratch)
+        run(CMAKE, "--install", BUILD, "--strip", "--prefix", cls.scratch / "first")
+        cls.prefix = cls.scratch / "moved/to here"
+        cls.prefix.parent.mkdir()
+        (cls.scratch / "first").rename(cls.prefix)
+        cls.quakes = cls.scratch / "quakes.geojson"
+        cls.quakes.write_text(QUAKES)
+        cls.hiding = hiding_source()
+
+    def run_outside(self, *command, **options):
+        return run(*self.hiding, *command, cwd=options.pop("cwd", "/"), **options)
+
+    def copy_project(self, name):
+        folder = self.scratch / name
+        shutil.copytree(HERE / "outside", folder)
+        return folder
+
+    def configure(self, folder, *options):
+        return self.run_outside(CMAKE, "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+                                *options)
+
+    def assert_picture(self, path):
+        width, height, rows = png.read(path)
+        self.assertEqual((width, height), (256, 256))
+        pixels = [tuple(row[3 * x : 3 * x + 3]) for row in rows for x in range(width)]
+        self.assertEqual(pixels[128 * width + 128], (255, 0, 255), "the earthquake under the eye")
+        self.assertNotIn((0, 255, 255), pixels, "the earthquake on the far side")
+        self.assertEqual(pixels[0], (0, 0, 0), "the sky")
+        self.assertGreater(len(set(pixels)), 1000, "colours of the Earth")
+
+    def test_find_package(self):
+        """A project outside the tree draws a picture."""
+        folder = self.copy_project("with-cmake")
+        self.configure(folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
+        self.run_outside(CMAKE, "--build", folder / "build")
+        self.assertNotIn(str(SOURCE), (folder / "build/compile_commands.json").read_text())
+        picture = folder / "earth.png"
+        self.run_outside(folder / "build/outside", self.prefix / "share/terrella/earth.gpkg", self.quakes, picture)
+        self.assert_picture(picture)
+
+    def test_pkg_config(self):
+        """The same sources by the flags of pkg-config."""
+        folder = self.copy_project("with-pkg-config")
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(self.prefix / "lib/pkgconfig")}
+        flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
+        self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
+        self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "outside", *flags, cwd=folder)
+
+    def test_no_path_of_the_source(self):
+        """What is installed as text names nothing of the machine that it was built on."""
+        texts = [p for p in self.prefix.rglob("*") if p.suffix in (".cmake", ".pc", ".h")]
+        self.assertGreater(len(texts), 10)
+        for path in texts:
+            self.assertNotIn(str(SOURCE), path.read_text(), path)
+
+    def test_what_is_not_there(self):
+        """A component or a version that is not there is named."""
+        for wish, says in (("0.1 REQUIRED COMPONENTS moon", "moon"), ("7.0 REQUIRED", "0.1.0")):
+            folder = self.scratch / f"asks for {says}"
+            folder.mkdir()
+            (folder / "CMakeLists.txt").write_text(
+                f"cmake_minimum_required(VERSION 3.25)\nproject(Asks LANGUAGES C)\nfind_package(Terrella {wish})\n")
+            with self.assertRaises(AssertionError) as refused:
+                self.configure(folder)
+            self.assertIn(says, str(refused.exception))
+
+    def test_debian_packages(self):
+        """The program runs from where its package is unpacked, and finds the Earth; both packages say what they need."""
+        run("cpack", "-G", "DEB", "-B", self.scratch / "deb", cwd=BUILD)
+        program, development = (next((self.scratch / "deb").glob(f"{name}_*.deb")) for name in ("terrella", "libterrella-dev"))
+        self.assertRegex(run("dpkg-deb", "--field", program, "Depends"), r"libegl1.*libcurl4.*libsqlite3-0")
+        self.assertRegex(run("dpkg-deb", "--field", development, "Depends"), r"libglm-dev")
+        self.assertEqual(run("dpkg-deb", "--field", program, "Maintainer"), "Terrella developers\n")
+        self.assertIn("usr/include/terrella/globe.h", run("dpkg-deb", "--contents", development))
+        run("dpkg-deb", "--extract", program, self.scratch / "root")
+        picture = self.scratch / "earth.png"
+        self.run_outside(self.scratch / "root/usr/bin/terrella", "render", "--unlit", "--size", "256x256", "--camera=-20,170,10000000",
+                         "--objects", self.quakes, "-o", picture, env={**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache")})
+        self.assert_picture(picture)
+
+
+if __name__ == "__main__":
+    unittest.main()
