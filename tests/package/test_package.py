@@ -24,6 +24,28 @@ QUAKES = """{"type": "FeatureCollection", "features": [
   {"type": "Feature", "geometry": {"type": "Point", "coordinates": [-10, 20]}, "properties": {"marker-color": "#00ffff"}}
 ]}"""
 
+CUTTER_CMAKE = """cmake_minimum_required(VERSION 3.25)
+project(Cutter LANGUAGES CXX)
+find_package(Terrella REQUIRED COMPONENTS cut streaming)
+if(TARGET Terrella::terrella)
+  message(FATAL_ERROR "nobody asked for the globe")
+endif()
+add_executable(cutter main.cpp)
+target_compile_features(cutter PRIVATE cxx_std_20)
+target_link_libraries(cutter PRIVATE Terrella::cut)
+"""
+CUTTER = """#include <terrella/streaming/cut.h>
+#include <cstdio>
+int main() {
+  terrella::CutOptions options;
+  options.images = {"nowhere.tif"};
+  options.output = "out.gpkg";
+  const auto done = terrella::cut(options);
+  if (done) return 1;
+  std::puts(done.error().message.c_str());
+}
+"""
+
 
 def run(*command, **options):
     done = subprocess.run([*map(str, command)], capture_output=True, text=True, **options)
@@ -85,6 +107,16 @@ class PackageTest(unittest.TestCase):
         picture = folder / "earth.png"
         self.run_outside(folder / "build/outside", self.prefix / "share/terrella/earth.gpkg", self.quakes, picture)
         self.assert_picture(picture)
+
+    def test_components(self):
+        """The cutter without the globe: nothing of OpenGL is looked for."""
+        folder = self.scratch / "cutter"
+        folder.mkdir()
+        (folder / "CMakeLists.txt").write_text(CUTTER_CMAKE)
+        (folder / "main.cpp").write_text(CUTTER)
+        self.configure(folder, "-DCMAKE_DISABLE_FIND_PACKAGE_Freetype=ON")
+        self.run_outside(CMAKE, "--build", folder / "build")
+        self.assertIn("nowhere.tif", self.run_outside(folder / "build/cutter"))
 
     def test_pkg_config(self):
         """The same sources by the flags of pkg-config."""
