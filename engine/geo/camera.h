@@ -38,7 +38,7 @@ struct View {
   double tan_half_fov_y;
   Viewport viewport;
   double shear_x = 0.0;       ///< off-axis: the slope, right of forward, that the picture's centre looks along
-  double eye_spread_m = 0.0;  ///< selection serves every eye that is no further from `eye` than this
+  double eye_spread_m = 0.0;  ///< two eyes stand this far to its right and left; selection serves both
   [[nodiscard]] double aspect() const { return double(viewport.width_px) / double(viewport.height_px); }
   /// Pixels that one radian covers at the picture's centre.
   [[nodiscard]] double pixels_per_radian() const { return 0.5 * viewport.height_px / tan_half_fov_y; }

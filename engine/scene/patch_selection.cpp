@@ -108,10 +108,29 @@ class Selector {
     return std::nullopt;
   }
 
+  // Heights stand on a patch as a column does. In a sphere around a high one the eye would be where it stands beside
+  // it, and every patch around would be as near as can be.
+  struct Column {
+    double radius_m;   ///< what lies in the patch lies no further from the axis
+    double to_axis_m;  ///< from the eye that is nearer
+  };
+  [[nodiscard]] Column column(const PatchNode& node) const {
+    const double half_m = node.relief.half_m;
+    const auto to_axis_m = [&](const glm::dvec3& eye) {
+      const glm::dvec3 from_center = eye - node.sphere.center_m;
+      const double along = std::clamp(glm::dot(from_center, node.normal), -half_m, half_m);
+      return glm::length(from_center - along * node.normal);
+    };
+    const glm::dvec3 beside = view_.eye_spread_m * view_.right;
+    // Normals spread, and the column's ends with them.
+    const double spread_m = half_m * 2.0 * node.relief.flat.radius_m / tree_.ellipsoid().b_m();
+    return {node.sphere.radius_m - half_m + spread_m,
+            std::min(to_axis_m(view_.eye.xyz_m - beside), to_axis_m(view_.eye.xyz_m + beside))};
+  }
+
   [[nodiscard]] double nearest_m(const PatchNode& node) const {
-    const double center = glm::length(node.sphere.center_m - view_.eye.xyz_m);
-    return std::max(
-        {center - node.sphere.radius_m - view_.eye_spread_m, 1e-3 * node.sphere.radius_m, least_distance_m_});
+    const Column c = column(node);
+    return std::max({c.to_axis_m - c.radius_m, 1e-3 * c.radius_m, least_distance_m_});
   }
 
   // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and
@@ -135,8 +154,8 @@ class Selector {
   [[nodiscard]] SelectedPatch assess(PatchNode& node) const {
     SelectedPatch patch;
     patch.node = &node;
-    const double center_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
-    const PixelOnGround pixel = pixel_on_ground(node, std::max(center_m - 0.7 * node.sphere.radius_m, nearest_m(node)));
+    const Column c = column(node);
+    const PixelOnGround pixel = pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, nearest_m(node)));
     const double texel0_m = texel_root_m_ * node.row_stretch;
     const bool near_pole = node.min_colatitude_rad < band_rad_;
     const double level = std::ceil(std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m) - 0.02);
@@ -208,8 +227,7 @@ class Selector {
     // Twice as far as what is nearest, the middle asks for one level less, or the texels where two patches meet would
     // be four pixels wide on one side.
     constexpr double kMostOverNearest = 2.0;
-    const double middle_m = glm::length(view_.eye.xyz_m - node.sphere.center_m);
-    return patch.tile_level < tree_.grid().max_level && middle_m > kMostOverNearest * nearest_m(node);
+    return patch.tile_level < tree_.grid().max_level && column(node).to_axis_m > kMostOverNearest * nearest_m(node);
   }
 
   [[nodiscard]] bool window_too_wide(const PatchNode& node, const SelectedPatch& patch) const {

@@ -29,8 +29,8 @@ FrameStats GlTest::draw(Globe& globe, Viewport size) {
 
 FrameStats GlTest::settle(Globe& globe, Viewport size) {
   resize(size);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  EXPECT_TRUE(globe.render_until_settled(target_->framebuffer(), size, deadline)) << "not settled after a minute";
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(3);
+  EXPECT_TRUE(globe.render_until_settled(target_->framebuffer(), size, deadline)) << "not settled after three minutes";
   return globe.render(target_->framebuffer(), size);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "patch_test_support.h"
+#include "relief_test_support.h"
 #include "scene/stereo.h"
 
 namespace terrella::test {
@@ -209,6 +210,27 @@ TEST(PatchSelection, GivesTheSameListWhateverWasSelectedBefore) {
       EXPECT_EQ(first[i].node->id, again[i].node->id);
       EXPECT_EQ(first[i].coarse_sides, again[i].coarse_sides);
       EXPECT_EQ(first[i].tile_level, again[i].tile_level);
+    }
+  }
+}
+
+// Where one tile of heights is there and its neighbours are not, a cliff stands between them; an eye among the heights,
+// or two, is within the bounds of all patches around.
+TEST(PatchSelection, ACliffBetweenHeightsThatCameAndThatDidNotIsNoRunaway) {
+  constexpr double kMost_m = 8000.0, kExaggeration = 20.0;
+  WavyGround wavy(kMost_m, kExaggeration, 24);
+  wavy.add_level(0);
+  for (const std::int64_t x : {0, 5, 6, 11}) wavy.add_tile({WavyGround::kLevel, x, 0});
+  PatchTree tree(wavy.body(), deep_grid(), 8);
+  tree.set_relief(wavy.relief());
+  StereoLook stereo;
+  std::vector<SelectedPatch> patches;
+  for (const double lat : {90.0, 80.0}) {
+    for (const double height_m : {1.0, 2.0e3, 2.0e5}) {
+      wavy.relief().set_mesh_budget(std::numeric_limits<int>::max());
+      const View eye = make_view(camera_at(lat, 3.0, height_m, 30, -20), wavy.body(), {64, 32});
+      select_patches(tree, stereo_eyes(eye, wavy.ground(), stereo).both, {}, patches);
+      EXPECT_LT(patches.size(), kRunaway / 10) << lat << " " << height_m;
     }
   }
 }

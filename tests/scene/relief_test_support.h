@@ -50,6 +50,7 @@ class WavyGround {
     }
   }
 
+  [[nodiscard]] Relief& relief() { return *relief_; }
   [[nodiscard]] Ground ground() const { return {body_, relief_.get()}; }
   [[nodiscard]] const Ellipsoid& body() const { return body_; }
 
