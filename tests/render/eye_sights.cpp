@@ -38,7 +38,7 @@ bool EyeSight::sees(const Color& color, const Color& expected, int tolerance) co
 std::vector<EyeSight> eye_sights(const Globe& globe, const Picture& picture) {
   const StereoLook& look = globe.options().stereo;
   Viewport size = picture.size;
-  if (look.mode == Stereo::side_by_side) size.width_px /= 2;
+  if (look.mode == Stereo::side_by_side) size.width_px = std::max(1, size.width_px / 2);
   const View middle = globe.view(size);
   if (look.mode == Stereo::off) return {{.name = "one eye", .picture = &picture, .view = middle}};
   const EyePair pair = stereo_eyes(middle, globe.ground(), look);
@@ -46,7 +46,9 @@ std::vector<EyeSight> eye_sights(const Globe& globe, const Picture& picture) {
   right.view = pair.right;
   if (look.mode == Stereo::interlaced) left.rows_apart = right.rows_apart = 2;
   if (look.mode == Stereo::anaglyph) left.channels = {true, false, false};
-  return {left, right_eye_of(look.mode, right)};
+  right = right_eye_of(look.mode, right);
+  if (right.left_px >= picture.size.width_px) return {left};  // a picture of one column has none for the right eye
+  return {left, right};
 }
 
 Viewport picture_size(Stereo stereo, Viewport view) {
