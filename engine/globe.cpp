@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <random>
+#include <string>
 
 #include "render/globe_renderer.h"
 #include "scene/relief.h"
@@ -15,11 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSegments = 24;
 // Any day will do for stars without a time: noon of an equinox.
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
 constexpr int kMips = 4;
-constexpr int kGutter_px = 8;
 constexpr std::chrono::milliseconds kPoll{20};
 constexpr std::size_t kMostLacking = 64;
 constexpr std::chrono::seconds kRetryFailed{30};
@@ -48,6 +47,23 @@ Status check_context() {
   return Done{};
 }
 
+// Said so that NaN is outside too.
+Status check_ranges(const GlobeOptions& o) {
+  if (!(o.texels_per_pixel >= 0.125 && o.texels_per_pixel <= 8.0)) {
+    return Error{"a globe's texels_per_pixel is from 0.125 to 8, not " + std::to_string(o.texels_per_pixel)};
+  }
+  if (!(o.max_error_px >= 0.01 && o.max_error_px <= 16.0)) {
+    return Error{"a globe's max_error_px is from 0.01 to 16, not " + std::to_string(o.max_error_px)};
+  }
+  if (o.segments < 2 || o.segments > 128 || o.segments % 2 != 0) {
+    return Error{"a globe's segments are an even number from 2 to 128, not " + std::to_string(o.segments)};
+  }
+  if (o.gutter_px < 0 || o.gutter_px > 64) {
+    return Error{"a globe's gutter_px is from 0 to 64, not " + std::to_string(o.gutter_px)};
+  }
+  return Done{};
+}
+
 // The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
   const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
@@ -62,10 +78,10 @@ struct Globe::Impl {
       : options(o),
         grid(grid_to_draw(o, imagery->info().grid)),
         roots(root_tiles(grid)),
-        layout{grid.tile_px, kGutter_px},
-        tree(o.body.ellipsoid, grid, kSegments),
+        layout{grid.tile_px, o.gutter_px},
+        tree(o.body.ellipsoid, grid, o.segments, o.mapping),
         tiles(grid, layout, kMips, o.gpu_bytes),
-        loader(std::move(imagery), {.workers = o.workers, .gutter = kGutter_px, .mips = kMips}) {
+        loader(std::move(imagery), {.workers = o.workers, .gutter = o.gutter_px, .mips = kMips}) {
     if (!elevation) return;
     relief = std::make_unique<Relief>(o.body.ellipsoid, elevation->grid(), o.exaggeration);
     heights = std::make_unique<HeightLoader>(*elevation);
@@ -127,7 +143,8 @@ void Globe::Impl::select(Viewport viewport) {
     view = eyes->both;
   }
   PatchSelectionOptions selection;
-  selection.texels_per_pixel = detail;
+  selection.texels_per_pixel = options.texels_per_pixel * detail;
+  selection.max_error_px = options.max_error_px;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
   if (options.surface.inner_sphere_below_m) {
@@ -136,7 +153,7 @@ void Globe::Impl::select(Viewport viewport) {
   }
   select_patches(tree, view, selection, patches);
   if (patch_shuffle) std::shuffle(patches.begin(), patches.end(), std::mt19937(*patch_shuffle));
-  cover_with_tiles(tree, view, patches, tiles.residency(), frame, coverage);
+  cover_with_tiles(tree, view, patches, tiles.residency(), frame, coverage, selection.texels_per_pixel);
 }
 
 // Root tiles come first: an ancestor for everything.
@@ -287,6 +304,7 @@ Globe::~Globe() = default;
 
 Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options, std::shared_ptr<TileSource> imagery,
                                              std::optional<ElevationSource> elevation) {
+  if (const Status ranges = check_ranges(options); !ranges) return ranges.error();
   if (const Status context = check_context(); !context) return context.error();
   auto impl = std::make_unique<Impl>(options, std::move(imagery), elevation);
   RenderOptions render;

@@ -7,6 +7,7 @@
 
 #include "geo/body.h"
 #include "geo/camera.h"
+#include "geo/cube_sphere.h"
 #include "geo/objects.h"
 #include "geo/result.h"
 #include "scene/cube_picture.h"
@@ -28,6 +29,17 @@ struct GlobeOptions {
   /// Squeezed tiles near the poles, where the set has them and `texturing` is exact or automatic; else the full grid.
   bool squeezed_rows = true;
   int polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many tile columns, [1, 4096]
+  /// Detail asked of the imagery, [0.125, 8]: a texel is at most a pixel over this, along the meridian, as far as the
+  /// set goes. Tiles, bytes and memory grow with its square; `bench accuracy` has the curve.
+  double texels_per_pixel = 1.0;
+  /// Farthest that the ellipsoid may be drawn from where it is, and what is interpolated from its place, in pixels,
+  /// [0.01, 16]: a patch that would be further off is split.
+  double max_error_px = 0.2;
+  int segments = 24;  ///< a patch's side in triangles' edges: even, [2, 128]
+  CubeMapping mapping = CubeMapping::tangent;
+  /// Texels of the neighbours around a tile in its slot, [0, 64], mip k has 2^-k of them. 8 is as far as filtering
+  /// reaches; without any, tile borders show.
+  int gutter_px = 8;
   DepthMode depth = DepthMode::reversed;
   bool unlit = false;  ///< imagery alone: no light, no sky, black background
   SurfaceLook surface;
@@ -78,8 +90,8 @@ struct LackingTile {
 /// thread: main (the thread of the context) for every call.
 class Globe {
  public:
-  /// Fails if no context is current, it is older than 4.5, a shader does not compile, or the time is outside the
-  /// almanac's years.
+  /// Fails if no context is current, it is older than 4.5, a shader does not compile, the time is outside the
+  /// almanac's years, or detail, error, segments or gutter are outside their ranges.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});

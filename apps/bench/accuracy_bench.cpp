@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "apps/bench/benches.h"
+#include "apps/bench/accuracy_settings.h"
 #include "apps/bench/counting_source.h"
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/mesh_error.h"
@@ -22,70 +21,29 @@ namespace {
 
 using truth::ZoneError;
 
-/// One value of one parameter, the others at their defaults.
-struct Setting {
-  const char* sweep;
-  double value;
-  int segments = 24;
-  PatchSelectionOptions selection = {};
-  std::optional<GlobeOptions> globe = {};  ///< what is drawn as well; none: the mesh alone is looked at
-};
-
-struct AccuracyView {
-  const char* name;
-  truth::TruthCamera camera;
-};
-
-std::vector<AccuracyView> views_of(Effort effort) {
-  std::vector<AccuracyView> views = {{"mid latitude, 6000 km", {.eye = {30, 20, 6e6}}},
-                                     {"beside the pole, 6000 km", {.eye = {89.9, 0, 6e6}}}};
-  if (effort == Effort::quick) return views;
-  views.push_back({"beside the pole, 1500 km", {.eye = {88, 10, 1.5e6}}});
-  views.push_back({"low oblique, 300 km", {{46, 7, 3e5}, 30, -20, 45}});
-  if (effort == Effort::full) {
-    views.push_back({"four radii", {.eye = {20, 10, 3 * 6378137.0}}});
-    views.push_back({"pole, tilted 45°", {{80, 180, 1.2e6}, 0, -45, 40}});
-  }
-  return views;
-}
-
-/// As the globe is by default; on the full grid, as the tile sets of others are, with this many columns at a pole.
-GlobeOptions drawn(std::optional<int> full_grid_columns) {
-  GlobeOptions options;
-  options.unlit = true;
-  options.upload_bytes_per_frame = options.gpu_bytes;
-  options.upload_time_per_frame = std::chrono::seconds(1);
-  options.squeezed_rows = !full_grid_columns;
-  if (full_grid_columns) options.polar_columns = *full_grid_columns;
-  return options;
-}
-
-std::vector<Setting> settings_of(Effort effort) {
-  std::vector<Setting> settings{{"default", kNoFigure}};
-  settings.back().globe = drawn(std::nullopt);
-  const bool quick = effort == Effort::quick;
-  for (const int n : quick ? std::vector{4, 24} : std::vector{4, 8, 16, 24, 32, 48, 64, 96, 128}) {
-    settings.push_back({"tessellation", static_cast<double>(n), n});
-  }
-  for (const double px : quick ? std::vector{0.2, 1.0} : std::vector{0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2}) {
-    settings.push_back({"threshold", px});
-    settings.back().selection.max_error_px = px;
-  }
-  for (const int columns : quick ? std::vector{32} : std::vector{8, 16, 32, 64, 128}) {
-    settings.push_back({"polar columns", static_cast<double>(columns)});
-    settings.back().selection.max_polar_columns = columns;
-    settings.back().globe = drawn(columns);
-  }
-  return settings;
-}
-
-/// What was found of one setting in one view; NaN: it was not drawn.
+/// What was found of one setting in one view.
 struct AccuracyFigures {
-  double ms = kNoFigure;
+  double selection_ms = 0.0, frame_ms = 0.0, frame_cpu_ms = 0.0;
   std::int64_t patches = 0, triangles = 0;
   MeshError mesh;
-  double tiles = kNoFigure, tile_mb = kNoFigure, rms = kNoFigure, rms_pole = kNoFigure;
+  std::int64_t tiles = 0;
+  double tile_mb = 0.0, gpu_mb = 0.0;
+  double rms = kNoFigure, rms_pole = kNoFigure, rms_elsewhere = kNoFigure, rms_borders = kNoFigure;
 };
+
+/// What tiles take on the GPU: their gutters and mips too.
+double slots_mb(const TileGrid& grid, int gutter_px, std::int64_t tiles) {
+  constexpr double kMipsOverFinest = 1.0 + 1.0 / 4 + 1.0 / 16 + 1.0 / 64, kBytesATexel = 4.0;
+  const double side = grid.tile_px + 2.0 * gutter_px;
+  return 1e-6 * kBytesATexel * kMipsOverFinest * side * side * static_cast<double>(tiles);
+}
+
+truth::Mask without(truth::Mask mask, const truth::Mask& other) {
+  for (std::size_t k = 0; k < mask.set.size(); ++k) mask.set[k] = mask.set[k] != 0 && other.set[k] == 0;
+  return mask;
+}
+
+double rms_of(const ZoneError& zone) { return zone.pixels == 0 ? kNoFigure : zone.rms; }
 
 class AccuracyLab {
  public:
@@ -107,9 +65,10 @@ class AccuracyLab {
         truth::cast_cached(planet_.source, {}, as_spheroid(earth().ellipsoid), view.camera,
                            {.width = side_px_, .height = side_px_, .rays_per_side = rays_}, truth_folder(options_));
     options_.progress(fmt::format("{}: drawing", view.name));
-    for (const Setting& setting : settings_of(options_.effort)) {
-      AccuracyFigures figures = select(setting, view.camera);
-      if (setting.globe) draw(*setting.globe, view.camera, truth, figures);
+    for (const AccuracySetting& setting : accuracy_settings(options_.effort)) {
+      AccuracyFigures figures;
+      select(setting.globe, view.camera, figures);
+      draw(setting.globe, view, truth, figures);
       add_row(report, view, setting, figures);
     }
   }
@@ -121,50 +80,63 @@ class AccuracyLab {
     return source.value()->info().grid;
   }
 
-  AccuracyFigures select(const Setting& setting, const truth::TruthCamera& camera) const {
-    PatchTree tree(earth().ellipsoid, grid_, setting.segments);
+  void select(const GlobeOptions& options, const truth::TruthCamera& camera, AccuracyFigures& figures) const {
+    TileGrid grid = grid_;
+    grid.reduced = grid.reduced && options.squeezed_rows;
+    PatchTree tree(earth().ellipsoid, grid, options.segments, options.mapping);
     const Camera eye = as_globe_camera(camera);
     const View view = make_view(eye, earth().ellipsoid, viewport_);
     std::vector<SelectedPatch> patches;
     std::vector<double> times_ms;
     for (int round = -1; round < rounds_; ++round) {  // the first makes the tree
       const auto start = std::chrono::steady_clock::now();
-      select_patches(tree, view, setting.selection, patches);
+      select_patches(tree, view, selection_of(options), patches);
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
       if (round >= 0) times_ms.push_back(took.count());
     }
-    AccuracyFigures figures;
-    figures.ms = median(times_ms);
+    figures.selection_ms = median(times_ms);
     figures.patches = static_cast<std::int64_t>(patches.size());
     figures.triangles = mesh_count(tree, view, patches).triangles;
     figures.mesh = mesh_error(tree, view, eye, patches, true);
-    return figures;
   }
 
   /// A globe made anew, so that what it reads is what this view takes.
-  void draw(const GlobeOptions& options, const truth::TruthCamera& camera, const truth::TruthImage& truth,
+  void draw(const GlobeOptions& options, const AccuracyView& view, const truth::TruthImage& truth,
             AccuracyFigures& figures) {
     auto opened = open_tile_set(planet_.tiles);
     if (!opened) throw std::runtime_error(opened.error().message);
     const auto source = std::make_shared<CountingSource>(*std::move(opened));
     const auto globe = Globe::create(options, source);
     if (!globe) throw std::runtime_error(globe.error().message);
-    const FrameStats stats = settle(**globe, camera, target_, viewport_);
-    const truth::Picture shown = shot(target_, viewport_);
-    const ZoneError pole = truth::masked_error(shown, truth, truth::pole_band_mask(truth));
-    figures.rms = truth::masked_error(shown, truth, truth::clear_mask(truth)).rms;
-    figures.rms_pole = pole.pixels == 0 ? kNoFigure : pole.rms;
+    const FrameStats stats = settle(**globe, view.camera, target_, viewport_);
+    judge(shot(target_, viewport_), view, truth, figures);
     figures.tiles = stats.tiles_wanted;
     figures.tile_mb = 1e-6 * static_cast<double>(source->bytes());
+    figures.gpu_mb = slots_mb(grid_, options.gutter_px, figures.tiles);
     std::vector<Subject> subjects{{"frame", [&] { (*globe)->render(target_.framebuffer(), viewport_); }}};
     time_frames(subjects, rounds_);
-    figures.ms = median(subjects.front().ms);
+    figures.frame_ms = median(subjects.front().ms);
+    figures.frame_cpu_ms = median(subjects.front().cpu_ms);
   }
 
-  static void add_row(Report& report, const AccuracyView& view, const Setting& setting, const AccuracyFigures& f) {
-    report.rows.push_back({std::string(setting.sweep), setting.value, std::string(view.name), f.ms, f.patches,
-                           f.triangles, f.mesh.position_px, f.mesh.position_rms_px, f.mesh.texture_texels,
-                           f.mesh.silhouette_px, f.tiles, f.tile_mb, f.rms, f.rms_pole});
+  void judge(const truth::Picture& shown, const AccuracyView& view, const truth::TruthImage& truth,
+             AccuracyFigures& figures) const {
+    const truth::Mask clear = truth::clear_mask(truth), pole = truth::pole_band_mask(truth);
+    figures.rms = rms_of(truth::masked_error(shown, truth, clear));
+    figures.rms_pole = rms_of(truth::masked_error(shown, truth, pole));
+    figures.rms_elsewhere = rms_of(truth::masked_error(shown, truth, without(clear, pole)));
+    if (!view.magnified) return;  // else which tiles meet where is a matter of the view
+    const truth::Mask borders = truth::tile_border_mask(
+        truth, as_spheroid(earth().ellipsoid), {}, {.root_span_deg = grid_.root_span_deg, .level = grid_.max_level});
+    figures.rms_borders = rms_of(truth::masked_error(shown, truth, borders));
+  }
+
+  static void add_row(Report& report, const AccuracyView& view, const AccuracySetting& setting,
+                      const AccuracyFigures& f) {
+    report.rows.push_back({std::string(setting.sweep), setting.value, view.name, f.frame_ms, f.frame_cpu_ms,
+                           f.selection_ms, f.patches, f.triangles, f.mesh.position_px, f.mesh.position_rms_px,
+                           f.mesh.texture_texels, f.mesh.silhouette_px, f.tiles, f.tile_mb, f.gpu_mb, f.rms, f.rms_pole,
+                           f.rms_elsewhere, f.rms_borders});
   }
 
   const BenchOptions& options_;
@@ -179,61 +151,101 @@ std::vector<Column> accuracy_columns() {
   return {{"sweep", ""},
           {"value", ""},
           {"view", ""},
-          {"time", "ms", 3},
+          {"time", "ms a frame"},
+          {"cpu_time", "ms a frame"},
+          {"selection", "ms a frame", 3},
           {"patches", ""},
           {"triangles", ""},
           {"position_error", "px, greatest", 4},
           {"position_rms", "px", 4},
           {"texture_error", "texels, greatest", 4},
           {"silhouette_error", "px, greatest", 4},
-          {"tiles", "", 0},
-          {"tile_bytes", "MB"},
+          {"tiles", ""},
+          {"tile_bytes", "MB read"},
+          {"gpu_bytes", "MB of the tiles"},
           {"rms", "8-bit levels"},
-          {"rms_pole", "8-bit levels"}};
+          {"rms_pole", "8-bit levels"},
+          {"rms_elsewhere", "8-bit levels"},
+          {"rms_borders", "beside tile borders"}};
 }
 
-Plot curve(const char* sweep, const char* title, const char* x, const char* y) {
-  return {.title = title,
-          .x = x,
-          .y = y,
-          .series = "view",
-          .log_x = true,
-          .log_y = true,
-          .only_column = "sweep",
-          .only_value = sweep};
-}
-
-double greatest_of(const Report& report, const char* sweep, const char* column) {
-  double most = 0.0;
+double of_default(const Report& report, const std::string& view, const char* column) {
   for (const std::vector<Cell>& row : report.rows) {
-    if (std::get<std::string>(row[0]) == sweep) most = std::max(most, std::get<double>(row[report.column(column)]));
+    if (std::get<std::string>(row[0]) != kDefaults || std::get<std::string>(row[report.column("view")]) != view)
+      continue;
+    const Cell& cell = row[report.column(column)];
+    const auto* whole = std::get_if<std::int64_t>(&cell);
+    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(cell);
   }
-  return most;
+  return kNoFigure;
+}
+
+void add_findings(const std::vector<AccuracyView>& views, Report& report) {
+  constexpr double kPosition_px = 0.25, kMoreTiles = 1.5, kMoreError = 1.1;
+  for (const char* column : {"position_error", "silhouette_error"}) {
+    double most = 0.0;
+    for (const AccuracyView& view : views) most = std::max(most, of_default(report, view.name, column));
+    report.findings.push_back({fmt::format("greatest {} with the defaults", column), most, kPosition_px, "px"});
+  }
+  for (const AccuracyView& view : views) {
+    if (view.twin.empty() || std::ranges::find(views, view.twin, &AccuracyView::name) == views.end()) continue;
+    const auto ratio = [&](const char* column) {
+      return of_default(report, view.name, column) / of_default(report, view.twin, column);
+    };
+    report.findings.push_back(
+        {fmt::format("{}: tiles over those at the equator", view.name), ratio("tiles"), kMoreTiles});
+    report.findings.push_back({fmt::format("{}: RMS over that at the equator", view.name), ratio("rms"), kMoreError});
+  }
+}
+
+std::vector<Plot> accuracy_plots() {
+  const std::string pole = "beside the pole, 6000 km", middle = "mid latitude, 6000 km";
+  return {{.title = "texels a pixel asked for, 0.35 to 2.8: tiles for accuracy",
+           .x = "tiles",
+           .y = "rms",
+           .series = "view",
+           .log_x = true,
+           .log_y = true,
+           .only = {{"sweep", {kDetail}}}},
+          {.title = "beside the pole: tiles for accuracy",
+           .x = "tiles",
+           .y = "rms_pole",
+           .series = "sweep",
+           .log_x = true,
+           .log_y = true,
+           .only = {{"sweep", {kDefaults, kDetail, kColumns}}, {"view", {pole}}}},
+          {.title = "triangles for accuracy, mid latitude",
+           .x = "triangles",
+           .y = "position_error",
+           .series = "sweep",
+           .log_x = true,
+           .log_y = true,
+           .only = {{"sweep", {kDefaults, kTessellation, kThreshold, kPlainThreshold}}, {"view", {middle}}}},
+          {.title = "time for accuracy, mid latitude",
+           .x = "time",
+           .y = "position_error",
+           .series = "sweep",
+           .log_y = true,
+           .only = {{"sweep", {kDefaults, kTessellation, kThreshold}}, {"view", {middle}}}}};
 }
 
 Report measure_accuracy(const BenchOptions& options, TestPlanet planet) {
-  Report report{
-      .name = "accuracy",
-      .title = "What accuracy costs: tessellation, screen-error threshold, tile columns at a pole",
-      .facts = {{"renderer", renderer_name()},
-                {"time", "of a frame: " + timing_method() + "; of tessellation and threshold: of the selection"}},
-      .columns = accuracy_columns()};
+  Report report{.name = "accuracy",
+                .title =
+                    "What accuracy costs: tessellation, screen-error threshold, cube mapping, detail, tile columns "
+                    "at a pole, gutters",
+                .facts = {{"renderer", renderer_name()}, {"time", timing_method()}},
+                .columns = accuracy_columns()};
   report.facts.emplace_back(
       "picture", fmt::format("noise planet, {}x{}", planet.source.picture.width, planet.source.picture.height));
   report.facts.emplace_back("polar columns",
-                            "on the full grid, as tile sets of others have it; the default takes squeezed rows");
+                            "on the full grid, as tile sets of others have it; all else takes squeezed rows");
   AccuracyLab lab(options, std::move(planet));
-  for (const AccuracyView& view : views_of(options.effort)) {
-    if (options.wants(view.name)) lab.measure(view, report);
-  }
-  report.plots = {curve("threshold", "threshold: triangles for accuracy", "triangles", "position_error"),
-                  curve("tessellation", "tessellation: triangles for accuracy", "triangles", "position_error"),
-                  curve("polar columns", "full grid: tiles for accuracy in the pole band", "tiles", "rms_pole")};
-  constexpr double kPosition_px = 0.25;
-  report.findings = {{"greatest position error with the defaults", greatest_of(report, "default", "position_error"),
-                      kPosition_px, "px"},
-                     {"greatest silhouette error with the defaults", greatest_of(report, "default", "silhouette_error"),
-                      kPosition_px, "px"}};
+  std::vector<AccuracyView> views = accuracy_views(options.effort);
+  std::erase_if(views, [&](const AccuracyView& view) { return !options.wants(view.name); });
+  for (const AccuracyView& view : views) lab.measure(view, report);
+  report.plots = accuracy_plots();
+  add_findings(views, report);
   return report;
 }
 

@@ -35,13 +35,17 @@ std::string text_of(const Cell& cell) {
   return number ? fmt::format("{:g}", *number) : "";
 }
 
+bool passes(const Report& report, const std::vector<Cell>& row, const RowFilter& filter) {
+  return std::ranges::find(filter.values, text_of(row[report.column(filter.column)])) != filter.values.end();
+}
+
 bool shows(double value, bool logarithmic) { return !logarithmic || value > 0.0; }
 
 std::vector<Curve> curves_of(const Report& report, const Plot& plot) {
   std::vector<Curve> curves;
   const std::size_t x = report.column(plot.x), y = report.column(plot.y);
   for (const std::vector<Cell>& row : report.rows) {
-    if (!plot.only_column.empty() && text_of(row[report.column(plot.only_column)]) != plot.only_value) continue;
+    if (!std::ranges::all_of(plot.only, [&](const RowFilter& filter) { return passes(report, row, filter); })) continue;
     const auto at_x = number_of(row[x]), at_y = number_of(row[y]);
     if (!at_x || !at_y || !shows(*at_x, plot.log_x) || !shows(*at_y, plot.log_y)) continue;
     const std::string name = plot.series.empty() ? "" : text_of(row[report.column(plot.series)]);
@@ -106,14 +110,15 @@ std::string gnuplot_script(const Report& report, const std::string& picture) {
     commands += commands_of(report, report.plots[k], curves, k);
   }
   const auto plots = static_cast<int>(report.plots.size());
+  const int across = std::min(plots, 2), down = (plots + 1) / 2;
   return data +
-         fmt::format("set terminal pngcairo size {},{} font \"DejaVu Sans,9\"\nset output {}\n", plots * kPlotWidth_px,
-                     kPlotHeight_px, quoted(picture)) +
+         fmt::format("set terminal pngcairo size {},{} font \"DejaVu Sans,9\"\nset output {}\n", across * kPlotWidth_px,
+                     down * kPlotHeight_px, quoted(picture)) +
          fmt::format(
-             "set multiplot layout 1,{}\nset grid\nset key outside bottom center horizontal\nset bmargin 8\nset "
+             "set multiplot layout {},{}\nset grid\nset key outside bottom center horizontal\nset bmargin 8\nset "
              "offsets graph "
              "0.03, graph 0.03, graph 0.03, graph 0\n",
-             plots) +
+             down, across) +
          commands + "unset multiplot\n";
 }
 

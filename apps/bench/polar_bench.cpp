@@ -229,15 +229,13 @@ Report measure_polar(const BenchOptions& options, TestPlanet planet) {
                    .x = "ratio_plain",
                    .y = "rms_pole",
                    .series = "method",
-                   .only_column = "view",
-                   .only_value = "inscribed, pole",
+                   .only = {{"view", {"inscribed, pole"}}},
                    .lines = false},
                   {.title = "error in the pole band beside time, 1500 km, beside the pole",
                    .x = "ratio_plain",
                    .y = "rms_pole",
                    .series = "method",
-                   .only_column = "view",
-                   .only_value = "1500 km, beside the pole",
+                   .only = {{"view", {"1500 km, beside the pole"}}},
                    .lines = false}};
   add_findings(views, report);
   return report;

@@ -30,13 +30,19 @@ struct Finding {
   [[nodiscard]] bool holds() const { return !(value > limit); }
 };
 
+/// Rows whose text in a column is one of these.
+struct RowFilter {
+  std::string column;
+  std::vector<std::string> values;
+};
+
 /// One curve a distinct value of `series`; rows without a number in x or y are left out.
 struct Plot {
   std::string title;
   std::string x, y, series;  ///< names of columns; `series` may be empty: one curve
   bool log_x = false, log_y = false;
-  std::string only_column = {}, only_value = {};  ///< rows whose text in this column is this one; empty: all
-  bool lines = true;                              ///< false: points alone
+  std::vector<RowFilter> only = {};  ///< rows that pass all of them
+  bool lines = true;                 ///< false: points alone
 };
 
 /// What a benchmark has measured.
@@ -47,7 +53,7 @@ struct Report {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows = {};  ///< a cell a column each
   std::vector<Finding> findings = {};
-  std::vector<Plot> plots = {};  ///< side by side in one picture; at least one
+  std::vector<Plot> plots = {};  ///< in one picture, two side by side; at least one
   bool failed = false;           ///< a self-test that is not passed: exit code 1
 
   [[nodiscard]] std::size_t column(const std::string& column_name) const;  ///< its index; misuse if there is none

@@ -171,14 +171,12 @@ Report measure_stream(const BenchOptions& options, TestPlanet planet) {
                    .x = "time",
                    .y = "rms",
                    .series = "view",
-                   .only_column = "visit",
-                   .only_value = "cold"},
+                   .only = {{"visit", {"cold"}}}},
                   {.title = "requests, from an empty cache",
                    .x = "time",
                    .y = "requests",
                    .series = "view",
-                   .only_column = "visit",
-                   .only_value = "cold"}};
+                   .only = {{"visit", {"cold"}}}}};
   return report;
 }
 

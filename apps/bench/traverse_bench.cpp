@@ -23,7 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSegments = 24;  // of a patch's side, as the globe draws
 constexpr std::array kFlights{"orbit_to_street", "pole_crossing", "antimeridian_crossing", "horizon_skim"};
 
 struct FlightEffort {
@@ -95,7 +94,7 @@ class Flyer {
     auto source = std::make_shared<CountingSource>(make_endless_source());
     const std::unique_ptr<Globe> globe = open(source, false);
     const std::unique_ptr<Globe> patient = open(std::make_shared<CountingSource>(make_endless_source()), true);
-    tree_ = std::make_unique<PatchTree>(earth().ellipsoid, source->info().grid, kSegments);
+    tree_ = std::make_unique<PatchTree>(earth().ellipsoid, source->info().grid, GlobeOptions{}.segments);
     FlightFigures figures;
     const auto every = std::max<std::size_t>(1, cameras.size() / static_cast<std::size_t>(effort_.looks));
     for (std::size_t k = 0; k < cameras.size(); ++k) {

@@ -64,11 +64,13 @@ class EntryMemo {
 
 class Coverer {
  public:
-  Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out)
+  Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out,
+          double texels_per_pixel)
       : tree_(tree), view_(view), memo_(tree.grid(), residency), frame_(frame), out_(out), planes_(view_planes(view)) {
     const Ellipsoid& e = tree.ellipsoid();
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
-    texel0_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
+    const double texel0_m = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
+    texel0_asked_m_ = texel0_m * texels_per_pixel;
     const glm::dvec3 eye_scaled = view.eye.xyz_m / semi_axes_m(e);
     eye_over_axes2_ = eye_scaled / semi_axes_m(e);
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
@@ -169,7 +171,7 @@ class Coverer {
     // A pixel on the ground is `across` wide and across/up long, its length at an angle to the meridian of which sine2
     // is the sine squared; it resolves along an axis what the ellipse of its frequencies reaches there.
     const double north2 = (1.0 - sine2) * up * up + sine2, parallel2 = sine2 * up * up + 1.0 - sine2;
-    const double texels = texel0_m_ / (distance_m * radians_per_pixel_);
+    const double texels = texel0_asked_m_ / (distance_m * radians_per_pixel_);
     return {texels * std::sqrt(north2), texels * std::sqrt(cos_lat2 * parallel2)};
   }
 
@@ -323,7 +325,7 @@ class Coverer {
   unsigned limits_ = kAllLimits;
   std::vector<Choice> choices_;  ///< of all cells in order
   double radians_per_pixel_ = 0.0;
-  double texel0_m_ = 0.0;
+  double texel0_asked_m_ = 0.0;  ///< a texel of level 0, times the texels a pixel that are asked for
 };
 
 }  // namespace
@@ -341,12 +343,12 @@ std::vector<TileId> root_tiles(const TileGrid& grid) {
 }
 
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, std::uint64_t frame, TileCoverage& out) {
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel) {
   out.draws.clear();
   out.cells.clear();
   out.wanted.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
-  Coverer coverer(tree, view, residency, frame, out);
+  Coverer coverer(tree, view, residency, frame, out, texels_per_pixel);
   coverer.cover(patches);
 }
 

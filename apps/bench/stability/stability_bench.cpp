@@ -28,8 +28,7 @@ Plot plot_of(const char* test, const char* title, bool log_x) {
           .series = "subject",
           .log_x = log_x,
           .log_y = true,
-          .only_column = "test",
-          .only_value = test};
+          .only = {{"test", {test}}}};
 }
 
 Report report_of(const Checks& checks) {
