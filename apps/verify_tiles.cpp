@@ -54,7 +54,7 @@ void for_each_squeezed_row(const TileGrid& grid, int level,
   if (!grid.reduced) return;
   for (std::int64_t y = 0; y < rows(grid, level); ++y) {
     const int squeeze = squeeze_of_row(grid, level, y);
-    if (squeeze > 0) call(y, squeeze, ((columns(grid, level) - 1) >> squeeze) + 1);
+    if (squeeze > 0) call(y, squeeze, squeezed_columns(grid, level, squeeze));
   }
 }
 

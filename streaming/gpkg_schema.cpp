@@ -24,8 +24,6 @@ constexpr const char* kTables[] = {
     "pixel_x_size DOUBLE NOT NULL, pixel_y_size DOUBLE NOT NULL, "
     "CONSTRAINT pk_ttm PRIMARY KEY (table_name, zoom_level), "
     "CONSTRAINT fk_tmm_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name))",
-    "CREATE TABLE tiles (id INTEGER PRIMARY KEY AUTOINCREMENT, zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
-    "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))",
 };
 
 /// The extension's tables, OGC 17-066r1, tables 1 to 3.
@@ -103,6 +101,12 @@ void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>&
 
 }  // namespace
 
+std::string tile_table_sql(const std::string& name) {
+  return "CREATE TABLE " + name +
+         " (id INTEGER PRIMARY KEY AUTOINCREMENT, zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
+         "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))";
+}
+
 std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change) {
   const TileGrid& grid = info.grid;
   std::vector<SqlStatement> all;
@@ -110,6 +114,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back({"PRAGMA application_id = 1196444487", {}});
   all.push_back({"PRAGMA user_version = 10300", {}});
   for (const char* table : kTables) all.push_back({table, {}});
+  all.push_back({tile_table_sql("tiles"), {}});
   all.push_back({kReferenceSystems, {}});
   all.push_back(contents(info, last_change));
   all.push_back({"INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', 4326, -180, ?1, ?2, 90)",
@@ -121,13 +126,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back(
       {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});
   if (info.elevation) describe_heights(*info.elevation, all);
-  if (grid.reduced) {
-    all.push_back(
-        {std::string("CREATE TABLE ") + kSqueezedTable +
-             " (id INTEGER PRIMARY KEY AUTOINCREMENT, zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
-             "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))",
-         {}});
-  }
+  if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;
 }
 

@@ -14,6 +14,9 @@ struct SqlStatement {
   std::vector<double> numbers = {};  ///< bound after the texts
 };
 
+/// What makes a tile table of this name (OGC 12-128r18, table 21).
+[[nodiscard]] std::string tile_table_sql(const std::string& name);
+
 /// What makes an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the set, and with
 /// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own.
 /// The tile matrix set's extent is matrix size × tile size × pixel size at every level, so it can reach beyond the

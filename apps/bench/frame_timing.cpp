@@ -7,6 +7,8 @@
 
 #include <epoxy/gl.h>
 
+#include "render/gl_driver.h"
+
 namespace terrella::bench {
 namespace {
 
@@ -28,7 +30,7 @@ std::string gl_text(GLenum name) {
 
 FrameTime time_frame(const std::function<void()>& draw) {
   GLuint query = 0;
-  if (!software_gl()) glGenQueries(1, &query);
+  if (!is_software_gl()) glGenQueries(1, &query);
   glFinish();
   const double cpu_start = processor_ms();
   const auto start = Clock::now();
@@ -56,18 +58,10 @@ void time_frames(std::vector<Subject>& subjects, int rounds) {
   }
 }
 
-bool software_gl() {
-  const std::string name = gl_text(GL_RENDERER);
-  for (const char* software : {"llvmpipe", "softpipe", "SwiftShader", "swrast"}) {
-    if (name.find(software) != std::string::npos) return true;
-  }
-  return false;
-}
-
 std::string renderer_name() { return gl_text(GL_RENDERER); }
 
 std::string timing_method() {
-  return software_gl() ? "wall time of a frame with a finish; software GL" : "GPU time by timer queries";
+  return is_software_gl() ? "wall time of a frame with a finish; software GL" : "GPU time by timer queries";
 }
 
 double median_ratio(const std::vector<double>& times, const std::vector<double>& base) {

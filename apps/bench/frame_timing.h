@@ -31,10 +31,7 @@ void time_frames(std::vector<Subject>& subjects, int rounds);
 /// while slows both. Of equally many, at least one.
 [[nodiscard]] double median_ratio(const std::vector<double>& times, const std::vector<double>& base);
 
-/// True if the current context's renderer is a software rasteriser (llvmpipe, softpipe, SwiftShader), whose timer
-/// queries say nothing.
-[[nodiscard]] bool software_gl();
-/// The current context's renderer, and how its frames are timed.
+/// The current context's renderer, and how its frames are timed: a software rasteriser's timer queries say nothing.
 [[nodiscard]] std::string renderer_name();
 [[nodiscard]] std::string timing_method();
 

@@ -89,6 +89,10 @@ int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y) {
   return static_cast<int>(std::floor(std::log2(std::min(most, kWidestTexel / std::max(narrowing, 1e-12)))));
 }
 
+std::int64_t squeezed_columns(const TileGrid& grid, int level, int squeeze) {
+  return ((columns(grid, level) - 1) >> squeeze) + 1;
+}
+
 TileId reduced_tile(const TileGrid& grid, const TileId& full) {
   assert(full.squeeze == 0);
   const int squeeze = squeeze_of_row(grid, full.level, full.y);
@@ -99,7 +103,7 @@ bool exists(const TileGrid& grid, const TileId& id) {
   if (id.level < grid.min_level || id.level > grid.max_level) return false;
   if (id.x < 0 || id.y < 0 || id.y >= rows(grid, id.level)) return false;
   if (id.squeeze != 0 && id.squeeze != squeeze_of_row(grid, id.level, id.y)) return false;
-  if (id.x > (columns(grid, id.level) - 1) >> id.squeeze) return false;
+  if (id.x >= squeezed_columns(grid, id.level, id.squeeze)) return false;
   const TileBounds tile = tile_bounds(grid, id);
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
   const Interval data_rows{grid.bounds.south.deg(), grid.bounds.north.deg()};

@@ -55,7 +55,9 @@ struct TileXY {
 /// Matrix size. A strip under 1e-6 of a tile of the finest level is rounding and gets no tile of its own; because all
 /// levels are counted from the finest, every tile that exists has a parent that exists (down to min_level).
 [[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);  ///< tiles that reach over [-180°, 180°], ≥ 1
-[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);     ///< tiles that reach over [90°, -90°], ≥ 1
+/// The same of a row that is squeezed 2^squeeze times.
+[[nodiscard]] std::int64_t squeezed_columns(const TileGrid& grid, int level, int squeeze);
+[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);  ///< tiles that reach over [90°, -90°], ≥ 1
 /// Of a reduced grid, as weather models have: the largest k for which texels 2^k times as wide are at most a fifth
 /// longer along the parallel than along the meridian, at the row's edge nearest to the equator (shared DESIGN, "Which
 /// tiles at the pole?"). 0 for other rows, and for grids that are not reduced or have equal-area rows.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "render/gl_driver.h"
 #include "render/shader_library.h"
 #include "render/vertex_attribute.h"
 

@@ -1,8 +1,5 @@
 #include "render/splat_pass.h"
 
-#include <array>
-#include <string_view>
-
 #include "render/shader_library.h"
 
 namespace terrella {
@@ -27,16 +24,6 @@ SplatView splat_view(const FrameBlock& frame, Viewport viewport, double hiding_r
 }
 
 }  // namespace
-
-bool is_software_gl() {
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  if (renderer == nullptr) return false;
-  constexpr std::array<std::string_view, 3> kSoftware{"llvmpipe", "softpipe", "SWR"};
-  for (const std::string_view name : kSoftware) {
-    if (std::string_view(renderer).find(name) != std::string_view::npos) return true;
-  }
-  return false;
-}
 
 Status SplatPass::create(DepthMode depth) {
   auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_splat.vert"}},

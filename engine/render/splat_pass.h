@@ -36,7 +36,4 @@ class SplatPass {
   gl::Texture pixel_texture_;
 };
 
-/// Whether the current context draws with the processor alone.
-[[nodiscard]] bool is_software_gl();
-
 }  // namespace terrella

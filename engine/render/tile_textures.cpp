@@ -18,14 +18,10 @@ std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int s
   return static_cast<std::int64_t>(whole);
 }
 
-std::int64_t columns_of(const TileGrid& grid, const TileId& id) {
-  return ((columns(grid, id.level) - 1) >> id.squeeze) + 1;
-}
-
 /// The tile beside another of the same squeeze, over ±180° too; nothing where columns do not close.
 std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int dy) {
   TileId other{id.level, id.x + dx, id.y + dy, id.squeeze};
-  const std::int64_t across = columns_of(grid, id);
+  const std::int64_t across = squeezed_columns(grid, id.level, id.squeeze);
   if (other.x < 0 || other.x >= across) {
     if (!texels_around(grid, id.level, id.squeeze)) return std::nullopt;
     other.x = (other.x + across) % across;
@@ -110,8 +106,8 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
 }
 
 bool TileTextures::is_resident(const TileId& id) const {
-  const auto entry = residency_.entries().find(id);
-  return entry != residency_.entries().end() && entry->second.state == TileState::resident;
+  const TileResidency::Entry* entry = residency_.find(id);
+  return entry != nullptr && entry->state == TileState::resident;
 }
 
 void TileTextures::join_gutters(const TileId& id) {
@@ -176,7 +172,7 @@ void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, i
   const int to_layer = residency_.entry(into).slot, from_layer = residency_.entry(from).slot;
   // Where the last column reaches over +180° its own texels end before its edge.
   int end_px = grid_.tile_px;
-  const std::int64_t across = columns_of(grid_, into);
+  const std::int64_t across = squeezed_columns(grid_, into.level, into.squeeze);
   if (dx < 0 && into.x == 0) {
     end_px = static_cast<int>(*texels_around(grid_, into.level, into.squeeze) - (across - 1) * grid_.tile_px);
   } else if (dx > 0 && into.x == across - 1 &&

@@ -201,7 +201,7 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze
   win.h = static_cast<int>(span.end - span.first);
   const double west = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.west_deg).x;
   const double east = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.east_deg).x;
-  const std::int64_t last = (columns(grid_, tile_level) - 1) >> win.squeeze;
+  const std::int64_t last = squeezed_columns(grid_, tile_level, win.squeeze) - 1;
   win.x0 = std::min(static_cast<std::int64_t>(std::floor(std::ldexp(west + kSliver, -win.squeeze))), last);
   const auto end = static_cast<std::int64_t>(std::ceil(std::ldexp(east - kSliver, -win.squeeze)));
   win.w = static_cast<int>(std::max(win.x0 + 1, end) - win.x0);

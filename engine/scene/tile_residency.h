@@ -35,9 +35,12 @@ class TileResidency {
     const auto it = entries_.find(id);
     return it == entries_.end() ? nullptr : &it->second;
   }
+  [[nodiscard]] const Entry* find(const TileId& id) const {
+    const auto it = entries_.find(id);
+    return it == entries_.end() ? nullptr : &it->second;
+  }
   void erase(const TileId& id) { entries_.erase(id); }
   [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
-  [[nodiscard]] const std::unordered_map<TileId, Entry, TileIdHash>& entries() const { return entries_; }
 
  private:
   std::unordered_map<TileId, Entry, TileIdHash> entries_;

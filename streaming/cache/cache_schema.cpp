@@ -40,14 +40,6 @@ WriteResult<bool> has(SqliteWriter& database, const std::string& condition) {
   return *count > 0;
 }
 
-/// The statement that made the table of tiles, from the schema that cut sets have too.
-std::string tiles_table() {
-  for (const SqlStatement& statement : geopackage_schema({})) {
-    if (statement.sql.starts_with("CREATE TABLE tiles ")) return statement.sql;
-  }
-  return {};
-}
-
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
@@ -57,7 +49,7 @@ std::string quoted(const std::string& text) {
 /// Every table that is written to must be word for word ours, with no trigger or index of others' on it: what stands
 /// there (expressions, defaults, virtual tables) would run with each tile.
 WriteResult<bool> tables_are_ours(SqliteWriter& database) {
-  std::string expected = quoted(tiles_table());
+  std::string expected = quoted(tile_table_sql("tiles"));
   for (const char* sql : kSideTables) expected += ", " + quoted(sql);
   const std::string on_ours =
       "lower(tbl_name) IN ('tiles', 'terrella_cache', 'terrella_cache_tiles', "

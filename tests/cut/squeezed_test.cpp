@@ -79,7 +79,7 @@ TEST_P(SqueezedTiles, HoldTheSamePictureInFewerColumns) {
       const int squeeze = squeeze_of_row(grid, level, y);
       if (squeeze == 0) continue;
       ++rows_seen;
-      for (std::int64_t x = 0; x <= (columns(grid, level) - 1) >> squeeze; ++x) {
+      for (std::int64_t x = 0; x < squeezed_columns(grid, level, squeeze); ++x) {
         const double most = level == grid.max_level ? kFinest : kCoarser;
         ASSERT_LE(worst_in(*made->tiles, {level, x, y, squeeze}), most) << "level " << level << " row " << y;
       }

@@ -64,7 +64,7 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
       const TileWindow& win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
       ASSERT_GE(win.x0, 0);
       ASSERT_GE(win.y0, 0);
-      ASSERT_LE(win.x0 + win.w, ((columns(grid, win.level) - 1) >> win.squeeze) + 1);
+      ASSERT_LE(win.x0 + win.w, squeezed_columns(grid, win.level, win.squeeze));
       ASSERT_LE(win.y0 + win.h, rows(grid, win.level));
       for (int v = 0; v < 60; ++v) {
         const EcefDir n =
