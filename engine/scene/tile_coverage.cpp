@@ -17,6 +17,12 @@ namespace {
 constexpr double kLevelRounding = 0.02;
 // A cell larger than this part of its distance has pixels of too different size to be judged by its middle.
 constexpr double kLargeCell = 0.25;
+// A picture of the equator wants twice as many texels as it has pixels; one of the pole, of a full grid, six times.
+// Over this, and of more tiles than these, it gives way (cold_view.py, bench accuracy).
+constexpr double kMostTexelsAPixel = 5.5;
+constexpr int kFewTiles = 64;
+// To texels so long along the meridian, in pixels, but from where they are about a quarter as wide as long.
+constexpr double kLongestTexel_px = 1.55, kCloseToPole = 0.07;
 
 // Entries looked up in this frame. Cells side by side climb through the same ancestors, so some remembered entries a
 // level save most walks through the hash table. Nothing is erased while a frame's cells are found.
@@ -71,6 +77,7 @@ class Coverer {
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     const double texel0_m = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
     texel0_asked_m_ = texel0_m * texels_per_pixel;
+    most_asked_ = texels_per_pixel;
     const glm::dvec3 eye_scaled = view.eye.xyz_m / semi_axes_m(e);
     eye_over_axes2_ = eye_scaled / semi_axes_m(e);
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
@@ -83,6 +90,14 @@ class Coverer {
   // where another cell asks for that anyhow.
   void cover(const std::vector<SelectedPatch>& patches) {
     for (const SelectedPatch& patch : patches) choose_levels(patch);
+    if (too_many_texels()) {
+      narrow_texels_are_long_ = true;
+      for (const Choice& choice : choices_) {
+        if (choice.entry != nullptr) choice.entry->last_chosen = 0;
+      }
+      choices_.clear();
+      for (const SelectedPatch& patch : patches) choose_levels(patch);
+    }
     const Choice* choice = choices_.data();
     for (const SelectedPatch& patch : patches) {
       cover(patch, choice);
@@ -107,6 +122,7 @@ class Coverer {
         const TileId id = tile_of(win, x, y, last);
         choice.spare = levels_to_spare(id, texels_wanted(win.cells[index(win, x, y)]));
         choice.entry = memo_.judged(ancestor(id, choice.spare), patch.squeezed || choice.spare > 0).entry;
+        if (choice.entry->last_chosen != frame_) ++chosen_;
         choice.entry->last_chosen = frame_;
       }
     }
@@ -172,7 +188,22 @@ class Coverer {
     // is the sine squared; it resolves along an axis what the ellipse of its frequencies reaches there.
     const double north2 = (1.0 - sine2) * up * up + sine2, parallel2 = sine2 * up * up + 1.0 - sine2;
     const double texels = texel0_asked_m_ / (distance_m * radians_per_pixel_);
-    return {texels * std::sqrt(north2), texels * std::sqrt(cos_lat2 * parallel2)};
+    return {texels * std::sqrt(north2) / length_px(cos_lat2), texels * std::sqrt(cos_lat2 * parallel2)};
+  }
+
+  // Tiles of a full grid are ever narrower towards a pole, and a view from over it wants many that it hardly shows.
+  [[nodiscard]] bool too_many_texels() const {
+    const TileGrid& grid = tree_.grid();
+    const double texels = double(chosen_) * grid.tile_px * grid.tile_px;
+    const double pixels = double(view_.viewport.width_px) * view_.viewport.height_px;
+    return !grid.reduced && chosen_ > kFewTiles && texels > kMostTexelsAPixel * most_asked_ * most_asked_ * pixels;
+  }
+
+  // How many pixels long a texel may be along the meridian: in a view of too many, as long as it covers no more than a
+  // pixel. Close to a pole what lies along the meridian is all that a picture lacks.
+  [[nodiscard]] double length_px(double cos_lat2) const {
+    if (!narrow_texels_are_long_ || cos_lat2 < kCloseToPole) return 1.0;
+    return std::min(kLongestTexel_px, 1.0 / std::sqrt(std::sqrt(cos_lat2)));
   }
 
   struct Found {
@@ -325,6 +356,9 @@ class Coverer {
   unsigned limits_ = kAllLimits;
   std::vector<Choice> choices_;  ///< of all cells in order
   double radians_per_pixel_ = 0.0;
+  int chosen_ = 0;  ///< tiles that cells would take by themselves
+  bool narrow_texels_are_long_ = false;
+  double most_asked_ = 1.0;      ///< texels a pixel
   double texel0_asked_m_ = 0.0;  ///< a texel of level 0, times the texels a pixel that are asked for
 };
 

@@ -328,6 +328,14 @@ int tiles_under(PatchTree& tree, double lat, double lon, double height_m, int po
   return coverage.tiles;
 }
 
+// CesiumJS asks for 110 tiles of this pyramid in this view, and for 54 and 50 in the others.
+TEST(TileCoverage, AsksForFewTilesOfAFullGridOverAPole) {
+  PatchTree tree(earth().ellipsoid, {.max_level = 4}, 24);
+  EXPECT_LE(tiles_under(tree, 89.9, 0.0, 6.0e6) + 2, 0.8 * 110);
+  EXPECT_LE(tiles_under(tree, 30.0, 20.0, 6.0e6) + 2, 0.8 * 54);
+  EXPECT_LE(tiles_under(tree, 0.0, 180.0, 6.0e6) + 2, 0.8 * 50);
+}
+
 // At every depth, four heights an octave of which the lowest has a pixel to each texel. A set ends two levels deeper.
 TEST(ReducedGrid, LookingDownOnAPoleAsksForLittleMoreThanAtTheEquator) {
   constexpr double kMostOverEquator = 1.5;
