@@ -25,8 +25,9 @@ constexpr double kPanRest_px = 0.05;
 constexpr double kZoomRest = 1e-4;    // of the height
 constexpr double kWheelFactor = 0.8;  // height per step
 constexpr double kKeyFactor = 0.65;
-constexpr double kPanShare = 0.12;  // of the picture's shorter side per key press
-constexpr double kFlyFactor = 0.4;  // of the height, for a double click
+constexpr double kLeastPinch = 0.1;  // of one event; fingers that come closer are a device's mistake
+constexpr double kPanShare = 0.12;   // of the picture's shorter side per key press
+constexpr double kFlyFactor = 0.4;   // of the height, for a double click
 constexpr double kTurnPerWidth_deg = 270.0;
 constexpr double kTiltPerHeight_deg = 120.0;
 constexpr double kLowestDepression_deg = 2.0;
@@ -112,7 +113,7 @@ void Navigator::double_click(glm::dvec2 at_px, Seconds now) {
   const double base = base_m(there);
   target.eye.height_m = base + nearer_m(camera_.eye.height_m - base, kFlyFactor);
   target.pitch = std::min(target.pitch, highest_pitch(body(), target.eye.height_m, Angle{}) - Angle::degrees(5.0));
-  fly_to(pin(target, body(), viewport_, there.point, centre_px(), heading_rule(camera_, body(), there.point)));
+  start_flight(pin(target, body(), viewport_, there.point, centre_px(), heading_rule(camera_, body(), there.point)));
 }
 
 void Navigator::wheel(glm::dvec2 at_px, double steps, Seconds now) {
@@ -127,6 +128,27 @@ void Navigator::wheel(glm::dvec2 at_px, double steps, Seconds now) {
   } else if (!std::holds_alternative<Turn>(motion_)) {
     zoom_by(factor, at_px);
   }
+}
+
+void Navigator::pinch(glm::dvec2 at_px, double factor, Seconds now) {
+  if (!finite(at_px) || !std::isfinite(factor) || factor <= 0.0 || !finite(now)) return;
+  advance(now);
+  if (std::holds_alternative<Drag>(motion_) || std::holds_alternative<Turn>(motion_)) return;
+  motion_ = Rest{};
+  const Grab held = grab_at(at_px);
+  const HeadingRule rule = heading_rule(camera_, body(), held.point);
+  const double base = base_m(held);
+  set_height(base + nearer_m(camera_.eye.height_m - base, 1.0 / std::clamp(factor, kLeastPinch, 1.0 / kLeastPinch)));
+  if (held.on_surface && grab_at(at_px).on_surface) pin_to(held.point, at_px, rule);
+  stay_over_ground();
+}
+
+void Navigator::fly_to(const Camera& camera, Seconds now) {
+  const Geodetic& eye = camera.eye;
+  const double all = eye.lat.rad() + eye.lon.rad() + eye.height_m + camera.heading.rad() + camera.pitch.rad();
+  if (!std::isfinite(all + camera.fov_y.rad()) || !finite(now)) return;
+  advance(now);
+  start_flight(camera);
 }
 
 void Navigator::key(NavigationKey key, Seconds now) {
@@ -229,14 +251,14 @@ void Navigator::pan_by(glm::dvec2 by_px) {
   motion_ = Pan{by_px + (running != nullptr ? running->left_px : glm::dvec2(0.0))};
 }
 
-void Navigator::fly_to(const Camera& camera) { motion_ = Fly{plan_flight(camera_, camera, body())}; }
+void Navigator::start_flight(const Camera& camera) { motion_ = Fly{plan_flight(camera_, camera, body())}; }
 
 void Navigator::go_whole_globe() {
   Camera target = camera_;
   target.eye.height_m = whole_globe_height_m(body(), camera_.fov_y, viewport_);
   target.heading = Angle{};
   target.pitch = Angle::degrees(-90.0);
-  fly_to(target);
+  start_flight(target);
 }
 
 void Navigator::turn_to(const Turn& turn, glm::dvec2 at_px) {

@@ -43,7 +43,13 @@ class Navigator {
   void pointer_up(PointerButton button, Seconds now);
   void double_click(glm::dvec2 at_px, Seconds now);
   void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< steps: positive towards the ground
+  /// Fingers on a touch pad or screen: the point under `at_px`, between them, stays there and comes nearer by `factor`,
+  /// over 1 as they move apart. At once, without a glide; nothing while a button is held.
+  void pinch(glm::dvec2 at_px, double factor, Seconds now);
   void key(NavigationKey key, Seconds now);
+  /// Flies there over the globe's curve, higher on the way if it is long (scene/flight.h). A camera with a value that
+  /// is not finite is ignored.
+  void fly_to(const Camera& camera, Seconds now);
   /// Lets time pass: flights, glides and zooms go on. Call it once a frame while animating().
   void advance(Seconds now);
 
@@ -114,7 +120,7 @@ class Navigator {
   void set_height(double height_m);
   void zoom_by(double factor, std::optional<glm::dvec2> at_px);
   void pan_by(glm::dvec2 by_px);
-  void fly_to(const Camera& camera);
+  void start_flight(const Camera& camera);
   void go_whole_globe();
   void turn_to(const Turn& turn, glm::dvec2 at_px);
 

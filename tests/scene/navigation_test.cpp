@@ -232,6 +232,53 @@ TEST(Wheel, OutFromATiltedViewKeepsTheGlobeInThePicture) {
   EXPECT_LT(middle.y, 768.0);
 }
 
+TEST(Pinch, KeepsThePointBetweenTheFingersAndIsThereAtOnce) {
+  for (const Camera& start :
+       {camera_at(46.0, 7.0, 3.0e6), camera_at(46.0, 179.9, 3.0e5, 30.0, -40.0), camera_at(89.0, 0.0, 4.0e6)}) {
+    Hand hand(start);
+    const glm::dvec2 px(650.0, 500.0);
+    const Ecef held = hand.under(px);
+    double height_m = start.eye.height_m;
+    for (const double factor : {1.05, 1.2, 0.9, 2.0}) {
+      hand.navigator.pinch(px, factor, hand.now += Seconds(kFrame_s));
+      height_m /= factor;
+      EXPECT_TRUE(hand.navigator.at_rest());
+      EXPECT_LT(hand.miss_px(held, px), kHeld_px);
+      EXPECT_NEAR(hand.navigator.camera().eye.height_m / height_m, 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(Pinch, WithNonsenseOrAHeldButtonDoesNothing) {
+  Hand hand(camera_at(46.0, 7.0, 1.0e6));
+  for (const double factor : {0.0, -1.0, std::nan(""), HUGE_VAL}) hand.navigator.pinch(kCentre, factor, hand.now);
+  EXPECT_EQ(hand.navigator.camera().eye.height_m, 1.0e6);
+  hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
+  hand.navigator.pinch(kCentre, 2.0, hand.now);
+  EXPECT_EQ(hand.navigator.camera().eye.height_m, 1.0e6);
+}
+
+TEST(FlyTo, ArrivesWhereItWasToldOverAPoleToo) {
+  for (const Camera& target : {camera_at(-33.9, 151.2, 2.0e4, 40.0, -50.0), camera_at(80.0, -173.0, 1.0e6)}) {
+    Hand hand(camera_at(80.0, 7.0, 1.0e6));
+    hand.navigator.fly_to(target, hand.now);
+    EXPECT_TRUE(hand.navigator.animating());
+    const Seconds took = hand.settle();
+    EXPECT_GE(took.count(), 0.5);
+    const Camera& there = hand.navigator.camera();
+    EXPECT_NEAR(there.eye.lat.deg(), target.eye.lat.deg(), kArrived_deg);
+    EXPECT_NEAR(there.eye.lon.deg(), target.eye.lon.deg(), kArrived_deg);
+    EXPECT_NEAR(there.eye.height_m, target.eye.height_m, 0.1);
+    EXPECT_NEAR(there.heading.deg(), target.heading.deg(), kArrived_deg);
+  }
+}
+
+TEST(FlyTo, NowhereIsIgnored) {
+  Hand hand(camera_at(80.0, 7.0, 1.0e6));
+  hand.navigator.fly_to(camera_at(std::nan(""), 0.0, 1.0e6), hand.now);
+  EXPECT_TRUE(hand.navigator.at_rest());
+}
+
 TEST(RightDrag, TiltsAndTurnsAroundThePictureCentre) {
   Hand hand(camera_at(46.0, 7.0, 3.0e5));
   const Ecef pivot = hand.under(kCentre);

@@ -1,0 +1,40 @@
+#include "geo/measure.h"
+
+#include <GeographicLib/GeodesicExact.hpp>
+#include <GeographicLib/PolygonArea.hpp>
+#include <algorithm>
+#include <cmath>
+
+namespace terrella {
+namespace {
+
+double latitude_deg(const Geodetic& place) { return std::clamp(place.lat.deg(), -90.0, 90.0); }
+
+GeographicLib::GeodesicExact geodesics_of(const Ellipsoid& ellipsoid) { return {ellipsoid.a_m(), ellipsoid.f()}; }
+
+}  // namespace
+
+double geodesic_m(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to) {
+  double distance_m = 0.0;
+  geodesics_of(ellipsoid).Inverse(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg(), distance_m);
+  return distance_m;
+}
+
+double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places) {
+  double total_m = 0.0;
+  for (std::size_t k = 1; k < places.size(); ++k) total_m += geodesic_m(ellipsoid, places[k - 1], places[k]);
+  return total_m;
+}
+
+PolygonMeasure polygon_measure(const Ellipsoid& ellipsoid, std::span<const Geodetic> ring) {
+  const GeographicLib::GeodesicExact geodesics = geodesics_of(ellipsoid);
+  GeographicLib::PolygonAreaExact polygon(geodesics);
+  for (const Geodetic& place : ring) polygon.AddPoint(latitude_deg(place), place.lon.deg());
+  PolygonMeasure measure;
+  constexpr bool kClockwise = false, kSigned = true;
+  polygon.Compute(kClockwise, kSigned, measure.perimeter_m, measure.area_m2);
+  measure.area_m2 = ring.size() < 3 ? 0.0 : std::abs(measure.area_m2);
+  return measure;
+}
+
+}  // namespace terrella
