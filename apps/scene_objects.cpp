@@ -40,7 +40,7 @@ Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) fmt::print(stderr, "{}\n", complaint);
   if (file->complaints_left_out > 0) fmt::print(stderr, "and {} more\n", file->complaints_left_out);
-  if (const Status set = globe.set_objects(file->scene); !set) return set.error();
+  if (const auto added = globe.add_objects(file->scene); !added) return added.error();
   return file->complaints.empty();
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "geo/body.h"
 #include "geo/camera.h"
@@ -12,6 +15,7 @@
 #include "geo/result.h"
 #include "scene/cube_picture.h"
 #include "scene/ground.h"
+#include "scene/layers.h"
 #include "scene/render_modes.h"
 #include "scene/star_catalogue.h"
 #include "scene/utc_time.h"
@@ -52,7 +56,7 @@ struct GlobeOptions {
   std::vector<Star> stars;            ///< of the sky
   GreyPicture night_lights;           ///< of the Earth's night side, with a sky and a time; may be empty
   std::vector<std::byte> label_font;  ///< a font file for the labels of objects; empty: no labels
-  std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots
+  std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots, of all image layers together
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
   /// Patches whose relief is made anew in a frame, about 0.3 ms each, beyond those that the frame cannot do without:
@@ -84,20 +88,56 @@ struct FrameStats {
 struct LackingTile {
   TileId id;
   TileFailure failure;
+  LayerId layer = LayerId::none;  ///< of imagery
 };
 
-/// The globe: give it a current OpenGL 4.5 context, a tile source and a camera; it draws into a framebuffer.
-/// thread: main (the thread of the context) for every call.
+/// What a globe may use; the same as in GlobeOptions.
+struct GlobeBudget {
+  std::size_t gpu_bytes;
+  std::size_t upload_bytes_per_frame;
+  std::chrono::microseconds upload_time_per_frame;
+  int relief_meshes_per_frame;
+};
+
+/// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
+/// sees them into a framebuffer. Every call leaves the GL state as it found it.
+///
+/// thread: main (the one that it was made on, with its context current) for every call and for the end of its life. A
+/// call that is not is told by an assertion that names the call; without assertions what returns a Status or a Result
+/// returns an error, render() draws nothing, and the rest does nothing. At the end of its life the context must be
+/// current; if none is, its GL objects are gone with the context they were of.
 class Globe {
  public:
-  /// Fails if no context is current, it is older than 4.5, a shader does not compile, the time is outside the
-  /// almanac's years, or detail, error, segments or gutter are outside their ranges.
+  /// Without layers: a body in a plain colour. Fails if no context is current, it is older than 4.5, a shader does not
+  /// compile, the time is outside the almanac's years, or detail, error, segments or gutter are outside their ranges.
+  [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
+  /// The same with a first image layer and, if there are any, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});
   ~Globe();
   Globe(const Globe&) = delete;
   Globe& operator=(const Globe&) = delete;
+
+  /// Over the image layers that are there. Fails without a source, or if it says of its grid what cannot be.
+  Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look = {});
+  /// In place of those before of the layer. Fails if it is no image layer of this globe.
+  Status set_look(LayerId imagery, const ImageLook& look);
+  [[nodiscard]] Result<ImageLook> look(LayerId imagery) const;
+  /// So that `position` others lie under it; over all others if there are no more.
+  Status move(LayerId imagery, std::size_t position);
+  [[nodiscard]] std::vector<LayerId> imagery() const;  ///< the lowest first
+  /// Over the object layers that are there. Fails if their programs cannot be made.
+  Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
+  /// In place of those before of the layer.
+  Status set_objects(LayerId layer, ObjectScene objects);
+  Status show_objects(LayerId layer, bool shown);
+  [[nodiscard]] std::vector<LayerId> objects() const;  ///< the lowest first
+  /// An image layer or an object layer. Fails if it is not there, or not any more.
+  Status remove(LayerId layer);
+  /// In place of those before; none: the ellipsoid. What ground() gave before must not be used any more.
+  Status set_elevation(std::optional<ElevationSource> elevation);
+  [[nodiscard]] bool has_relief() const;  ///< has elevation
 
   void set_camera(const Camera& camera);
   [[nodiscard]] const Camera& camera() const;
@@ -106,25 +146,30 @@ class Globe {
   void set_surface(const SurfaceLook& surface);
   void set_stereo(const StereoLook& stereo);
   void set_sky(bool on);                       ///< nothing if the globe was made without one
-  [[nodiscard]] bool has_relief() const;       ///< made with elevation
   void set_exaggeration(double exaggeration);  ///< of heights, [0, 100]
   /// Of the sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes nothing. City lights are
   /// there only in a globe that was made with a time.
   Status set_time(std::optional<UtcTime> time);
+  /// From the next frame on. Image layers share the GPU's part evenly, and each has room for 16 tiles at least.
+  void set_budget(const GlobeBudget& budget);
   /// For tests: the seed of another order of patches; none: as they are chosen.
   void set_patch_shuffle(std::optional<unsigned> seed);
-  /// In place of those before. Fails if their programs cannot be made.
-  Status set_objects(const ObjectScene& objects);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 the window) and uploads what has arrived, within the budget.
-  /// Returns what the frame did. The GL state is changed.
+  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, and uploads what has arrived, within
+  /// the budget. Returns what the frame did.
   FrameStats render(unsigned framebuffer, Viewport viewport);
 
   /// True when the last frame showed everything that its view asks for.
   [[nodiscard]] bool settled() const;
+  /// `told` is called at the end of a frame with which the globe has settled, when the one before had not; none:
+  /// nobody. It must not end the globe's life.
+  void on_settled(std::function<void()> told);
+  /// False if another frame would show what the last one did: nothing was set, nothing has arrived. Costs a few
+  /// comparisons; a settled globe changes by itself only where a source that could not be asked is asked again.
+  [[nodiscard]] bool needs_frame() const;
   /// Renders until settled or the deadline; false at the deadline.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
-  [[nodiscard]] LoaderCounts loading() const;
+  [[nodiscard]] LoaderCounts loading() const;  ///< of all image layers
   /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)
   /// are asked for again after half a minute, if they are still wanted.
   [[nodiscard]] const std::deque<LackingTile>& lacking() const;
@@ -134,7 +179,7 @@ class Globe {
   /// View of the camera at a picture size: picks and projections (geo/camera.h on the ellipsoid, scene/ground.h on the
   /// ground) take it.
   [[nodiscard]] View view(Viewport viewport) const;
-  /// The ground as it is drawn, with the heights that are there; it must not outlive the globe.
+  /// The ground as it is drawn, with the heights that are there; it must not outlive the globe or its elevation.
   [[nodiscard]] Ground ground() const;
   /// Height of the drawn ground over the ellipsoid, exaggerated, where the heights that are there say it; 0 without
   /// any.
@@ -144,6 +189,8 @@ class Globe {
 
  private:
   struct Impl;
+  [[nodiscard]] static Result<std::unique_ptr<Globe>> make(const GlobeOptions& options,
+                                                           const std::optional<ElevationSource>& elevation);
   explicit Globe(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

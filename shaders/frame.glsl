@@ -6,7 +6,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 clip_scale;         // x, y: focal lengths; z: near plane, metres; w: far plane, metres (standard and logarithmic depth)
   vec4 sun_ecef;           // unit; w: 1 lit, 0 imagery alone
   vec4 texels;             // tile_px over slot_px; slot_px; number of mip levels; polar scale of the row direction (TileGrid's latitude)
-  vec4 paper;              // a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; unused
+  vec4 paper;              // a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of a further layer
 };
 
 // Depth as DepthMode stores it. `w` is the distance before the eye's plane, metres.

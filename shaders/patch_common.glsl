@@ -34,29 +34,45 @@ Cell cell_at(vec2 p) {
   return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
 }
 
-vec3 tap(Cell cell, vec2 p) { return textureLod(tiles, slot_point(cell, p), 0.0).rgb; }
+// The surface's first imagery is opaque; what lies over it is premultiplied by its alpha.
+#if defined(FURTHER_LAYER)
+#define Imagery vec4
+#define IMAGERY(texel) (texel)
+#else
+#define Imagery vec3
+#define IMAGERY(texel) (texel).rgb
+#endif
+
+Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
 
 #if defined(NIGHT_LIGHTS)
 layout(binding = 6) uniform samplerCube night_lights;
 
 // Day and night as the Sun makes them, and the lights of cities. `light` is here the sine of the Sun's height.
-vec3 by_day_and_night(vec3 imagery_srgb) {
+vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
   if (sun_ecef.w == 0.0) return imagery_srgb;
   // A cube looked up by direction has no seam and no pole, and takes no arc tangent.
   vec3 normal = (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
   vec3 dx = dFdx(normal), dy = dFdy(normal);
   vec3 color = imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
   float night = 1.0 - smoothstep(-0.16, 0.02, light);
-  if (night > 0.0) color += textureGrad(night_lights, normal, dx, dy).r * night * vec3(1.0, 0.84, 0.54);
+  if (night > 0.0) color += textureGrad(night_lights, normal, dx, dy).r * night * alpha * vec3(1.0, 0.84, 0.54);
   return color;
 }
 #endif
 
-void finish(vec3 imagery_srgb) {
-#if defined(NIGHT_LIGHTS)
-  color_srgb = vec4(by_day_and_night(imagery_srgb), 1.0);
+// As if all layers were laid over each other first, and lit then.
+void finish(Imagery imagery_srgb) {
+#if defined(FURTHER_LAYER)
+  float alpha = imagery_srgb.a;
+  float share = paper.w;
 #else
-  color_srgb = vec4(imagery_srgb * light, 1.0);
+  const float alpha = 1.0, share = 1.0;
+#endif
+#if defined(NIGHT_LIGHTS)
+  color_srgb = vec4(by_day_and_night(imagery_srgb.rgb, alpha), alpha) * share;
+#else
+  color_srgb = vec4(imagery_srgb.rgb * light, alpha) * share;
 #endif
   WRITE_DEPTH(1.0);
 }

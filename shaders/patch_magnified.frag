@@ -3,5 +3,5 @@ layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 void main() {
   Cell cell = cell_at(window_point);
-  finish(textureLod(tiles_precise, slot_point(cell, window_point), 0.0).rgb);
+  finish(IMAGERY(textureLod(tiles_precise, slot_point(cell, window_point), 0.0)));
 }

@@ -22,5 +22,5 @@ void main() {
     level = min(most, max(0.0, level - 1.0) / max(paper.x * v_hat, 1e-6));  // (6)
   }
   level = clamp(level - row.y, 0.0, texels.z - 1.0);
-  finish(textureLod(tiles_mipmapped, slot_point(cell, w.p), level).rgb);
+  finish(IMAGERY(textureLod(tiles_mipmapped, slot_point(cell, w.p), level)));
 }

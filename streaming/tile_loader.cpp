@@ -16,7 +16,9 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
   limits.max_side_px = std::max(tile_px, 1024);
   const Result<Image> image = decode_image(tile.bytes, limits);
   if (!image) return TileFailure{Absence::broken, image.error().message};
-  return make_texels(*image, tile_px, options.gutter, options.mips);
+  Result<TileTexels, TileFailure> texels = make_texels(*image, tile_px, options.gutter, options.mips);
+  if (texels) premultiply(*texels);
+  return texels;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct TileRequest {
   double priority = 0.0;  ///< larger first
 };
 
-/// One finished request: texels ready for upload, or why there are none.
+/// One finished request: texels ready for upload, premultiplied, or why there are none.
 struct LoadedTile {
   TileId id;
   Result<TileTexels, TileFailure> pixels;

@@ -132,14 +132,24 @@ Result<TileTexels, TileFailure> make_texels(const Image& tile, int tile_px, int 
   }
   const auto side = static_cast<std::size_t>(tile_px);
   assert(tile.rgba.size() == side * side * kChannels);
-  TileTexels texels{.tile_px = tile_px, .gutter = gutter, .mips = {}};
+  TileTexels texels{.tile_px = tile_px, .gutter = gutter, .opaque = is_opaque(tile), .mips = {}};
   texels.mips.push_back(finest_mip(tile, side, static_cast<std::size_t>(gutter)));
-  if (is_opaque(tile)) {
+  if (texels.opaque) {
     append_means<Sums>(tile.rgba.data(), side, mips, texels);
   } else {
     append_means<WeighedSums>(weighed_by_alpha(tile).data(), side, mips, texels);
   }
   return texels;
+}
+
+void premultiply(TileTexels& texels) {
+  if (texels.opaque) return;
+  for (auto& mip : texels.mips) {
+    for (std::size_t i = 0; i < mip.size(); i += kChannels) {
+      const unsigned alpha = mip[i + 3];
+      for (std::size_t c = 0; c < 3; ++c) mip[i + c] = static_cast<std::uint8_t>((mip[i + c] * alpha + 127U) / 255U);
+    }
+  }
 }
 
 }  // namespace terrella

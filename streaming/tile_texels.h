@@ -15,6 +15,7 @@ inline constexpr int kMaxMips = 5;
 struct TileTexels {
   int tile_px = 0;
   int gutter = 0;                               ///< texels of border on each side of mip 0
+  bool opaque = true;                           ///< every texel's alpha is 255
   std::vector<std::vector<std::uint8_t>> mips;  ///< finest first
 };
 
@@ -29,5 +30,8 @@ struct TileTexels {
 /// kMaxMips]; gutter ≥ 0; tile_px ≥ 2^(mips - 1). A tile of another size than tile_px is broken, and the reason names
 /// both sizes. thread: any
 [[nodiscard]] Result<TileTexels, TileFailure> make_texels(const Image& tile, int tile_px, int gutter, int mips);
+
+/// Colours times alpha, rounded to nearest: what linear filtering and blending take. Once. thread: any
+void premultiply(TileTexels& texels);
 
 }  // namespace terrella

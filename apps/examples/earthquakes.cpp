@@ -22,7 +22,7 @@ Status draw(char** paths) {
   const auto quakes = read_geojson_objects(paths[1]);
   if (!quakes) return quakes.error();
   for (const std::string& complaint : quakes->complaints) std::cerr << complaint << '\n';
-  if (Status set = (*globe)->set_objects(quakes->scene); !set) return set;
+  if (auto added = (*globe)->add_objects(quakes->scene); !added) return added.error();
 
   constexpr Viewport kSize{1024, 1024};
   const OffscreenTarget picture(kSize);

@@ -23,7 +23,7 @@ class GlobeWidget : public QOpenGLWidget {
     globe_ = *std::move(globe);
     if (files.size() > 1) {
       const auto objects = read_geojson_objects(files[1].toStdString());
-      if (!objects || !globe_->set_objects(objects->scene)) qFatal("cannot show the objects");
+      if (!objects || !globe_->add_objects(objects->scene)) qFatal("cannot show the objects");
     }
     navigator_.emplace(Camera{}, globe_->ground(), size_px());
   }

@@ -10,17 +10,16 @@
 #include "scene/relief.h"
 
 namespace terrella {
-Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& asked, PatchTree& tree,
+Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& asked, const Ellipsoid& ellipsoid,
                                                              const SkyAssets* sky) {
   RenderOptions options = asked;
   options.night_lights = sky != nullptr && !sky->night_lights.values.empty();
-  std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, tree));
+  std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
   const auto keep = [](auto& place, auto made) -> Status {
     if (!made) return made.error();
     place = std::move(*made);
     return Done{};
   };
-  if (Status s = keep(renderer->patches_, PatchPass::create(options, tree)); !s) return s.error();
   if (Status s = keep(renderer->limb_, LimbPass::create()); !s) return s.error();
   if (Status s = keep(renderer->inner_sphere_, InnerSpherePass::create(options.depth)); !s) return s.error();
   if (Status s = keep(renderer->interlace_, InterlacePass::create()); !s) return s.error();
@@ -37,6 +36,13 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   return renderer;
 }
 
+Status GlobeRenderer::set_relief(bool on) {
+  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options_, on);
+  if (!made) return made.error();
+  patches_ = std::move(*made);
+  return Done{};
+}
+
 Status GlobeRenderer::set_objects(const ObjectScene& scene) {
   if (!objects_) {
     Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
@@ -44,29 +50,29 @@ Status GlobeRenderer::set_objects(const ObjectScene& scene) {
     objects_ = std::move(*made);
     objects_->set_label_font(std::move(label_font_));
   }
-  objects_->set_objects(scene, tree_.ellipsoid());
-  if (Status set = objects_->set_meshes(scene.meshes, tree_.ellipsoid()); !set) return set;
-  return objects_->set_labels(scene.labels, tree_.ellipsoid());
+  objects_->set_objects(scene, ellipsoid_);
+  if (Status set = objects_->set_meshes(scene.meshes, ellipsoid_); !set) return set;
+  return objects_->set_labels(scene.labels, ellipsoid_);
 }
 
-FrameCounts GlobeRenderer::draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer) {
+FrameCounts GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
   FrameCounts counts;
   const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
   targets_.fit(input.size, input.sky || selective || input.stereo == Stereo::interlaced);
-  patches_->upload(*input.patches, *input.coverage, input.frame);
+  upload_layers(input);
   const std::vector<EyePicture> pictures = pictures_of(input);
   begin_frame(input, counts);
   // Chosen for the first eye: both are to see the same.
-  if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), tiles, counts}));
-  for (const EyePicture& eye : pictures) draw_picture({input, eye, tiles, counts});
+  if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}));
+  for (const EyePicture& eye : pictures) draw_picture({input, eye, counts});
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
   glDisable(GL_SCISSOR_TEST);
   targets_.copy_to(framebuffer);
-  if (limb_comes_last({input, pictures.front(), tiles, counts})) {
+  if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_STENCIL_TEST);
-    draw_limb({input, pictures.front(), tiles, counts}, targets_.color());
+    draw_limb({input, pictures.front(), counts}, targets_.color());
   }
   return counts;
 }
@@ -113,7 +119,7 @@ void GlobeRenderer::draw_naively(const Pass& pass) {
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   blend(pass.input.surface);
   if (night_lights_) night_lights_->bind();
-  patches_->draw(pass.tiles, pass.counts);
+  draw_first(pass);
   glDisable(GL_BLEND);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
@@ -136,8 +142,8 @@ LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
   }
   if (!under_ground(pass) && surface.alpha >= 1.0) {
     constexpr double kNotTheGroundItself = 1.0 - 1e-5;
-    const Ellipsoid& e = tree_.ellipsoid();
-    const double lowest_m = tree_.relief() != nullptr ? std::min(tree_.relief()->range_m().min_m, 0.0) : 0.0;
+    const Ellipsoid& e = ellipsoid_;
+    const double lowest_m = pass.input.relief != nullptr ? std::min(pass.input.relief->range_m().min_m, 0.0) : 0.0;
     sight.hiding_half_axes_m = kNotTheGroundItself * (glm::dvec3(e.a_m(), e.a_m(), e.b_m()) + lowest_m);
   } else {
     sight.hiding_half_axes_m = glm::dvec3(hiding_radius_m(pass));
@@ -150,8 +156,8 @@ double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
   if (pass.input.naive_translucency) return 0.0;
   double radius_m = inner_radius_m(pass.input);
   if (!under_ground(pass) && pass.input.surface.alpha >= 1.0) {
-    const double lowest_m = tree_.relief() != nullptr ? tree_.relief()->range_m().min_m : 0.0;
-    radius_m = tree_.ellipsoid().b_m() + std::min(lowest_m, 0.0);
+    const double lowest_m = pass.input.relief != nullptr ? pass.input.relief->range_m().min_m : 0.0;
+    radius_m = ellipsoid_.b_m() + std::min(lowest_m, 0.0);
   }
   return glm::length(pass.eye.view.eye.xyz_m) > radius_m ? radius_m : 0.0;
 }
@@ -188,10 +194,10 @@ void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
 // What lies beyond the point of a line of sight that is nearest to the centre is the far side's. The inner sphere hides
 // it where the line meets that sphere; where it passes by, between the sphere and the ground, the curtain does.
 void GlobeRenderer::draw_far_side_curtain(const Pass& pass) const {
-  const Ellipsoid& e = tree_.ellipsoid();
+  const Ellipsoid& e = ellipsoid_;
   const double radius_m = inner_radius_m(pass.input);
   if (radius_m <= 0.0) return;
-  const double lowest_m = tree_.relief() != nullptr ? std::min(0.0, tree_.relief()->range_m().min_m) : 0.0;
+  const double lowest_m = pass.input.relief != nullptr ? std::min(0.0, pass.input.relief->range_m().min_m) : 0.0;
   const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
   glDisable(GL_CULL_FACE);
   pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain);
@@ -201,10 +207,10 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) const {
 // Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
 void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const {
   glCullFace(under_ground(pass) ? GL_FRONT : GL_BACK);
-  const bool translucent = look != SurfaceFromBelow::opaque;
-  if (translucent) {
+  for (const LayerFrame& layer : pass.further()) upload_frame(layer);
+  if (look != SurfaceFromBelow::opaque) {
     color_mask(pass.eye, false);
-    patches_->draw_depth(pass.counts);
+    patches_->draw_depth(*pass.first().gpu, vertices_of(pass.first(), pass.first()), pass.counts);
     color_mask(pass.eye, true);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
@@ -212,38 +218,27 @@ void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const 
   if (night_lights_) night_lights_->bind();
   if (look == SurfaceFromBelow::selective) {
     stencil(pass.eye, kThroughBit, 0);
-    patches_->draw(pass.tiles, pass.counts);
+    draw_layers(pass, SurfaceFromBelow::opaque);
     stencil(pass.eye, 0, 0, kThroughBit);
   } else {
     stencil(pass.eye, 0, kSurfaceBit);
   }
-  if (translucent) blend(pass.input.surface);
-  patches_->draw(pass.tiles, pass.counts);
-  glDisable(GL_BLEND);
+  draw_layers(pass, look);
   depth_test(GL_GREATER);
   stencil(pass.eye, 0, 0);
 }
 
-// Paper 2, (2.7) and (2.9).
-void GlobeRenderer::blend(const SurfaceLook& look) const {
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendColor(0.0F, 0.0F, 0.0F, static_cast<float>(look.alpha));
-  const GLenum below = look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE;
-  glBlendFuncSeparate(GL_CONSTANT_ALPHA, below, GL_ZERO, GL_ONE);
-}
-
 // The ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
 void GlobeRenderer::draw_limb(const Pass& pass, GLuint picture) const {
-  if (tree_.relief() != nullptr) {
-    const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = tree_.ellipsoid().a_m();
+  if (pass.input.relief != nullptr) {
+    const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
     const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
-    if (tree_.relief()->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m) return;
+    if (pass.input.relief->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m) return;
   }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   pass.counts.draw_calls +=
-      limb_->draw(pass.eye.view, tree_.ellipsoid(),
+      limb_->draw(pass.eye.view, ellipsoid_,
                   {.texture = picture, .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1});
   glEnable(GL_CULL_FACE);
   depth_test(GL_GREATER);
@@ -330,13 +325,13 @@ void GlobeRenderer::depth_test(GLenum test) const {
 }
 
 double GlobeRenderer::inner_radius_m(const FrameInput& input) const {
-  const Ellipsoid& e = tree_.ellipsoid();
+  const Ellipsoid& e = ellipsoid_;
   if (!input.surface.inner_sphere_below_m) return 0.0;
   return inner_sphere_radius_m(e.a_m(), e.b_m(), *input.surface.inner_sphere_below_m);
 }
 
 bool GlobeRenderer::under_ground(const Pass& pass) const {
-  return tree_.ellipsoid().to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
+  return ellipsoid_.to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
 }
 
 // A tenth of the way to the nearest thing that is drawn, less where the picture is very wide; the sky has no part in it
@@ -344,7 +339,7 @@ bool GlobeRenderer::under_ground(const Pass& pass) const {
 double GlobeRenderer::near_m(const Pass& pass) const {
   const View& view = pass.eye.view;
   const Ecef& eye = view.eye;
-  double free_m = std::abs(tree_.ellipsoid().to_geodetic(eye).height_m - pass.input.ground_m);
+  double free_m = std::abs(ellipsoid_.to_geodetic(eye).height_m - pass.input.ground_m);
   const double radius_m = inner_radius_m(pass.input);
   if (under_ground(pass) && radius_m > 0.0) {
     const double over_m = glm::length(eye.xyz_m) - radius_m;
@@ -358,16 +353,12 @@ double GlobeRenderer::near_m(const Pass& pass) const {
 
 void GlobeRenderer::upload_frame(const Pass& pass) {
   const View& view = pass.eye.view;
-  const Ellipsoid& e = tree_.ellipsoid();
-  const SlotLayout& layout = pass.tiles.layout();
+  const Ellipsoid& e = ellipsoid_;
   const double far_m = glm::length(view.eye.xyz_m) + 1.5 * e.a_m();
   FrameBlock& block = frame_;
   block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
-  const double polar_scale = tree_.grid().latitude == LatitudeKind::centric ? e.one_minus_e2() : 1.0;
-  block.texels = glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), pass.tiles.mips(), polar_scale);
-  block.paper = glm::vec4(options_.paper_a, options_.paper_band,
-                          tree_.grid().projection == Projection::equal_area ? 1.0 : 0.0, 0.0);
+  describe_layer(pass.first(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }
 

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geo/camera.h"
@@ -19,20 +20,31 @@
 #include "render/sky_pass.h"
 #include "render/tile_textures.h"
 #include "scene/patch_selection.h"
+#include "scene/relief.h"
 #include "scene/render_modes.h"
 #include "scene/stereo.h"
 #include "scene/tile_coverage.h"
 
 namespace terrella {
 
+/// An image layer in a frame. Draws belong to patches, one to one.
+struct LayerFrame {
+  PatchTree* tree = nullptr;
+  const std::vector<SelectedPatch>* patches = nullptr;
+  const TileCoverage* coverage = nullptr;
+  const TileTextures* tiles = nullptr;
+  PatchLayer* gpu = nullptr;
+  double opacity = 1.0;
+};
+
 /// What one frame is drawn from.
 struct FrameInput {
   Viewport size;
-  View view;                    ///< of the one eye
-  std::optional<EyePair> eyes;  ///< of two; then `view` is not used
-  Stereo stereo = Stereo::off;  ///< how the pictures of two eyes are put together
-  const std::vector<SelectedPatch>* patches = nullptr;
-  const TileCoverage* coverage = nullptr;  ///< draws belong to patches, one to one
+  View view;                       ///< of the one eye
+  std::optional<EyePair> eyes;     ///< of two; then `view` is not used
+  Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are put together
+  std::vector<LayerFrame> layers;  ///< the lowest first: it is opaque and has every patch; the others lie over it
+  const Relief* relief = nullptr;  ///< of the patches, if they were raised
   SurfaceLook surface;
   std::optional<SkyInput> sky;  ///< none: black
   bool lit = true;
@@ -53,16 +65,23 @@ struct SkyAssets {
 /// Draws frames: the list of passes, and the state each of them needs. thread: main (of the context)
 class GlobeRenderer {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options, PatchTree& tree,
-                                                                     const SkyAssets* sky);
+  [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
+                                                                     const Ellipsoid& ellipsoid, const SkyAssets* sky);
+  /// Whether patches have relief from now on; to be said before the first frame. The layers' vertices are to be made
+  /// anew.
+  Status set_relief(bool on);
+  /// By the names that contexts do not share.
+  [[nodiscard]] bool is_of_current_context() const { return patches_->is_of_current_context(); }
 
   /// A font file's bytes, before the first objects; without one there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
   /// In place of those before; the program for objects is made with the first.
   Status set_objects(const ObjectScene& scene);
 
+  /// Before the first frame with more than one layer.
+  Status prepare_further() { return patches_->prepare_further(); }
   /// Both eyes' pictures, or the one, into `framebuffer`. What the eyes share is uploaded once.
-  FrameCounts draw(const FrameInput& input, const TileTextures& tiles, GLuint framebuffer);
+  FrameCounts draw(const FrameInput& input, GLuint framebuffer);
 
  private:
   /// One eye's part of the picture.
@@ -77,11 +96,12 @@ class GlobeRenderer {
   struct Pass {
     const FrameInput& input;
     const EyePicture& eye;
-    const TileTextures& tiles;
     FrameCounts& counts;
+    [[nodiscard]] const LayerFrame& first() const { return input.layers.front(); }
+    [[nodiscard]] std::span<const LayerFrame> further() const { return std::span(input.layers).subspan(1); }
   };
 
-  GlobeRenderer(const RenderOptions& options, PatchTree& tree) : options_(options), tree_(tree) {}
+  GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   void draw_picture(const Pass& pass);
   void draw_from_above(const Pass& pass);
@@ -90,6 +110,12 @@ class GlobeRenderer {
   void draw_inner_sphere(const Pass& pass) const;
   void draw_far_side_curtain(const Pass& pass) const;
   void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
+  [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& first);
+  void upload_layers(const FrameInput& input) const;
+  void draw_first(const Pass& pass) const;
+  void draw_further(const Pass& pass, const LayerFrame& layer) const;
+  void draw_layers(const Pass& pass, SurfaceFromBelow look) const;
+  void draw_layers_translucent(const Pass& pass) const;
   void blend(const SurfaceLook& look) const;
   void draw_sky(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
@@ -100,6 +126,8 @@ class GlobeRenderer {
   void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
   void depth_test(GLenum test) const;
   void upload_frame(const Pass& pass);
+  void upload_frame(const LayerFrame& layer) const;
+  void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
   [[nodiscard]] double near_m(const Pass& pass) const;
   [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
   [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
@@ -108,7 +136,7 @@ class GlobeRenderer {
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
 
   RenderOptions options_;
-  PatchTree& tree_;
+  Ellipsoid ellipsoid_;
   std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<LimbPass> limb_;
   std::unique_ptr<InnerSpherePass> inner_sphere_;

@@ -24,6 +24,7 @@ struct DrawCommand {
 constexpr double kPlainFootprint_texels = 12.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.7;
+constexpr std::string_view kFirstLayer = "FIRST_LAYER";
 
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
@@ -41,36 +42,47 @@ void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
 
 }  // namespace
 
-Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, PatchTree& tree) {
-  std::unique_ptr<PatchPass> pass(new PatchPass(options, tree));
+Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, bool has_relief) {
+  std::unique_ptr<PatchPass> pass(new PatchPass(options, has_relief));
   if (!options.functions && options.texturing != Texturing::vertex) {  // where coordinates are not interpolated
     const Result<ShaderFunctions> chosen = choose_shader_functions();
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  if (const Status built = pass->build_programs(); !built) return built.error();
+  Result<gl::Program> depth = pass->patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
+  if (!depth) return depth.error();
+  pass->depth_program_ = std::move(*depth);
+  if (const Status built = pass->build_programs(pass->programs_, kFirstLayer); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
-Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment) const {
+Status PatchPass::prepare_further() {
+  if (flat_program_) return Done{};
+  if (const Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
+  Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
+  if (!flat) return flat.error();
+  flat_program_ = std::move(*flat);
+  return Done{};
+}
+
+Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment,
+                                             std::string_view layer) const {
   return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                        {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
                         options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
-                        functions_define(options_.functions.value_or(ShaderFunctions::driver))});
+                        functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 
-Status PatchPass::build_programs() {
-  const auto build = [this](PatchProgram which, std::initializer_list<std::string_view> files) -> Status {
-    Result<gl::Program> program = patch_program(files);
+Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
+  using enum PatchLayer::Program;
+  const auto build = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) -> Status {
+    Result<gl::Program> program = patch_program(files, layer);
     if (!program) return program.error();
-    programs_[which] = std::move(*program);
+    programs[which] = std::move(*program);
     return Done{};
   };
-  Result<gl::Program> depth = patch_program({"frame.glsl", "patch_depth.frag"});
-  if (!depth) return depth.error();
-  depth_program_ = std::move(*depth);
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
     Status s = build(
         polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
@@ -88,12 +100,7 @@ Status PatchPass::build_programs() {
 
 void PatchPass::set_up_vertex_array() {
   vertex_array_ = gl::make_vertex_array();
-  draws_ = gl::make_buffer();
-  commands_ = gl::make_buffer();
-  cells_ = gl::make_buffer();
   const GLuint array = vertex_array_.name();
-  glVertexArrayElementBuffer(array, patches_.index_buffer());
-  glVertexArrayVertexBuffer(array, 1, draws_.name(), 0, sizeof(PatchDraw));
   glVertexArrayBindingDivisor(array, 1, 1);
   gl::float_attribute(array, 0, 0, 3, offsetof(PatchVertex, position_high_m));
   gl::float_attribute(array, 1, 0, 3, offsetof(PatchVertex, position_low_m));
@@ -114,10 +121,10 @@ void PatchPass::set_up_samplers() {
   // eight bits for the common modes and in float for this one.
   precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
   mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
-  cells_texture_ = gl::make_texture(GL_TEXTURE_BUFFER);
 }
 
-PatchPass::PatchProgram PatchPass::program_for(const SelectedPatch& patch) const {
+PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
+  using enum PatchLayer::Program;
   switch (options_.texturing) {
     case Texturing::exact:
       return polar;
@@ -134,64 +141,92 @@ PatchPass::PatchProgram PatchPass::program_for(const SelectedPatch& patch) const
   return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
 }
 
-void PatchPass::upload(const std::vector<SelectedPatch>& patches, const TileCoverage& coverage, std::uint64_t frame) {
-  std::vector<DrawCommand> by_program[kPatchPrograms];
-  triangles_ = 0;
+void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+                       const TileCoverage& coverage, std::uint64_t frame) const {
+  std::vector<DrawCommand> by_program[kPrograms];
+  const bool own = layer.vertices.get() == &vertices;
+  layer.triangles = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
     const PatchIndices::Range range =
-        patches_.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
-    const int place = patches_.place_of(*patch.node, frame);
+        vertices.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+    const int place = vertices.place_of(own ? *patch.node : *patch.surface, frame);
     by_program[program_for(patch)].push_back(
-        {range.count, 1, range.first, place * patches_.vertices_per_patch(), static_cast<GLuint>(k)});
-    triangles_ += range.count / 3;
+        {range.count, 1, range.first, place * vertices.vertices_per_patch(), static_cast<GLuint>(k)});
+    layer.triangles += range.count / 3;
   }
   std::vector<DrawCommand> commands;
-  for (int p = 0; p < kPatchPrograms; ++p) {
-    first_command_[p] = static_cast<int>(commands.size());
+  for (int p = 0; p < kPrograms; ++p) {
+    layer.first_command[p] = static_cast<int>(commands.size());
     commands.insert(commands.end(), by_program[p].begin(), by_program[p].end());
   }
-  first_command_[kPatchPrograms] = static_cast<int>(commands.size());
-  stream(commands_, commands);
-  stream(draws_, coverage.draws);
-  stream(cells_, coverage.cells);
-  glTextureBuffer(cells_texture_.name(), GL_R32UI, cells_.name());
+  layer.first_command[kPrograms] = static_cast<int>(commands.size());
+  if (!layer.draws) {
+    layer.draws = gl::make_buffer();
+    layer.commands = gl::make_buffer();
+    layer.cells = gl::make_buffer();
+    layer.cells_texture = gl::make_texture(GL_TEXTURE_BUFFER);
+  }
+  stream(layer.commands, commands);
+  stream(layer.draws, coverage.draws);
+  stream(layer.cells, coverage.cells);
+  glTextureBuffer(layer.cells_texture.name(), GL_R32UI, layer.cells.name());
 }
 
-void PatchPass::bind_vertices() const {
-  glVertexArrayVertexBuffer(vertex_array_.name(), 0, patches_.vertex_buffer(), 0, sizeof(PatchVertex));
-  if (has_relief_) glVertexArrayVertexBuffer(vertex_array_.name(), 2, patches_.slope_buffer(), 0, sizeof(glm::vec2));
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const {
+  const GLuint array = vertex_array_.name();
+  glVertexArrayElementBuffer(array, vertices.index_buffer());
+  glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
+  glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
+  if (has_relief_) glVertexArrayVertexBuffer(array, 2, vertices.slope_buffer(), 0, sizeof(glm::vec2));
+  glBindVertexArray(array);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, layer.commands.name());
 }
 
-void PatchPass::draw_commands(int first, int last, FrameCounts& counts) const {
+void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
   if (first == last) return;
   const auto offset = static_cast<std::uintptr_t>(first) * sizeof(DrawCommand);
   glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(offset), last - first, 0);
   ++counts.draw_calls;
 }
 
-void PatchPass::draw(const TileTextures& tiles, FrameCounts& counts) const {
-  glBindTextureUnit(1, cells_texture_.name());
+void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                     FrameCounts& counts) const {
+  draw_programs(programs_, layer, vertices, tiles, counts);
+}
+
+void PatchPass::draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                             FrameCounts& counts) const {
+  draw_programs(further_, layer, vertices, tiles, counts);
+}
+
+void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
+                              const PatchBuffers& vertices, const TileTextures& tiles, FrameCounts& counts) const {
+  glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
-  bind_vertices();
-  for (int p = 0; p < kPatchPrograms; ++p) {
-    if (first_command_[p] == first_command_[p + 1]) continue;
-    glUseProgram(programs_[p].name());
-    draw_commands(first_command_[p], first_command_[p + 1], counts);
+  bind_vertices(layer, vertices);
+  for (int p = 0; p < kPrograms; ++p) {
+    if (layer.first_command[p] == layer.first_command[p + 1]) continue;
+    glUseProgram(programs[p].name());
+    draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);
   }
-  counts.triangles += triangles_;
+  counts.triangles += layer.triangles;
 }
 
-void PatchPass::draw_depth(FrameCounts& counts) const {
-  bind_vertices();
+void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const {
+  bind_vertices(layer, vertices);
   glUseProgram(depth_program_.name());
-  draw_commands(first_command_[0], first_command_[kPatchPrograms], counts);
+  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
+}
+
+void PatchPass::draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const {
+  bind_vertices(layer, vertices);
+  glUseProgram(flat_program_.name());
+  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
 }
 
 }  // namespace terrella

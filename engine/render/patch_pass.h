@@ -10,6 +10,7 @@
 #include "geo/result.h"
 #include "render/gl_handle.h"
 #include "render/patch_buffers.h"
+#include "render/patch_layer.h"
 #include "render/shader_functions.h"
 #include "render/tile_textures.h"
 #include "scene/patch_selection.h"
@@ -33,45 +34,52 @@ struct FrameCounts {
   long triangles = 0;
 };
 
-/// Draws the surface's patches. Owns their programs and their places in memory. The caller has bound the framebuffer
-/// and the frame's uniform block and has set depth, stencil, blending and which faces are culled. thread: main (of the
-/// context)
+/// Draws the surface's patches, layer by layer. Owns their programs. The caller has bound the framebuffer and the
+/// frame's uniform block and has set depth, stencil, blending and which faces are culled. thread: main (of the context)
 class PatchPass {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, PatchTree& tree);
+  /// `has_relief`: patches have slopes.
+  [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
+  [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
+  /// Makes the programs of layers over the first, once; before any is drawn.
+  Status prepare_further();
 
-  /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one.
-  void upload(const std::vector<SelectedPatch>& patches, const TileCoverage& coverage, std::uint64_t frame);
-  /// Program by program.
-  void draw(const TileTextures& tiles, FrameCounts& counts) const;
+  /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one; `vertices` are the layer's own or those
+  /// of the patches' surface.
+  void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+              const TileCoverage& coverage, std::uint64_t frame) const;
+  /// Program by program; opaque.
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+            FrameCounts& counts) const;
+  /// The same premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
+  void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                    FrameCounts& counts) const;
   /// Depth alone, in one call; the depths are the bits that draw() makes.
-  void draw_depth(FrameCounts& counts) const;
+  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
+  /// The same in opaque black. After prepare_further().
+  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
 
  private:
-  /// Programs in the order they are drawn.
-  enum PatchProgram { magnified, plain, oblique, polar, paper, kPatchPrograms };
+  static constexpr int kPrograms = PatchLayer::kPrograms;
 
-  PatchPass(const RenderOptions& options, PatchTree& tree)
-      : options_(options), has_relief_(tree.relief() != nullptr), patches_(tree) {}
-  Status build_programs();
-  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment) const;
+  PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
+  Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
+  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment,
+                                                  std::string_view layer) const;
   void set_up_vertex_array();
   void set_up_samplers();
-  void bind_vertices() const;
-  void draw_commands(int first, int last, FrameCounts& counts) const;
-  [[nodiscard]] PatchProgram program_for(const SelectedPatch& patch) const;
+  void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
+  void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
+                     const TileTextures& tiles, FrameCounts& counts) const;
+  static void draw_commands(int first, int last, FrameCounts& counts);
+  [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
 
   RenderOptions options_;
   bool has_relief_;
-  PatchBuffers patches_;
-  gl::Program programs_[kPatchPrograms];
-  gl::Program depth_program_;
+  gl::Program programs_[kPrograms], further_[kPrograms];
+  gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
-  gl::Buffer draws_, commands_, cells_;
-  gl::Texture cells_texture_;
   gl::Sampler bilinear_, precise_, mipmapped_;
-  int first_command_[kPatchPrograms + 1] = {};
-  long triangles_ = 0;
 };
 
 }  // namespace terrella

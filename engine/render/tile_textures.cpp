@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -33,11 +34,64 @@ std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int
 
 TileTextures::TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes)
     : grid_(grid), layout_(layout), mips_(mips) {
+  most_slots_ = slots_for(budget_bytes);
+  grow();
+}
+
+int TileTextures::slots_for(std::size_t bytes) const {
   GLint most_layers = 256;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-  most_slots_ =
-      static_cast<int>(std::clamp<std::size_t>(budget_bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
-  grow();
+  return static_cast<int>(std::clamp<std::size_t>(bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
+}
+
+void TileTextures::set_empty(Empty empty) {
+  if (empty == empty_) return;
+  empty_ = empty;
+  paint_empty();
+}
+
+void TileTextures::paint_empty() {
+  constexpr std::uint8_t kNothing[4] = {0, 0, 0, 0};
+  for (int k = 0; k < mips_; ++k) {
+    const int side = layout_.slot_px() >> k;
+    glClearTexSubImage(texture_.name(), k, 0, 0, 0, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                       empty_ == Empty::plain_colour ? kPlainColour : kNothing);
+  }
+}
+
+void TileTextures::set_budget(std::size_t bytes) {
+  most_slots_ = slots_for(bytes);
+  if (slots_ > most_slots_) shrink();
+}
+
+// The tiles of the coarsest level come first, then those drawn last.
+void TileTextures::shrink() {
+  std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
+  for (auto& [id, entry] : residency_.entries()) {
+    if (entry.state == TileState::resident) tiles.emplace_back(id, &entry);
+  }
+  std::ranges::sort(tiles, [&](const auto& a, const auto& b) {
+    const bool a_root = a.first.level == grid_.min_level, b_root = b.first.level == grid_.min_level;
+    return a_root != b_root ? a_root : a.second->last_drawn > b.second->last_drawn;
+  });
+  const gl::Texture larger = std::exchange(texture_, gl::make_texture(GL_TEXTURE_2D_ARRAY));
+  slots_ = most_slots_;
+  used_ = 1;
+  free_.clear();
+  glTextureStorage3D(texture_.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots_);
+  paint_empty();
+  for (const auto& [id, entry] : tiles) {
+    if (used_ == slots_) {
+      residency_.erase(id);
+      continue;
+    }
+    const int from = std::exchange(entry->slot, used_++);
+    for (int k = 0; k < mips_; ++k) {
+      const int side = layout_.slot_px() >> k;
+      glCopyImageSubData(larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, from, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0,
+                         0, entry->slot, side, side, 1);
+    }
+  }
 }
 
 std::size_t TileTextures::slot_bytes() const {
@@ -54,15 +108,14 @@ bool TileTextures::grow() {
   glTextureStorage3D(larger.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots);
   for (int k = 0; k < mips_; ++k) {
     const int side = layout_.slot_px() >> k;
-    if (texture_) {
-      glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0,
-                         0, side, side, slots_);
-    } else {
-      glClearTexSubImage(larger.name(), k, 0, 0, 0, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE, kPlainColour);
-    }
+    if (!texture_) continue;
+    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0,
+                       side, side, slots_);
   }
+  const bool first = !texture_;
   texture_ = std::move(larger);
   slots_ = slots;
+  if (first) paint_empty();
   return true;
 }
 

@@ -19,12 +19,17 @@ struct SlotLayout {
 };
 
 /// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
-/// plain colour, for where there is no imagery. A slot's gutter holds the neighbours' texels as they come, so that
-/// filtering at a tile's border sees what lies beyond it.
-/// thread: main
+/// plain colour or transparent, for where there is no imagery. A slot's gutter holds the neighbours' texels as they
+/// come, so that filtering at a tile's border sees what lies beyond it. thread: main
 class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
+
+  /// What slot 0 is; the plain colour at first.
+  enum class Empty { plain_colour, transparent };
+  void set_empty(Empty empty);
+  /// From now on; what was drawn longest ago gives way at once where there is less room.
+  void set_budget(std::size_t bytes);
 
   /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels a side, RGBA8 (streaming/tile_texels.h). The
   /// tile drawn longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do.
@@ -41,7 +46,10 @@ class TileTextures {
 
  private:
   int take_slot(std::uint64_t frame);
+  [[nodiscard]] int slots_for(std::size_t bytes) const;
   bool grow();
+  void shrink();
+  void paint_empty();
   [[nodiscard]] bool is_resident(const TileId& id) const;
   void join_gutters(const TileId& id);
   void join_row(const TileId& id, int dy);
@@ -55,6 +63,7 @@ class TileTextures {
   int most_slots_;
   int slots_ = 0;
   int used_ = 1;
+  Empty empty_ = Empty::plain_colour;
   std::vector<int> free_;
   gl::Texture texture_;
   gl::Framebuffer stretch_from_, stretch_into_;  ///< there once rows of different squeeze met

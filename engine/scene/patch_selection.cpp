@@ -31,8 +31,16 @@ constexpr int kMostReliefLevel = 20;
 class Selector {
  public:
   Selector(PatchTree& tree, const View& view, const PatchSelectionOptions& options, std::uint64_t stamp,
-           std::vector<SelectedPatch>& out)
-      : tree_(tree), view_(view), options_(options), stamp_(stamp), out_(out), planes_(view_planes(view)) {
+           std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further)
+      : tree_(tree),
+        view_(view),
+        options_(options),
+        stamp_(stamp),
+        out_(out),
+        further_(further),
+        planes_(view_planes(view)),
+        imagery_{
+            .tree = &tree, .texels_per_pixel = options.texels_per_pixel, .max_tile_level = options.max_tile_level} {
     const Ellipsoid& e = tree.ellipsoid();
     find_horizon(e);
     // No surface point is nearer than the height; 1 % off for the mesh, which sags.
@@ -41,7 +49,6 @@ class Selector {
     // Off the axis a perspective picture magnifies: the corner of the picture is where a metre is most pixels.
     const double corner = view.tan_half_fov_y * std::hypot(1.0, view.aspect());
     error_scale_px_ = view.pixels_per_radian() * std::hypot(1.0, corner);
-    texel_root_m_ = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
     band_rad_ = options.band * std::numbers::pi;
   }
 
@@ -53,8 +60,8 @@ class Selector {
       if (side < 0) return;
       inside = side > 0;
     }
-    SelectedPatch patch = assess(node);
-    if (needs_split(node, patch)) {
+    SelectedPatch patch = assess(imagery_, node);
+    if (needs_split(node, patch) || further_needs_split(node)) {
       split(node, inside);
     } else {
       emit(node, patch, inside);
@@ -69,6 +76,24 @@ class Selector {
       std::erase_if(out_, [this](const SelectedPatch& p) { return p.node->leaf_stamp != stamp_; });
     }
     for (SelectedPatch& patch : out_) patch.coarse_sides = coarse_sides(*patch.node);
+  }
+
+  // The selected patches again, by each further grid.
+  void select_further() {
+    for (const FurtherImagery& imagery : further_) {
+      imagery.out->clear();
+      for (const SelectedPatch& patch : out_) {
+        PatchNode* node = node_of(imagery, *patch.node);
+        if (node == nullptr || wanted_level(imagery, *node) < imagery.least_level) continue;
+        if (node->relief.made != patch.node->relief.made) node->relief = patch.node->relief;
+        SelectedPatch also = assess(imagery, *node);
+        also.in_band = bent(*node) && in_band(*node);
+        also.coarse_sides = patch.coarse_sides;
+        also.cut_by_view = patch.cut_by_view;
+        also.surface = patch.node;
+        imagery.out->push_back(also);
+      }
+    }
   }
 
  private:
@@ -151,25 +176,47 @@ class Selector {
             std::sqrt(along * along * (cosine * cosine) + across * across * (sine * sine))};
   }
 
-  [[nodiscard]] SelectedPatch assess(PatchNode& node) const {
+  [[nodiscard]] PixelOnGround nearest_pixel(const PatchNode& node) const {
+    const Column c = column(node);
+    return pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, nearest_m(node)));
+  }
+
+  [[nodiscard]] double texel0_m(const FurtherImagery& imagery, const PatchNode& node) const {
+    const TileGrid& grid = imagery.tree->grid();
+    return tree_.ellipsoid().a_m() * (std::numbers::pi / 180.0) * grid.root_span_deg / grid.tile_px * node.row_stretch;
+  }
+
+  [[nodiscard]] int wanted_level(const FurtherImagery& imagery, const PatchNode& node) const {
+    return wanted_level(texel0_m(imagery, node) * imagery.texels_per_pixel, nearest_pixel(node));
+  }
+  [[nodiscard]] static int wanted_level(double texel0_m, const PixelOnGround& pixel) {
+    const double level = std::ceil(std::log2(texel0_m / pixel.short_m) - 0.02);
+    return static_cast<int>(std::clamp(level, -64.0, 64.0));
+  }
+
+  [[nodiscard]] static int finest_level(const FurtherImagery& imagery) {
+    const TileGrid& grid = imagery.tree->grid();
+    return std::clamp(imagery.max_tile_level, grid.min_level, grid.max_level);
+  }
+
+  [[nodiscard]] SelectedPatch assess(const FurtherImagery& imagery, PatchNode& node) const {
     SelectedPatch patch;
     patch.node = &node;
-    const Column c = column(node);
-    const PixelOnGround pixel = pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, nearest_m(node)));
-    const double texel0_m = texel_root_m_ * node.row_stretch;
+    const PixelOnGround pixel = nearest_pixel(node);
+    const double texel0_m = this->texel0_m(imagery, node);
     const bool near_pole = node.min_colatitude_rad < band_rad_;
-    const double level = std::ceil(std::log2(texel0_m * options_.texels_per_pixel / pixel.short_m) - 0.02);
-    const TileGrid& grid = tree_.grid();
-    patch.tile_level = std::clamp(static_cast<int>(std::clamp(level, -64.0, 64.0)), grid.min_level, grid.max_level);
+    const TileGrid& grid = imagery.tree->grid();
+    const int finest = finest_level(imagery);
+    patch.tile_level = std::clamp(wanted_level(texel0_m * imagery.texels_per_pixel, pixel), grid.min_level, finest);
     patch.pixel_m = pixel.short_m;
     const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
     for (;; --patch.tile_level) {
       const double columns = span_deg / tile_span_deg(grid, patch.tile_level);
       const double texel_m = std::ldexp(texel0_m, -patch.tile_level);
       // Of the finest tiles squeezed ones have less detail than the picture. Magnified it would be missed.
-      patch.squeezed = patch.tile_level < grid.max_level || texel_m < kMagnified * pixel.short_m ||
-                       columns > options_.max_polar_columns;
-      patch.squeeze = patch.squeezed ? tree_.window_squeeze(node, patch.tile_level) : 0;
+      patch.squeezed =
+          patch.tile_level < finest || texel_m < kMagnified * pixel.short_m || columns > options_.max_polar_columns;
+      patch.squeeze = patch.squeezed ? imagery.tree->window_squeeze(node, patch.tile_level) : 0;
       patch.footprint_texels = footprint_m(node, pixel, patch.squeeze) / texel_m;
       // Finer, a pixel would be longer than the taps and the gutter reach, or a pole's window too wide.
       const bool fits = near_pole ? std::ldexp(columns, -patch.squeeze) <= options_.max_polar_columns
@@ -188,12 +235,49 @@ class Selector {
   [[nodiscard]] bool needs_split(PatchNode& node, SelectedPatch& patch) const {
     if (node.id.level < 1) return true;
     if (node.id.level >= kMaxPatchLevel) return false;
+    if (node.geometric_error_m * error_scale_px_ / nearest_m(node) > options_.max_error_px) return true;
+    return imagery_needs_split(imagery_, node, patch) || follows_ground_badly(node, patch);
+  }
+
+  [[nodiscard]] bool imagery_needs_split(const FurtherImagery& imagery, const PatchNode& node,
+                                         SelectedPatch& patch) const {
+    const bool is_bent = bent(node);
+    patch.in_band = is_bent && in_band(node);
+    if (is_bent && (!patch.in_band || reaches_far_over_the_band(node))) return true;
+    return window_too_wide(imagery, node, patch) || reaches_to_the_eye(imagery, node, patch);
+  }
+
+  // Interpolated texture coordinates are off by more than they may be.
+  [[nodiscard]] bool bent(const PatchNode& node) const {
     const double px = error_scale_px_ / nearest_m(node);
-    if (node.geometric_error_m * px > options_.max_error_px) return true;
-    const bool bent = node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
-    patch.in_band = bent && node.min_colatitude_rad < band_rad_;
-    if (bent && (!patch.in_band || reaches_far_over_the_band(node))) return true;
-    return window_too_wide(node, patch) || reaches_to_the_eye(node, patch) || follows_ground_badly(node, patch);
+    return node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
+  }
+  [[nodiscard]] bool in_band(const PatchNode& node) const { return node.min_colatitude_rad < band_rad_; }
+
+  [[nodiscard]] bool further_needs_split(const PatchNode& node) const {
+    if (node.id.level >= kMaxPatchLevel) return false;
+    for (const FurtherImagery& imagery : further_) {
+      PatchNode* own = node_of(imagery, node);
+      if (own == nullptr || wanted_level(imagery, *own) < imagery.least_level) continue;
+      SelectedPatch patch = assess(imagery, *own);
+      if (imagery_needs_split(imagery, *own, patch)) return true;
+    }
+    return false;
+  }
+
+  // What further imagery has of a patch; nothing where it is not drawn.
+  [[nodiscard]] static PatchNode* node_of(const FurtherImagery& imagery, const PatchNode& node) {
+    const GeoRect& bounds = imagery.tree->grid().bounds;
+    const double width = bounds.east.deg() - bounds.west.deg(), turn = width < 0.0 ? width + 360.0 : width;
+    const double east = node.lon_center_deg + node.west_deg - bounds.west.deg();
+    const double from = east - 360.0 * std::floor(east / 360.0);
+    if (turn < 360.0 && from > turn && from + std::max(0.0, node.east_deg - node.west_deg) < 360.0) return nullptr;
+    PatchNode& own = imagery.tree->node(node.id);
+    if (own.north_row_deg < bounds.south.deg() || own.south_row_deg > bounds.north.deg()) return nullptr;
+    own.sphere = node.sphere;
+    own.relief.middle_m = node.relief.middle_m;
+    own.relief.half_m = node.relief.half_m;
+    return &own;
   }
 
   [[nodiscard]] bool reaches_far_over_the_band(const PatchNode& node) const {
@@ -223,15 +307,17 @@ class Selector {
 
   // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
   // by its middle, and what lies under the eye would be a blur.
-  [[nodiscard]] bool reaches_to_the_eye(const PatchNode& node, const SelectedPatch& patch) const {
+  [[nodiscard]] bool reaches_to_the_eye(const FurtherImagery& imagery, const PatchNode& node,
+                                        const SelectedPatch& patch) const {
     // Twice as far as what is nearest, the middle asks for one level less, or the texels where two patches meet would
     // be four pixels wide on one side.
     constexpr double kMostOverNearest = 2.0;
-    return patch.tile_level < tree_.grid().max_level && column(node).to_axis_m > kMostOverNearest * nearest_m(node);
+    return patch.tile_level < finest_level(imagery) && column(node).to_axis_m > kMostOverNearest * nearest_m(node);
   }
 
-  [[nodiscard]] bool window_too_wide(const PatchNode& node, const SelectedPatch& patch) const {
-    const double most = options_.max_window * tile_span_deg(tree_.grid(), patch.tile_level);
+  [[nodiscard]] bool window_too_wide(const FurtherImagery& imagery, const PatchNode& node,
+                                     const SelectedPatch& patch) const {
+    const double most = options_.max_window * tile_span_deg(imagery.tree->grid(), patch.tile_level);
     if (node.north_row_deg - node.south_row_deg > most) return true;
     const double most_columns = std::ldexp(most, patch.squeeze);
     return node.min_colatitude_rad >= band_rad_ && node.east_deg - node.west_deg > most_columns;
@@ -306,14 +392,15 @@ class Selector {
   const PatchSelectionOptions& options_;
   std::uint64_t stamp_;
   std::vector<SelectedPatch>& out_;
+  std::span<const FurtherImagery> further_;
   ViewPlanes planes_;
+  FurtherImagery imagery_;  ///< the first tree's
   bool has_horizon_ = false;
   glm::dvec3 eye_direction_{0.0};  ///< in scaled space
   double cos_horizon_ = 1.0, sin_horizon_ = 0.0;
   double least_distance_m_ = 0.0;
   double radians_per_pixel_ = 0.0;
   double error_scale_px_ = 0.0;
-  double texel_root_m_ = 0.0;
   double band_rad_ = 0.0;
 };
 
@@ -344,13 +431,15 @@ int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& s
 }
 
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
-                    std::vector<SelectedPatch>& out) {
+                    std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further) {
   out.clear();
+  for (const FurtherImagery& imagery : further) imagery.out->clear();
   if (tree.relief() != nullptr) tree.relief()->begin_selection();
   if (!finite(view)) return;
-  Selector selector(tree, view, options, tree.next_stamp(), out);
+  Selector selector(tree, view, options, tree.next_stamp(), out, further);
   for (int f = 0; f < kCubeFaces; ++f) selector.visit(tree.root(static_cast<CubeFace>(f)), false);
   selector.balance();
+  selector.select_further();
 }
 
 }  // namespace terrella

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geo/camera.h"
@@ -17,7 +18,8 @@ struct PatchSelectionOptions {
   int max_window = 8;                  ///< a patch whose window has more cells a side is split
   int max_polar_columns = 32;          ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
-  double inner_sphere_m = 0.0;  ///< radius of what hides the far side from an eye under the ground; 0: nothing
+  double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
+  int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has
 };
 
 /// One patch to draw.
@@ -31,6 +33,16 @@ struct SelectedPatch {
   bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one
   double pixel_m = 1.0;       ///< what a pixel covers on its nearest part, across the line of sight
   double footprint_texels = 1.0;  ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
+  PatchNode* surface = nullptr;   ///< of further imagery: the node of the first tree that it lies on
+};
+
+/// Tiles of another grid over the same patches.
+struct FurtherImagery {
+  PatchTree* tree = nullptr;      ///< of the same body, tessellation and relief
+  double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
+  int least_level = 0;            ///< patches whose view asks for coarser tiles are left out
+  int max_tile_level = kMaxTileLevel;
+  std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
 };
 
 /// The four side planes of the view, for spheres: dot(normal, p - eye) ≥ -radius is (partly) inside.
@@ -43,8 +55,9 @@ struct ViewPlanes {
 
 /// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
 /// view, the tree (whose nodes it makes and stamps) and the options. An eye under the surface sees every patch in
-/// front of it that the inner sphere does not hide. A view with NaN selects nothing. thread: main
+/// front of it that the inner sphere does not hide. A view with NaN selects nothing. Further imagery takes part in what
+/// is split: each patch suits all grids. thread: main
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
-                    std::vector<SelectedPatch>& out);
+                    std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further = {});
 
 }  // namespace terrella

@@ -184,6 +184,15 @@ void PatchTree::ensure_children(PatchNode& node) {
   for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
 }
 
+PatchNode& PatchTree::node(const PatchId& id) {
+  PatchNode* found = &root(id.face);
+  for (int shift = id.level - 1; shift >= 0; --shift) {
+    ensure_children(*found);
+    found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
+  }
+  return *found;
+}
+
 int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
   if (!grid_.reduced) return 0;
   const WindowRows span = window_rows(grid_, node, tile_level);

@@ -106,6 +106,8 @@ class PatchTree {
   PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping = CubeMapping::tangent);
 
   [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }
+  /// A node by its name, made if it is not there.
+  [[nodiscard]] PatchNode& node(const PatchId& id);
   /// The four children, made if they are not there.
   void ensure_children(PatchNode& node);
   /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.

@@ -71,8 +71,14 @@ class EntryMemo {
 class Coverer {
  public:
   Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out,
-          double texels_per_pixel)
-      : tree_(tree), view_(view), memo_(tree.grid(), residency), frame_(frame), out_(out), planes_(view_planes(view)) {
+          double texels_per_pixel, OutOfBounds out_of_bounds)
+      : tree_(tree),
+        view_(view),
+        memo_(tree.grid(), residency),
+        frame_(frame),
+        out_(out),
+        planes_(view_planes(view)),
+        out_of_bounds_(out_of_bounds) {
     const Ellipsoid& e = tree.ellipsoid();
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     const double texel0_m = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
@@ -287,6 +293,9 @@ class Coverer {
     for (;;) {
       const EntryMemo::Line& line = memo_.judged(id, patch.squeezed || up > 0);
       TileResidency::Entry& entry = *line.entry;
+      if (entry.state == TileState::outside && out_of_bounds_ == OutOfBounds::nothing) {
+        return {up, line.tile.squeeze, 0, false};
+      }
       if (!counted && entry.state != TileState::outside) {
         counted = true;
         count(entry);
@@ -349,6 +358,7 @@ class Coverer {
   std::uint64_t frame_;
   TileCoverage& out_;
   ViewPlanes planes_;
+  OutOfBounds out_of_bounds_;
   glm::dvec3 eye_over_axes2_{0.0};
   double least_radius_per_m_ = 0.0;
   double horizon_ = 1.0;        ///< what the dot product is, at least, of what some eye sees
@@ -377,12 +387,13 @@ std::vector<TileId> root_tiles(const TileGrid& grid) {
 }
 
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel) {
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel,
+                      OutOfBounds out_of_bounds) {
   out.draws.clear();
   out.cells.clear();
   out.wanted.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
-  Coverer coverer(tree, view, residency, frame, out, texels_per_pixel);
+  Coverer coverer(tree, view, residency, frame, out, texels_per_pixel, out_of_bounds);
   coverer.cover(patches);
 }
 

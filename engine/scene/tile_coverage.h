@@ -46,11 +46,14 @@ struct TileCoverage {
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
 /// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Stamps what is drawn with
-/// `frame`. Longitude wraps; cells beyond the planet repeat its edge. `texels_per_pixel` as in the patches' selection:
-/// a cell that asks for less than its patch takes a coarser tile, and away from the equator one whose texels are a
-/// little longer than a pixel if the view would want far more texels of a full grid than it has pixels. thread: main
+/// `frame`. Longitude wraps; cells beyond the planet repeat its edge. What the grid's bounds do not have takes an
+/// ancestor too, or nothing. `texels_per_pixel` as in the patches' selection: a cell that asks for less than its patch
+/// takes a coarser tile, and away from the equator one whose texels are a little longer than a pixel if the view would
+/// want far more texels of a full grid than it has pixels. thread: main
+enum class OutOfBounds { ancestor, nothing };
 void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel = 1.0);
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel = 1.0,
+                      OutOfBounds out_of_bounds = OutOfBounds::ancestor);
 
 /// The tiles of the coarsest level: always wanted, never evicted (DESIGN 10).
 [[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);

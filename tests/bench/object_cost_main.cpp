@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     camera.eye = {.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0), .height_m = 3.0 * 6378137.0};
     globe.set_camera(camera);
     globe.set_surface({.alpha = alpha});
-    if (!scene.empty() && !globe.set_objects(scene)) return;
+    if (!scene.empty() && !globe.add_objects(scene)) return;
     globe.render_until_settled(target.framebuffer(), kSize, Clock::now() + std::chrono::seconds(60));
     subjects.push_back({name, [&globe, &target] { globe.render(target.framebuffer(), kSize); }});
   };

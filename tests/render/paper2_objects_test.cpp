@@ -47,7 +47,7 @@ class Paper2Objects : public GlTest, public testing::WithParamInterface<Stereo> 
                                     const Camera& camera = camera_at(0, 0, 8.0e6, 0, -90, 60)) {
     options.stereo.mode = GetParam();
     auto globe = make_globe(options, one_colour(kObjectsGrid, kGroundColor));
-    EXPECT_TRUE(globe->set_objects({.points = std::move(balls)}));
+    EXPECT_TRUE(globe->add_objects({.points = std::move(balls)}));
     globe->set_camera(camera);
     settle(*globe, size());
     return globe;

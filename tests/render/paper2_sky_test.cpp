@@ -56,7 +56,7 @@ class Paper2Sky : public GlTest, public testing::WithParamInterface<Stereo> {
     options.stereo.mode = GetParam();
     options.naive_translucency = naive;
     auto globe = make_globe(options, one_colour({.tile_px = 64, .max_level = 1}, kDarkGround));
-    EXPECT_TRUE(globe->set_objects({.points = std::move(objects)}));
+    EXPECT_TRUE(globe->add_objects({.points = std::move(objects)}));
     globe->set_camera(camera_at(-23.4, -179.5, 2.0e7));
     settle(*globe, size());
     return globe;

@@ -158,11 +158,13 @@ TEST_F(ReliefHardCases, TwoSurfacesAMetreApartSeenFromAThousandKilometresDoNotFl
   GlobeOptions options = unlit_options();
   options.exaggeration = kExaggeration;
   const auto globe = mountainous_globe(options, one_colour(kHardGrid, kNearSide));
+  const auto sheets = globe->add_objects({});
+  ASSERT_TRUE(sheets);
   for (const bool upper_first : {false, true}) {
     const PolygonObject lower = sheet(kOverMountains_m, kLower), upper = sheet(kOverMountains_m + 1.0, kUpper);
     ObjectScene scene;
     scene.polygons = upper_first ? std::vector{upper, lower} : std::vector{lower, upper};
-    ASSERT_TRUE(globe->set_objects(scene));
+    ASSERT_TRUE(globe->set_objects(*sheets, scene));
     Draw draw(7);
     for (int k = 0; k < 40; ++k) {
       // The sheets fill the picture: 2° of 40° of view from 1000 km over them; jittered by metres and seconds of arc.
@@ -201,7 +203,7 @@ TEST_F(ReliefHardCases, SkyAndStarsChangeNothingOfWhatStandsBeforeThem) {
            .radius_m = 4.0e4,
            .color = {250, 30, 30}});
     }
-    EXPECT_TRUE(globe->set_objects(scene));
+    EXPECT_TRUE(globe->add_objects(scene));
     globe->set_camera(camera);
     settle(*globe, kSize);
     return picture();

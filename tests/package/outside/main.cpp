@@ -25,7 +25,7 @@ int main(int, char** argv) {
   if (!tiles || !quakes) return 1;
   auto globe = Globe::create(GlobeOptions{.unlit = true}, *std::move(tiles));
   if (!globe) return std::cerr << globe.error().message << '\n', 1;
-  if (!(*globe)->set_objects(quakes->scene)) return 1;
+  if (!(*globe)->add_objects(quakes->scene)) return 1;
   (*globe)->set_camera({.eye = {.lat = Angle::degrees(-20), .lon = Angle::degrees(170), .height_m = 1e7}});
   const Viewport size{256, 256};
   const OffscreenTarget target(size);

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/globe.h"
+#include "engine/image_layer.h"
+#include "render/globe_renderer.h"
+#include "scene/relief.h"
+#include "streaming/elevation/height_loader.h"
+
+namespace terrella {
+
+/// Objects that are added and removed together.
+struct ObjectLayer {
+  LayerId id = LayerId::none;
+  ObjectScene scene;
+  bool shown = true;
+};
+
+/// What is behind the façade. Calls are those of Globe, which has checked thread and context.
+struct Globe::Impl {
+  explicit Impl(const GlobeOptions& o) : options(o) {}
+
+  // Layers.
+  Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look);
+  Status set_look(LayerId id, const ImageLook& look);
+  [[nodiscard]] Result<ImageLook> look(LayerId id) const;
+  Status move(LayerId id, std::size_t position);
+  Status remove(LayerId id);
+  Result<LayerId> add_objects(ObjectScene scene, bool shown);
+  Status set_objects(LayerId id, ObjectScene scene);
+  Status show_objects(LayerId id, bool shown);
+  Status set_elevation(const std::optional<ElevationSource>& elevation);
+  void make_relief(const ElevationSource& elevation);
+  Status show_objects();
+  void share_gpu();
+  [[nodiscard]] ImageLayer* image(LayerId id) const;
+  [[nodiscard]] ObjectLayer* object(LayerId id);
+  [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
+
+  // A frame.
+  FrameStats draw(unsigned framebuffer, Viewport viewport);
+  void stack_layers();
+  [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
+  void select(Viewport viewport);
+  void select_within_budget(Viewport viewport);
+  void count();
+  void take_heights();
+  void ask_heights();
+  std::size_t take_finished();
+  [[nodiscard]] FrameInput frame_input(Viewport viewport);
+  [[nodiscard]] std::optional<SkyInput> sky() const;
+  [[nodiscard]] glm::dvec3 sun() const;
+  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief.get()}; }
+  [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
+  [[nodiscard]] bool settled() const;
+  [[nodiscard]] bool needs_frame() const;
+  void restore_detail();
+
+  /// False, and told where assertions are on, if a call comes from another thread than the globe's, or without the
+  /// context that the globe was made in.
+  [[nodiscard]] bool may_call(const char* call) const;
+  [[nodiscard]] bool may_draw(const char* call) const;
+
+  const std::thread::id thread = std::this_thread::get_id();
+  GlobeOptions options;
+  Camera camera;
+  std::unique_ptr<Relief> relief;         ///< none: the ellipsoid
+  std::unique_ptr<HeightLoader> heights;  ///< there if relief is
+  std::uint64_t last_id = 0;
+  std::vector<std::unique_ptr<ImageLayer>> images;  ///< the lowest first
+  std::unique_ptr<ImageLayer> plain;                ///< made where no image layer is opaque
+  std::vector<ImageLayer*> stack;                   ///< what a frame draws, the lowest first: it is opaque
+  std::vector<ObjectLayer> objects;
+  std::unique_ptr<GlobeRenderer> renderer;
+  View view;  ///< what is selected for: the eye's, or both eyes'
+  std::optional<EyePair> eyes;
+  std::optional<Almanac> almanac;  ///< there if a sky can be drawn
+  bool sky_on = false;
+  std::optional<unsigned> patch_shuffle;
+  std::uint64_t frame = 0;
+  Viewport drawn;       ///< the last frame's
+  bool changed = true;  ///< since the last frame
+  bool was_settled = false;
+  std::function<void()> on_settled;
+  FrameStats stats;
+  std::deque<LackingTile> lacking, lacking_heights;
+};
+
+}  // namespace terrella

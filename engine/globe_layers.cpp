@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/globe_impl.h"
+
+// What a globe is made of at run time: image layers, object layers, heights.
+namespace terrella {
+namespace {
+
+Error no_layer(const char* call, const char* kind, LayerId id) {
+  return Error{fmt::format("{}: the globe has no {} {} (removed before, or another globe's)", call, kind,
+                           static_cast<std::uint64_t>(id))};
+}
+
+Status check_grid(const TileGrid& grid) {
+  const auto wrong = [](std::string what) {
+    return Error{"Globe::add_imagery: the source says of its grid what cannot be: " + what};
+  };
+  if (!(grid.root_span_deg > 0.0 && grid.root_span_deg <= 1e4)) {
+    return wrong(fmt::format("tiles of level 0 that span {}°", grid.root_span_deg));
+  }
+  if (grid.tile_px < 16 || grid.tile_px > 4096) return wrong(fmt::format("tiles of {} pixels", grid.tile_px));
+  if (grid.min_level < 0 || grid.max_level < grid.min_level || grid.max_level > kMaxTileLevel) {
+    return wrong(fmt::format("levels from {} to {}", grid.min_level, grid.max_level));
+  }
+  return Done{};
+}
+
+Status check_look(const char* call, const ImageLook& look) {
+  if (look.opacity >= 0.0 && look.opacity <= 1.0) return Done{};
+  return Error{fmt::format("{}: an opacity of {}; give one from 0 to 1", call, look.opacity)};
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
+  if (!source) return Error{"Globe::add_imagery: there is no source; open one first (open_tile_set())"};
+  if (Status good = check_grid(source->info().grid); !good) return good.error();
+  if (Status good = check_look("Globe::add_imagery", look); !good) return good.error();
+  const LayerId id = next_id();
+  const std::size_t share = options.gpu_bytes / (images.size() + 1);
+  for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new one takes its part
+  images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, relief.get()));
+  restore_detail();
+  return id;
+}
+
+ImageLayer* Globe::Impl::image(LayerId id) const {
+  const auto found = std::ranges::find_if(images, [id](const auto& layer) { return layer->id() == id; });
+  return found == images.end() ? nullptr : found->get();
+}
+
+ObjectLayer* Globe::Impl::object(LayerId id) {
+  const auto found = std::ranges::find(objects, id, &ObjectLayer::id);
+  return found == objects.end() ? nullptr : &*found;
+}
+
+Status Globe::Impl::set_look(LayerId id, const ImageLook& look) {
+  ImageLayer* layer = image(id);
+  if (layer == nullptr) return no_layer("Globe::set_look", "image layer", id);
+  if (Status good = check_look("Globe::set_look", look); !good) return good;
+  layer->set_look(look);
+  changed = true;
+  return Done{};
+}
+
+Result<ImageLook> Globe::Impl::look(LayerId id) const {
+  const ImageLayer* layer = image(id);
+  if (layer == nullptr) return no_layer("Globe::look", "image layer", id);
+  return layer->look();
+}
+
+Status Globe::Impl::move(LayerId id, std::size_t position) {
+  const auto from = std::ranges::find_if(images, [id](const auto& layer) { return layer->id() == id; });
+  if (from == images.end()) return no_layer("Globe::move", "image layer", id);
+  std::unique_ptr<ImageLayer> layer = std::move(*from);
+  images.erase(from);
+  images.insert(images.begin() + static_cast<std::ptrdiff_t>(std::min(position, images.size())), std::move(layer));
+  changed = true;
+  return Done{};
+}
+
+Status Globe::Impl::remove(LayerId id) {
+  if (object(id) != nullptr) {
+    std::erase_if(objects, [id](const ObjectLayer& layer) { return layer.id == id; });
+    return show_objects();
+  }
+  ImageLayer* layer = image(id);
+  if (layer == nullptr) return no_layer("Globe::remove", "layer", id);
+  std::erase(stack, layer);
+  std::erase_if(images, [id](const auto& other) { return other->id() == id; });
+  share_gpu();
+  restore_detail();
+  return Done{};
+}
+
+void Globe::Impl::share_gpu() {
+  for (const auto& layer : images) layer->set_gpu_bytes(options.gpu_bytes / images.size());
+}
+
+Result<LayerId> Globe::Impl::add_objects(ObjectScene scene, bool shown) {
+  const LayerId id = next_id();
+  objects.push_back({id, std::move(scene), shown});
+  if (Status made = show_objects(); !made) {
+    objects.pop_back();
+    return made.error();
+  }
+  return id;
+}
+
+Status Globe::Impl::set_objects(LayerId id, ObjectScene scene) {
+  ObjectLayer* layer = object(id);
+  if (layer == nullptr) return no_layer("Globe::set_objects", "object layer", id);
+  layer->scene = std::move(scene);
+  return layer->shown ? show_objects() : Status(Done{});
+}
+
+Status Globe::Impl::show_objects(LayerId id, bool shown) {
+  ObjectLayer* layer = object(id);
+  if (layer == nullptr) return no_layer("Globe::show_objects", "object layer", id);
+  if (std::exchange(layer->shown, shown) == shown) return Done{};
+  return show_objects();
+}
+
+// The renderer has one scene: what is drawn in one go lies together, whatever layer it is of.
+Status Globe::Impl::show_objects() {
+  changed = true;
+  std::vector<const ObjectScene*> shown;
+  for (const ObjectLayer& layer : objects) {
+    if (layer.shown && !layer.scene.empty()) shown.push_back(&layer.scene);
+  }
+  if (shown.size() == 1) return renderer->set_objects(*shown.front());
+  ObjectScene all;
+  for (const ObjectScene* scene : shown) {
+    append(all.points, scene->points);
+    append(all.lines, scene->lines);
+    append(all.polygons, scene->polygons);
+    append(all.labels, scene->labels);
+    append(all.meshes, scene->meshes);
+  }
+  return renderer->set_objects(all);
+}
+
+void Globe::Impl::make_relief(const ElevationSource& elevation) {
+  relief = std::make_unique<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration);
+  heights = std::make_unique<HeightLoader>(elevation);
+}
+
+// Patches are raised in their vertices, and have slopes: all of them are made anew.
+Status Globe::Impl::set_elevation(const std::optional<ElevationSource>& elevation) {
+  if (!elevation && !relief) return Done{};
+  if (elevation.has_value() != (relief != nullptr)) {
+    if (Status made = renderer->set_relief(elevation.has_value()); !made) return made;
+  }
+  const std::unique_ptr<Relief> before = std::move(relief);  // patches refer to it until they are made anew
+  heights.reset();
+  if (elevation) make_relief(*elevation);
+  for (const auto& layer : images) layer->set_relief(relief.get());
+  if (plain) plain->set_relief(relief.get());
+  lacking_heights.clear();
+  changed = true;
+  return Done{};
+}
+
+}  // namespace terrella

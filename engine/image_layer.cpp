@@ -1,0 +1,171 @@
+#include "engine/image_layer.h"
+
+#include <algorithm>
+
+namespace terrella {
+namespace {
+
+constexpr int kMips = 4;
+constexpr std::size_t kMostLacking = 64;
+constexpr std::chrono::seconds kRetryFailed{30};
+constexpr TileGrid kPlainGrid{.tile_px = 16};
+constexpr int kAnyLevel = -1000;
+
+// The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
+TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
+  const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
+  grid.reduced = grid.reduced && options.squeezed_rows && polar_program;
+  return grid;
+}
+
+}  // namespace
+
+ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
+                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief)
+    : id_(id),
+      ellipsoid_(options.body.ellipsoid),
+      segments_(options.segments),
+      mapping_(options.mapping),
+      texels_per_pixel_(options.texels_per_pixel),
+      grid_(source ? grid_to_draw(options, source->info().grid) : kPlainGrid),
+      roots_(root_tiles(grid_)),
+      look_(look),
+      tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
+  set_relief(relief);
+  if (!source) return;
+  loader_ = std::make_unique<TileLoader>(
+      std::move(source), LoaderOptions{.workers = options.workers, .gutter = options.gutter_px, .mips = kMips});
+}
+
+std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
+  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief);
+  // Its tiles are all there, and empty.
+  for (const TileId& id : plain->roots_) {
+    TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
+    entry.state = TileState::resident;
+    entry.slot = 0;
+  }
+  return plain;
+}
+
+void ImageLayer::set_look(const ImageLook& look) {
+  look_ = look;
+  restore_detail();
+}
+
+void ImageLayer::set_relief(Relief* relief) {
+  gpu_.vertices.reset();
+  patches_.clear();
+  tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
+  if (relief != nullptr) tree_->set_relief(*relief);
+}
+
+bool ImageLayer::is_opaque() const {
+  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && !has_transparency_;
+}
+
+// Slot 0 and those of the root tiles are never given up.
+bool ImageLayer::coarsen() {
+  const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
+  if (!loader_ || coverage_.tiles <= room * 9 / 10) return false;
+  detail_ *= 0.75;
+  return true;
+}
+
+FurtherImagery ImageLayer::as_further() {
+  return {.tree = tree_.get(),
+          .texels_per_pixel = texels_per_pixel(),
+          .least_level = look_.min_level <= grid_.min_level ? kAnyLevel : look_.min_level,
+          .max_tile_level = look_.max_level,
+          .out = &patches_};
+}
+
+std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
+                                      std::deque<LackingTile>& lacking) {
+  std::size_t bytes = 0;
+  if (!loader_) return bytes;
+  retry_failed();
+  while (allowance.bytes > 0) {
+    std::vector<LoadedTile> batch = loader_->poll(1);
+    if (batch.empty()) break;
+    for (LoadedTile& tile : batch) {
+      if (!tile.pixels) {
+        note_lacking(tile.id, tile.pixels.error(), lacking);
+        continue;
+      }
+      has_transparency_ = has_transparency_ || !tile.pixels->opaque;
+      if (!tiles_.upload(tile.id, tile.pixels->mips, frame)) continue;
+      bytes += tiles_.slot_bytes();
+      allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
+    }
+    if (std::chrono::steady_clock::now() > allowance.deadline) allowance.bytes = 0;
+  }
+  return bytes;
+}
+
+void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
+  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
+  cover_with_tiles(*tree_, view, patches_, tiles_.residency(), frame, coverage_, texels_per_pixel(),
+                   first ? OutOfBounds::ancestor : OutOfBounds::nothing);
+}
+
+// Root tiles come first: an ancestor for everything.
+void ImageLayer::ask() {
+  if (!loader_) return;
+  asking_ = true;
+  std::vector<TileRequest> requests;
+  for (const TileId& id : roots_) {
+    if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
+  }
+  for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
+  loader_->request(requests);
+}
+
+void ImageLayer::stop_asking() {
+  if (!asking_) return;
+  asking_ = false;
+  loader_->request({});
+}
+
+LayerFrame ImageLayer::frame(bool first) {
+  return {.tree = tree_.get(),
+          .patches = &patches_,
+          .coverage = &coverage_,
+          .tiles = &tiles_,
+          .gpu = &gpu_,
+          .opacity = first ? 1.0 : look_.opacity};
+}
+
+// Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
+bool ImageLayer::settled() {
+  if (!loader_) return true;
+  if (!coverage_.wanted.empty()) return false;
+  if (coverage_.uncovered == 0) return true;
+  return std::ranges::none_of(
+      roots_, [this](const TileId& id) { return tiles_.residency().entry(id).state == TileState::unknown; });
+}
+
+bool ImageLayer::has_news() const {
+  if (!loader_) return false;
+  if (!failed_.empty() && failed_.front().first <= std::chrono::steady_clock::now()) return true;
+  const LoaderCounts counts = loader_->counts();
+  if (counts.finished > 0) return true;
+  return asking_ && !coverage_.wanted.empty() && counts.waiting + counts.running + counts.fetching == 0;
+}
+
+void ImageLayer::note_lacking(const TileId& id, const TileFailure& failure, std::deque<LackingTile>& lacking) {
+  tiles_.set_state(id, TileState::lacking);
+  if (failure.kind == Absence::failed) failed_.emplace_back(std::chrono::steady_clock::now() + kRetryFailed, id);
+  lacking.push_back({id, failure, id_});
+  if (lacking.size() > kMostLacking) lacking.pop_front();
+}
+
+void ImageLayer::retry_failed() {
+  for (const auto now = std::chrono::steady_clock::now(); !failed_.empty() && failed_.front().first <= now;
+       failed_.pop_front()) {
+    TileResidency::Entry* entry = tiles_.residency().find(failed_.front().second);
+    if (entry != nullptr && entry->state == TileState::lacking) entry->state = TileState::unknown;
+  }
+}
+
+}  // namespace terrella

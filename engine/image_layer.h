@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/globe.h"
+#include "render/globe_renderer.h"
+#include "scene/layers.h"
+#include "scene/tile_coverage.h"
+#include "streaming/tile_loader.h"
+
+namespace terrella {
+
+/// What a frame may still upload.
+struct UploadAllowance {
+  std::size_t bytes = 0;
+  std::chrono::steady_clock::time_point deadline;
+};
+
+/// One image layer of a globe: its tiles on their way from the source to the GPU, and what a frame draws of them.
+/// thread: main (of the context)
+class ImageLayer {
+ public:
+  /// `gpu_bytes`: this layer's share. `relief` as the globe's, none: the ellipsoid.
+  ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
+             std::size_t gpu_bytes, Relief* relief);
+  /// The plain colour that stands where no layer is opaque.
+  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
+
+  [[nodiscard]] LayerId id() const { return id_; }
+  [[nodiscard]] const ImageLook& look() const { return look_; }
+  void set_look(const ImageLook& look);
+  void set_relief(Relief* relief);  ///< everything about patches is made anew
+  void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
+  [[nodiscard]] bool is_drawn() const { return look_.shown && look_.opacity > 0.0; }
+  /// Covers whatever lies under it, wherever it has tiles.
+  [[nodiscard]] bool is_opaque() const;
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+
+  [[nodiscard]] PatchTree& tree() { return *tree_; }
+  [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
+  [[nodiscard]] const std::vector<SelectedPatch>& patches() const { return patches_; }
+  [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
+  /// Asked for; less than the globe's where a view wants more tiles than there is room for.
+  [[nodiscard]] double texels_per_pixel() const { return texels_per_pixel_ * detail_; }
+  void restore_detail() { detail_ = 1.0; }
+  /// Asks for less detail if the last view wanted more tiles than there is room for; true if so.
+  bool coarsen();
+  [[nodiscard]] FurtherImagery as_further();
+
+  /// Uploads what has arrived; returns the bytes. Tiles that are lacking are added to `lacking`.
+  std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
+  /// Finds a tile for each cell of patches().
+  void cover(const View& view, bool first, std::uint64_t frame);
+  void ask();
+  void stop_asking();
+  [[nodiscard]] LayerFrame frame(bool first);
+
+  [[nodiscard]] bool settled();
+  [[nodiscard]] LoaderCounts loading() const { return loader_ ? loader_->counts() : LoaderCounts{}; }
+  bool wait(std::chrono::steady_clock::time_point deadline) { return loader_ && loader_->wait(deadline); }
+  /// A frame would have something to do: tiles have arrived, or are to be asked for again.
+  [[nodiscard]] bool has_news() const;
+
+ private:
+  void note_lacking(const TileId& id, const TileFailure& failure, std::deque<LackingTile>& lacking);
+  void retry_failed();
+
+  LayerId id_;
+  Ellipsoid ellipsoid_;
+  int segments_;
+  CubeMapping mapping_;
+  double texels_per_pixel_;
+  TileGrid grid_;
+  std::vector<TileId> roots_;
+  ImageLook look_;
+  std::unique_ptr<PatchTree> tree_;
+  TileTextures tiles_;
+  std::unique_ptr<TileLoader> loader_;  ///< none: plain
+  PatchLayer gpu_;
+  std::vector<SelectedPatch> patches_;
+  TileCoverage coverage_;
+  double detail_ = 1.0;
+  bool has_transparency_ = false;  ///< a tile came that has some
+  bool asking_ = false;
+  std::deque<std::pair<std::chrono::steady_clock::time_point, TileId>> failed_;  ///< to be asked for again
+};
+
+}  // namespace terrella
