@@ -98,6 +98,7 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   if (const Status ranges = check_ranges(options); !ranges) return ranges.error();
   if (const Status context = check_context(); !context) return context.error();
   const GlState state;
+  gl::find_deletes();
   auto impl = std::make_unique<Impl>(options);
   RenderOptions render;
   render.texturing = options.texturing;
@@ -256,12 +257,12 @@ void Globe::set_patch_shuffle(std::optional<unsigned> seed) {
   impl_->changed = true;
 }
 
-FrameStats Globe::render(unsigned framebuffer, Viewport viewport) {
+FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
   if (!impl_->may_draw("Globe::render")) return {};
   FrameStats stats;
   {
     const GlState state;
-    stats = impl_->draw(framebuffer, viewport);
+    stats = impl_->draw(framebuffer, viewport, corner_px);
   }
   const bool settled_before = std::exchange(impl_->was_settled, impl_->settled());
   if (impl_->was_settled && !settled_before && impl_->on_settled) impl_->on_settled();
@@ -309,6 +310,22 @@ LoaderCounts Globe::loading() const {
     all.lacked += counts.lacked;
   }
   return all;
+}
+
+GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
+  if (!impl_->may_call("Globe::pick")) return {};
+  return impl_->pick(view(viewport), pixel_px);
+}
+
+std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
+  if (!impl_->may_call("Globe::project")) return std::nullopt;
+  const View eye = view(viewport);
+  const Ecef at = impl_->options.body.ellipsoid.to_ecef(place);
+  const auto pixel = terrella::project(eye, at);
+  if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x > viewport.width_px || pixel->y > viewport.height_px) {
+    return std::nullopt;
+  }
+  return hidden_by_ground(eye, ground(), at) ? std::nullopt : pixel;
 }
 
 View Globe::view(Viewport viewport) const { return make_view(impl_->camera, impl_->options.body.ellipsoid, viewport); }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "scene/cube_picture.h"
 #include "scene/ground.h"
 #include "scene/layers.h"
+#include "scene/object_pick.h"
 #include "scene/render_modes.h"
 #include "scene/star_catalogue.h"
 #include "scene/utc_time.h"
@@ -91,6 +93,14 @@ struct LackingTile {
   LayerId layer = LayerId::none;  ///< of imagery
 };
 
+/// What is under a pixel.
+struct GlobePick {
+  std::optional<Geodetic> place;       ///< of the ground (scene/ground.h); nothing beside the globe
+  LayerId imagery = LayerId::none;     ///< the highest image layer drawn there, by its bounds
+  LayerId objects = LayerId::none;     ///< the layer of the object; none: no object
+  std::optional<PickedObject> object;  ///< in the lists that the layer was given
+};
+
 /// What a globe may use; the same as in GlobeOptions.
 struct GlobeBudget {
   std::size_t gpu_bytes;
@@ -155,9 +165,9 @@ class Globe {
   /// For tests: the seed of another order of patches; none: as they are chosen.
   void set_patch_shuffle(std::optional<unsigned> seed);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, and uploads what has arrived, within
-  /// the budget. Returns what the frame did.
-  FrameStats render(unsigned framebuffer, Viewport viewport);
+  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
+  /// and uploads what has arrived, within the budget. Returns what the frame did.
+  FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
 
   /// True when the last frame showed everything that its view asks for.
   [[nodiscard]] bool settled() const;
@@ -176,6 +186,11 @@ class Globe {
   /// The same of elevation: coarser heights stand for these tiles, or the ellipsoid.
   [[nodiscard]] const std::deque<LackingTile>& lacking_heights() const;
 
+  /// What a pixel shows, of the one eye's picture (geo/coordinates.h).
+  [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
+  /// Where a place at its height is in the picture; nothing if it is outside of it, behind the eye or hidden
+  /// by the ground.
+  [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
   /// View of the camera at a picture size: picks and projections (geo/camera.h on the ellipsoid, scene/ground.h on the
   /// ground) take it.
   [[nodiscard]] View view(Viewport viewport) const;

@@ -144,8 +144,9 @@ std::optional<SkyInput> Globe::Impl::sky() const {
 
 glm::dvec3 Globe::Impl::sun() const { return almanac && options.time ? almanac->sun.xyz : sun_over_the_shoulder(view); }
 
-FrameInput Globe::Impl::frame_input(Viewport viewport) {
+FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
   FrameInput input{.size = viewport,
+                   .corner_px = corner_px,
                    .view = view,
                    .eyes = eyes,
                    .stereo = options.stereo.mode,
@@ -175,7 +176,7 @@ void Globe::Impl::count() {
   }
 }
 
-FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
+FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
   stats = {};
   ++frame;
   changed = false;
@@ -191,7 +192,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport) {
   for (ImageLayer* layer : stack) layer->ask();
   ask_heights();
   if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
-  const FrameCounts counts = renderer->draw(frame_input(viewport), framebuffer);
+  const FrameCounts counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
   stats.draw_calls = counts.draw_calls;
   stats.triangles = counts.triangles;
   count();

@@ -43,7 +43,7 @@ struct Globe::Impl {
   [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
 
   // A frame.
-  FrameStats draw(unsigned framebuffer, Viewport viewport);
+  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
   void stack_layers();
   [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
   void select(Viewport viewport);
@@ -52,11 +52,12 @@ struct Globe::Impl {
   void take_heights();
   void ask_heights();
   std::size_t take_finished();
-  [[nodiscard]] FrameInput frame_input(Viewport viewport);
+  [[nodiscard]] FrameInput frame_input(Viewport viewport, glm::ivec2 corner_px);
   [[nodiscard]] std::optional<SkyInput> sky() const;
   [[nodiscard]] glm::dvec3 sun() const;
   [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief.get()}; }
   [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
+  [[nodiscard]] GlobePick pick(const View& eye, glm::dvec2 pixel_px) const;
   [[nodiscard]] bool settled() const;
   [[nodiscard]] bool needs_frame() const;
   void restore_detail();

@@ -33,9 +33,10 @@ GLuint FrameTargets::copy_of_color() {
   return copy_.name();
 }
 
-void FrameTargets::copy_to(GLuint framebuffer) const {
-  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, size_.width_px, size_.height_px, 0, 0, size_.width_px,
-                         size_.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void FrameTargets::copy_to(GLuint framebuffer, glm::ivec2 corner_px) const {
+  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, size_.width_px, size_.height_px, corner_px.x,
+                         corner_px.y, corner_px.x + size_.width_px, corner_px.y + size_.height_px, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
 }
 
 }  // namespace terrella

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include "geo/camera.h"
 #include "render/gl_handle.h"
 
@@ -17,8 +19,8 @@ class FrameTargets {
   [[nodiscard]] bool has_stencil() const { return has_stencil_; }
   /// A copy of the picture as it is now, for a pass that reads what it writes.
   [[nodiscard]] GLuint copy_of_color();
-  /// The picture goes to a framebuffer of the same size.
-  void copy_to(GLuint framebuffer) const;
+  /// The picture goes to a framebuffer, its lower left corner to a place there.
+  void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:
   gl::Texture color_, depth_, copy_;

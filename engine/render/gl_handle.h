@@ -62,6 +62,16 @@ using VertexArray = Handle<VertexArrayTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using Program = Handle<ProgramTraits>;
 
+/// Finds what deletes objects while a context is current: without one it could not be found any more.
+inline void find_deletes() {
+  glDeleteBuffers(0, nullptr);
+  glDeleteTextures(0, nullptr);
+  glDeleteSamplers(0, nullptr);
+  glDeleteVertexArrays(0, nullptr);
+  glDeleteFramebuffers(0, nullptr);
+  glDeleteProgram(0);
+}
+
 [[nodiscard]] inline Buffer make_buffer() {
   GLuint name = 0;
   glCreateBuffers(1, &name);

@@ -68,7 +68,7 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilMask(0xFF);
   glDisable(GL_SCISSOR_TEST);
-  targets_.copy_to(framebuffer);
+  targets_.copy_to(framebuffer, input.corner_px);
   if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_STENCIL_TEST);
@@ -126,7 +126,7 @@ void GlobeRenderer::draw_naively(const Pass& pass) {
 
 // Where nothing goes over it, the limb can be drawn as the picture is copied.
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
-  if (pass.input.eyes) return false;
+  if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0)) return false;
   return !objects_ || !(under_ground(pass) || objects_->has(ObjectPart::above_ground));
 }
 

@@ -40,6 +40,7 @@ struct LayerFrame {
 /// What one frame is drawn from.
 struct FrameInput {
   Viewport size;
+  glm::ivec2 corner_px{0};         ///< of the picture in the framebuffer, lower left
   View view;                       ///< of the one eye
   std::optional<EyePair> eyes;     ///< of two; then `view` is not used
   Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are put together
