@@ -179,6 +179,8 @@ void GlState::take_fragments() {
   polygon_mode_ = modes.front();
   clip_origin_ = integer(GL_CLIP_ORIGIN);
   clip_depth_ = integer(GL_CLIP_DEPTH_MODE);
+  provoking_vertex_ = integer(GL_PROVOKING_VERTEX);
+  glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
 }
 
 void GlState::put_fragments() const {
@@ -206,6 +208,7 @@ void GlState::put_fragments() const {
   glFrontFace(name(front_face_));
   glPolygonMode(GL_FRONT_AND_BACK, name(polygon_mode_));
   glClipControl(name(clip_origin_), name(clip_depth_));
+  glProvokingVertex(name(provoking_vertex_));
 }
 
 void GlState::take_windows() {
