@@ -121,7 +121,7 @@ class PackageTest(unittest.TestCase):
     def test_pkg_config(self):
         """The same sources by the flags of pkg-config."""
         folder = self.copy_project("with-pkg-config")
-        environment = {**os.environ, "PKG_CONFIG_PATH": str(self.prefix / "lib/pkgconfig")}
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
         self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
         self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "outside", *flags, cwd=folder)
