@@ -1,4 +1,4 @@
-// qt_globe TILES [OBJECTS.geojson]: a globe in a Qt 6 window, turned and zoomed by the mouse.
+// qt_globe TILES OBJECTS.geojson: a globe in a Qt 6 window, turned and zoomed by the mouse.
 #include <terrella/globe.h>
 #include <terrella/scene/navigation.h>
 #include <terrella/streaming/objects/geojson_objects.h>
@@ -9,22 +9,20 @@
 
 using namespace terrella;
 
+template <class T>
+T must(Result<T> result) {
+  if (!result) qFatal("%s", result.error().message.c_str());
+  return *std::move(result);
+}
+
 class GlobeWidget : public QOpenGLWidget {
  public:
   ~GlobeWidget() override { makeCurrent(), globe_.reset(), doneCurrent(); }
-
- protected:
   void initializeGL() override {
-    const QStringList files = QApplication::arguments().mid(1);
-    auto tiles = open_tile_set(files.value(0).toStdString());
-    if (!tiles) qFatal("%s", tiles.error().message.c_str());
-    auto globe = Globe::create({}, *std::move(tiles));
-    if (!globe) qFatal("%s", globe.error().message.c_str());
-    globe_ = *std::move(globe);
-    if (files.size() > 1) {
-      const auto objects = read_geojson_objects(files[1].toStdString());
-      if (!objects || !globe_->add_objects(objects->scene)) qFatal("cannot show the objects");
-    }
+    const QStringList files = QApplication::arguments();
+    globe_ = must(Globe::create({}));
+    must(globe_->add_imagery(must(open_tile_set(files.value(1).toStdString()))));
+    must(globe_->add_objects(must(read_geojson_objects(files.value(2).toStdString())).scene));
     navigator_.emplace(Camera{}, globe_->ground(), size_px());
   }
   void paintGL() override {
@@ -34,18 +32,14 @@ class GlobeWidget : public QOpenGLWidget {
     globe_->render(defaultFramebufferObject(), size_px());
     if (navigator_->animating() || !globe_->settled()) update();
   }
-  void mousePressEvent(QMouseEvent* e) override { navigator_->pointer_down(button(*e), false, at(*e), now()); }
+  void mousePressEvent(QMouseEvent* e) override { navigator_->pointer_down(PointerButton::left, false, at(*e), now()); }
   void mouseMoveEvent(QMouseEvent* e) override { navigator_->pointer_move(at(*e), now()), update(); }
-  void mouseReleaseEvent(QMouseEvent* e) override { navigator_->pointer_up(button(*e), now()), update(); }
+  void mouseReleaseEvent(QMouseEvent*) override { navigator_->pointer_up(PointerButton::left, now()), update(); }
   void wheelEvent(QWheelEvent* e) override { navigator_->wheel(at(*e), e->angleDelta().y() / 120.0, now()), update(); }
 
  private:
   static Seconds now() { return std::chrono::steady_clock::now().time_since_epoch(); }
-  static PointerButton button(const QMouseEvent& e) {
-    return e.button() == Qt::LeftButton ? PointerButton::left : PointerButton::right;
-  }
-  int px(int units) const { return static_cast<int>(units * devicePixelRatioF()); }
-  Viewport size_px() const { return {px(width()), px(height())}; }
+  Viewport size_px() const { return {int(width() * devicePixelRatioF()), int(height() * devicePixelRatioF())}; }
   glm::dvec2 at(const QSinglePointEvent& e) const {
     return (glm::dvec2(e.position().x(), e.position().y()) + 0.5) * devicePixelRatioF();
   }

@@ -15,7 +15,8 @@ BUILD = pathlib.Path(os.environ["TERRELLA_BUILD"])
 CMAKE = os.environ["CMAKE_COMMAND"]
 COMPILER = os.environ["CXX"]
 
-sys.path.insert(0, str(HERE.parent / "window"))
+sys.path[:0] = [str(HERE.parent / "window"), str(HERE.parent / "cli")]
+import pictures  # noqa: E402
 import png  # noqa: E402
 
 # The eye of outside/main.cpp looks straight down on the first: it is in the middle of the picture, the other is behind the limb.
@@ -23,6 +24,10 @@ QUAKES = """{"type": "FeatureCollection", "features": [
   {"type": "Feature", "geometry": {"type": "Point", "coordinates": [170, -20]}, "properties": {"marker-color": "#ff00ff"}},
   {"type": "Feature", "geometry": {"type": "Point", "coordinates": [-10, 20]}, "properties": {"marker-color": "#00ffff"}}
 ]}"""
+
+# A yellow square that the eye sees 8° south of the middle, 31 pixels under it.
+YELLOW, SQUARE, SQUARE_PX = (255, 220, 0), "168,-30,172,-26", (128, 159)
+CAMERA = "-20,170,10000000"
 
 CUTTER_CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(Cutter LANGUAGES CXX)
@@ -76,6 +81,10 @@ class PackageTest(unittest.TestCase):
         cls.quakes = cls.scratch / "quakes.geojson"
         cls.quakes.write_text(QUAKES)
         cls.hiding = hiding_source()
+        picture = cls.scratch / "square.png"
+        picture.write_bytes(pictures.png(64, 64, YELLOW))
+        cls.square = cls.scratch / "square.gpkg"
+        run(cls.prefix / "bin/terrella", "cut", picture, "-o", cls.square, f"--bounds={SQUARE}", "--format", "png")
 
     def run_outside(self, *command, **options):
         return run(*self.hiding, *command, cwd=options.pop("cwd", "/"), **options)
@@ -89,24 +98,25 @@ class PackageTest(unittest.TestCase):
         return self.run_outside(CMAKE, "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
                                 *options)
 
-    def assert_picture(self, path):
+    def assert_picture(self, path, square):
         width, height, rows = png.read(path)
         self.assertEqual((width, height), (256, 256))
         pixels = [tuple(row[3 * x : 3 * x + 3]) for row in rows for x in range(width)]
         self.assertEqual(pixels[128 * width + 128], (255, 0, 255), "the earthquake under the eye")
+        self.assertEqual(pixels[SQUARE_PX[1] * width + SQUARE_PX[0]] == YELLOW, square, "the second layer")
         self.assertNotIn((0, 255, 255), pixels, "the earthquake on the far side")
         self.assertEqual(pixels[0], (0, 0, 0), "the sky")
         self.assertGreater(len(set(pixels)), 1000, "colours of the Earth")
 
     def test_find_package(self):
-        """A project outside the tree draws a picture."""
+        """A project outside the tree draws a picture of two layers and objects."""
         folder = self.copy_project("with-cmake")
         self.configure(folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
         self.run_outside(CMAKE, "--build", folder / "build")
         self.assertNotIn(str(SOURCE), (folder / "build/compile_commands.json").read_text())
         picture = folder / "earth.png"
-        self.run_outside(folder / "build/outside", self.prefix / "share/terrella/earth.gpkg", self.quakes, picture)
-        self.assert_picture(picture)
+        self.run_outside(folder / "build/outside", self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes, picture)
+        self.assert_picture(picture, square=True)
 
     def test_components(self):
         """The cutter without the globe: nothing of OpenGL is looked for."""
@@ -154,9 +164,9 @@ class PackageTest(unittest.TestCase):
         self.assertIn("usr/include/terrella/globe.h", run("dpkg-deb", "--contents", development))
         run("dpkg-deb", "--extract", program, self.scratch / "root")
         picture = self.scratch / "earth.png"
-        self.run_outside(self.scratch / "root/usr/bin/terrella", "render", "--unlit", "--size", "256x256", "--camera=-20,170,10000000",
+        self.run_outside(self.scratch / "root/usr/bin/terrella", "render", "--unlit", "--size", "256x256", f"--camera={CAMERA}",
                          "--objects", self.quakes, "-o", picture, env={**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache")})
-        self.assert_picture(picture)
+        self.assert_picture(picture, square=False)
 
 
 if __name__ == "__main__":

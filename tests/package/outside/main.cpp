@@ -1,11 +1,10 @@
-// outside TILES GEOJSON OUTPUT.png: a globe in an OpenGL context that is not Terrella's.
+// outside TILES OVERLAY GEOJSON OUTPUT.png: a globe in an OpenGL context that is not Terrella's.
 #include <epoxy/egl.h>
 #include <terrella/globe.h>
 #include <terrella/render/offscreen.h>
 #include <terrella/streaming/objects/geojson_objects.h>
 
 #include <fstream>
-#include <iostream>
 
 using namespace terrella;
 
@@ -20,17 +19,20 @@ void open_context() {
 
 int main(int, char** argv) {
   open_context();
-  auto tiles = open_tile_set(argv[1]);
-  auto quakes = read_geojson_objects(argv[2]);
-  if (!tiles || !quakes) return 1;
-  auto globe = Globe::create(GlobeOptions{.unlit = true}, *std::move(tiles));
-  if (!globe) return std::cerr << globe.error().message << '\n', 1;
-  if (!(*globe)->add_objects(quakes->scene)) return 1;
-  (*globe)->set_camera({.eye = {.lat = Angle::degrees(-20), .lon = Angle::degrees(170), .height_m = 1e7}});
+  GlobeOptions options;
+  options.unlit = true;
+  const auto globe = Globe::create(options);
+  auto earth = open_tile_set(argv[1]), overlay = open_tile_set(argv[2]);
+  auto quakes = read_geojson_objects(argv[3]);
+  if (!globe || !earth || !overlay || !quakes) return 1;
+  Globe& g = **globe;
+  if (!g.add_imagery(*std::move(earth)) || !g.add_imagery(*std::move(overlay)) || !g.add_objects(quakes->scene))
+    return 2;
+  g.set_camera({.eye = {.lat = Angle::degrees(-20), .lon = Angle::degrees(170), .height_m = 1e7}});
   const Viewport size{256, 256};
   const OffscreenTarget target(size);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  if (!(*globe)->render_until_settled(target.framebuffer(), size, deadline)) return 1;
+  if (!g.render_until_settled(target.framebuffer(), size, std::chrono::steady_clock::now() + std::chrono::minutes(1)))
+    return 3;
   const auto png = encode_png({size.width_px, size.height_px, target.read()});
-  std::ofstream(argv[3], std::ios::binary).write(reinterpret_cast<const char*>(png->data()), std::ssize(*png));
+  std::ofstream(argv[4], std::ios::binary).write(reinterpret_cast<const char*>(png->data()), std::ssize(*png));
 }
