@@ -2,6 +2,7 @@
 set(TERRELLA_PUBLIC_HEADERS
   engine/globe.h
   engine/geo/great_circle.h
+  engine/geo/measure.h
   engine/render/offscreen.h
   engine/scene/graticule.h
   engine/scene/navigation.h
