@@ -82,7 +82,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
   add_sky_data(options);
-  add_label_font(options, command.scene);
+  if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
   const Result<bool> objects = add_objects(**globe, command.scene);

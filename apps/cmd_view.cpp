@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/data_dir.h"
 #include "apps/open_imagery.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
@@ -18,7 +19,8 @@ constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
 constexpr const char* kHelpFooter =
     "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
     "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "U translucent, X under the ground, B sky, S stereo, P a panel with all of that, F12 saves a picture,\n"
+    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that, F12 "
+    "saves a picture,\n"
     "F1 or ? lists the keys, Esc leaves.\n"
     "\n"
     "Examples:\n"
@@ -29,7 +31,18 @@ constexpr const char* kHelpFooter =
 struct ViewOptions {
   SceneOptions scene;
   bool print_camera = false;
+  bool full_screen = false;
 };
+
+/// Without the list of places the globe is there all the same.
+Gazetteer load_places() {
+  try {
+    Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
+    if (places) return *std::move(places);
+  } catch (const BrokenInstallation&) {
+  }
+  return {};
+}
 
 int view(const ViewOptions& options) {
   if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
@@ -45,14 +58,16 @@ int view(const ViewOptions& options) {
   const std::string attribution = (*imagery)->info().attribution;
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
-  add_label_font(globe_options_with_sky, options.scene);
+  add_label_font(globe_options_with_sky);
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
     return fail("view", added.error().message);
   (*window)->show();
+  if (options.full_screen) (*window)->toggle_full_screen();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,
+                                     .places = load_places(),
                                      .print_camera = options.print_camera};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;
@@ -68,6 +83,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera, as --camera takes it, on standard output each time it comes to rest");
+  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F goes back to a window");
   command->footer(kHelpFooter);
   command->callback([options, &exit_code] { exit_code = view(*options); });
 }

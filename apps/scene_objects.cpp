@@ -19,8 +19,7 @@ void add_sky_data(GlobeOptions& options) {
   options.night_lights = std::move(data.night_lights);
 }
 
-void add_label_font(GlobeOptions& options, const SceneOptions& scene) {
-  if (scene.objects.empty()) return;
+void add_label_font(GlobeOptions& options) {
   constexpr std::size_t kMostFontBytes = 32UL << 20;
   try {
     auto font = read_file(data_file("DejaVuSans.ttf"), kMostFontBytes);

@@ -9,8 +9,8 @@ namespace terrella {
 /// damaged is said on standard error, and left out. thread: main
 void add_sky_data(GlobeOptions& options);
 
-/// Gives the globe's options the font that the program carries, if there are objects to label. thread: main
-void add_label_font(GlobeOptions& options, const SceneOptions& scene);
+/// Gives the globe's options the font that the program carries, for labels. thread: main
+void add_label_font(GlobeOptions& options);
 
 /// Gives the globe the objects that --objects names; what is wrong in the file is said on standard error, and the rest
 /// drawn. Returns whether all was right; fails if nothing of it can be read. thread: main

@@ -45,6 +45,18 @@ std::optional<ViewerAction> function_key(int key) {
   }
 }
 
+std::optional<ViewerAction> measuring_key(int key) {
+  switch (key) {
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      return ViewerAction::measure_middle;
+    case GLFW_KEY_BACKSPACE:
+      return ViewerAction::take_back;
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
@@ -69,6 +81,8 @@ Input::Input(Window& window, Ui& ui, Navigator& navigator)
 Seconds Input::now() { return Seconds(glfwGetTime()); }
 
 std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_, {}); }
+
+std::optional<glm::dvec2> Input::take_click() { return std::exchange(click_px_, {}); }
 
 bool Input::take_dirty() { return std::exchange(dirty_, false); }
 
@@ -108,7 +122,7 @@ void Input::listen_to_keys() {
   // Letters and signs come as characters: so they are where the keyboard's layout has them.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
     input_of(w).dirty_ = true;
-    if (!Ui::on_character(w, character)) input_of(w).on_character(character);
+    if (!input_of(w).ui_.on_character(w, character)) input_of(w).on_character(character);
   });
 }
 
@@ -121,13 +135,17 @@ void Input::on_button(int button, int action, int modifiers) {
   if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
   dirty_ = true;
   const PointerButton which = button == GLFW_MOUSE_BUTTON_LEFT ? PointerButton::left : PointerButton::right;
+  const glm::dvec2 at = pointer_px_;
+  const double slack_px = kClickSlack_px * window_.text_scale();
   if (action == GLFW_RELEASE) {
     navigator_.pointer_up(which, now());
+    const auto pressed = std::exchange(pressed_px_, {});
+    if (pressed && glm::distance(*pressed, at) <= slack_px) click_px_ = at;
     return;
   }
-  const glm::dvec2 at = pointer_px_;
   const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
-  if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), kClickSlack_px * window_.text_scale())) {
+  if (which == PointerButton::left && !ctrl) pressed_px_ = at;
+  if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), slack_px) && double_clicks_) {
     navigator_.double_click(at, now());
   } else {
     navigator_.pointer_down(which, ctrl, at, now());
@@ -143,6 +161,8 @@ void Input::on_key(int key, int action, bool taken) {
     navigator_.key(*moves, now());
   } else if (const auto asked = function_key(key); asked && !repeating_) {
     actions_.push_back(*asked);
+  } else if (const auto measures = measuring_key(key); measures && !repeating_) {
+    actions_.push_back(*measures);
   }
 }
 
@@ -176,6 +196,12 @@ void Input::on_character(unsigned character) {
     case 'x':
     case 'X':
       return actions_.push_back(ViewerAction::toggle_underground);
+    case 'm':
+    case 'M':
+      return actions_.push_back(ViewerAction::toggle_measuring);
+    case '/':
+      ui_.expect_text(true);
+      return actions_.push_back(ViewerAction::find_place);
     case '?':
       return actions_.push_back(ViewerAction::toggle_help);
     default:

@@ -21,6 +21,10 @@ enum class ViewerAction {
   next_stereo,
   toggle_sky,
   toggle_underground,
+  toggle_measuring,
+  measure_middle,
+  take_back,
+  find_place,
   leave
 };
 
@@ -48,6 +52,10 @@ class Input {
 
   /// What was asked for since the last call, in order.
   [[nodiscard]] std::vector<ViewerAction> take_actions();
+  /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
+  [[nodiscard]] std::optional<glm::dvec2> take_click();
+  /// Whether two clicks are a double click, which flies there.
+  void set_double_clicks(bool on) { double_clicks_ = on; }
   /// True if anything happened since the last call that can change the picture.
   [[nodiscard]] bool take_dirty();
   /// Where the cursor is, framebuffer pixels; nothing while it is outside the window.
@@ -69,6 +77,8 @@ class Input {
   /// went down.
   glm::dvec2 pointer_px_;
   ClickPair clicks_;
+  bool double_clicks_ = true;
+  std::optional<glm::dvec2> pressed_px_, click_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;
   bool repeating_ = false;  ///< the character that follows is a held key's

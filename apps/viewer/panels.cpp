@@ -15,6 +15,7 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
 constexpr float kMargin = 0.8F;         // of the text's height, between panels and the window's edge
 constexpr float kFootOfMessage = 3.6F;  // of the text's height: over the status line
+constexpr float kUnderFirstRow = 2.8F;
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kShade = IM_COL32(0, 0, 0, 150);
 
@@ -28,6 +29,8 @@ constexpr const char* kHelp[][2] = {
     {"N", "north up"},
     {"Home", "whole globe"},
     {"G", "graticule"},
+    {"/", "find a place"},
+    {"M", "measure: click places, Enter for the middle, Backspace"},
     {"P", "panel of what can be changed"},
     {"U", "translucent surface"},
     {"X", "eye under the ground, and back"},
@@ -119,6 +122,7 @@ void draw_status(const PanelStatus& status, double unit_px) {
            {0.0F, 1.0F});
   if (status.scale) draw_scale(*status.scale, {size.x - gap, size.y - gap}, unit_px);
   draw_row("##attribution", {{status.attribution, true}}, {size.x - gap, gap}, {1.0F, 0.0F});
+  draw_row("##measure", {{status.measure}}, {0.5F * size.x, gap + kUnderFirstRow * ImGui::GetFontSize()}, {0.5F, 0.0F});
   draw_row("##message", {{status.message}}, {0.5F * size.x, size.y - kFootOfMessage * ImGui::GetFontSize()},
            {0.5F, 1.0F});
 }

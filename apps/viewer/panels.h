@@ -17,6 +17,7 @@ struct PanelStatus {
   std::string tiles;        ///< empty when none is loading
   std::string frame;        ///< frame time
   std::string message;      ///< of the last action, for some seconds; may be empty
+  std::string measure;      ///< what is being measured; may be empty
   std::string attribution;  ///< of the imagery; may be empty
   std::optional<ScaleBar> scale;
 };

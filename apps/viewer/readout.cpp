@@ -51,6 +51,12 @@ std::string length_text(double length_m) {
   return (length_m < 0.0 ? "-" : "") + three_digits(std::abs(length_m) * 1e-3) + " km";
 }
 
+std::string area_text(double area_m2) {
+  constexpr double kSquareKilometre_m2 = 1.0e6, kLeastInKilometres = 0.1;
+  const double km2 = area_m2 / kSquareKilometre_m2;
+  return km2 < kLeastInKilometres ? three_digits(area_m2) + " m²" : three_digits(km2) + " km²";
+}
+
 std::optional<ScaleBar> scale_bar(const View& view, const Ground& ground, double most_px) {
   const auto distance_m = centre_distance_m(view, ground);
   if (!distance_m || !(*distance_m > 0.0)) return {};

@@ -13,6 +13,9 @@ namespace terrella {
 /// "12 m", "3.4 km", "384,000 km": three significant digits.
 [[nodiscard]] std::string length_text(double length_m);
 
+/// "12 m²", "3.4 km²", "384,000 km²".
+[[nodiscard]] std::string area_text(double area_m2);
+
 /// A bar whose length on the ground is a round number.
 struct ScaleBar {
   double length_m;

@@ -72,6 +72,9 @@ Ui::~Ui() {
 void Ui::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (ImGui::GetIO().WantTextInput) {
+    for (const unsigned character : std::exchange(written_, {})) ImGui::GetIO().AddInputCharacter(character);
+  }
   ImGui::NewFrame();
 }
 
@@ -112,9 +115,18 @@ bool Ui::on_key(GLFWwindow* window, int key, int scancode, int action, int modif
 }
 
 bool Ui::on_character(GLFWwindow* window, unsigned character) {
+  if (text_expected_ && !(takes_events() && ImGui::GetIO().WantTextInput)) {
+    written_.push_back(character);
+    return true;
+  }
   if (!takes_events()) return false;
   ImGui_ImplGlfw_CharCallback(window, character);
   return ImGui::GetIO().WantTextInput;
+}
+
+void Ui::expect_text(bool on) {
+  text_expected_ = on;
+  written_.clear();
 }
 
 void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterCallback(window, entered); }

@@ -20,17 +20,22 @@ class Ui {
   void end_frame();
   /// Whether mouse and keyboard work in panels.
   void take_events(bool on);
+  /// A field is about to open, or is open: what is written meanwhile is for it, from now on and not only when it has
+  /// the keyboard.
+  void expect_text(bool on);
   // Hand an event of the window on; true if the panel keeps it. Without effect while no events are taken.
   static bool on_button(GLFWwindow* window, int button, int action, int modifiers);
   static bool on_scroll(GLFWwindow* window, double x, double y);
   bool on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
-  static bool on_character(GLFWwindow* window, unsigned character);
+  bool on_character(GLFWwindow* window, unsigned character);
   static void on_enter(GLFWwindow* window, int entered);
   /// Of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
 
  private:
   std::vector<int> released_keys_;  ///< since the last frame
+  bool text_expected_ = false;
+  std::vector<unsigned> written_;  ///< before the field had the keyboard
 };
 
 }  // namespace terrella

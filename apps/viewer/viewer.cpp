@@ -23,7 +23,8 @@ constexpr double kLoadingPause_s = 1.0 / 60.0;  // between frames that only wait
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kEarthEquator_m = 6378137.0;
 constexpr int kPanelFrames = 3;
-constexpr double kFoot = 3.4;  // of the text's height, that the panels below take
+constexpr double kPlaceHeight = 0.05;  // in radii, over a place that was found
+constexpr double kFoot = 3.4;          // of the text's height, that the panels below take
 
 }  // namespace
 
@@ -41,6 +42,7 @@ void Viewer::run() {
   while (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
     wait_for_work();
     for (const ViewerAction action : input_.take_actions()) act(action);
+    if (const auto click = input_.take_click(); click && measuring_) measure_at(*click);
     const Viewport framebuffer = window_.framebuffer();
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
     (void)input_.take_dirty();
@@ -53,7 +55,7 @@ void Viewer::run() {
 
 void Viewer::wait_for_work() {
   const bool dirty = input_.take_dirty();
-  if (dirty && panel_) panel_frames_ = kPanelFrames;
+  if (dirty && (panel_ || searching_)) panel_frames_ = kPanelFrames;
   if (dirty || panel_frames_-- > 0 || navigator_.animating() || screenshot_wanted_) return glfwPollEvents();
   if (!globe_.settled()) return glfwWaitEventsTimeout(kLoadingPause_s);
   if (message_.empty()) return glfwWaitEvents();
@@ -88,8 +90,20 @@ void Viewer::act(ViewerAction action) {
       return;
     case ViewerAction::toggle_underground:
       return toggle_underground();
+    case ViewerAction::toggle_measuring:
+      return toggle_measuring();
+    case ViewerAction::measure_middle:
+      if (measuring_) measure_at(0.5 * glm::dvec2(window_.framebuffer().width_px, window_.framebuffer().height_px));
+      return;
+    case ViewerAction::take_back:
+      measure_.take_back();
+      return draw_measure();
+    case ViewerAction::find_place:
+      return toggle_search();
     case ViewerAction::leave:
+      if (searching_) return toggle_search();
       if (panel_) return toggle_panel();
+      if (measuring_) return toggle_measuring();
       glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
       return;
   }
@@ -156,9 +170,60 @@ void Viewer::toggle_underground() {
   navigator_.set_camera(camera);
 }
 
+// What was measured goes when measuring ends.
+void Viewer::toggle_measuring() {
+  measuring_ = !measuring_;
+  input_.set_double_clicks(!measuring_);
+  measure_.clear();
+  draw_measure();
+}
+
+void Viewer::measure_at(glm::dvec2 px) {
+  auto place = pick(globe_.view(window_.framebuffer()), globe_.ground(), px);
+  if (!place) return say("There is no ground to measure from");
+  if (!globe_.has_relief()) place->height_m = 0.0;  // what rounding leaves would be under the ground
+  measure_.add(*place);
+  draw_measure();
+}
+
+void Viewer::draw_measure() {
+  ObjectScene scene = measure_.scene(globe_.options().body.ellipsoid);
+  Status drawn = Done{};
+  if (measure_layer_) {
+    drawn = globe_.set_objects(*measure_layer_, std::move(scene));
+  } else if (!scene.empty()) {
+    const Result<LayerId> layer = globe_.add_objects(std::move(scene));
+    if (layer) measure_layer_ = *layer;
+    if (!layer) drawn = layer.error();
+  }
+  if (!drawn) say(drawn.error().message);
+}
+
+void Viewer::toggle_search() {
+  searching_ = !searching_ && options_.places.size() > 0;
+  if (options_.places.size() == 0) say("The program was installed without its list of places");
+  if (!searching_) ui_.expect_text(false);
+  search_ = {.text = {}, .just_opened = searching_};
+  ui_.take_events(panel_ || searching_);
+  panel_frames_ = kPanelFrames;
+}
+
+void Viewer::draw_search() {
+  const auto chosen = draw_place_search(search_, options_.places);
+  if (!chosen) return;
+  toggle_search();
+  Camera camera = navigator_.camera();
+  camera.eye = chosen->place;
+  camera.eye.height_m = kPlaceHeight * globe_.options().body.ellipsoid.a_m();
+  camera.heading = Angle{};
+  camera.pitch = Angle::degrees(-90.0);
+  navigator_.fly_to(camera, Input::now());
+  say(chosen->country.empty() ? chosen->name : chosen->name + ", " + chosen->country);
+}
+
 void Viewer::toggle_panel() {
   panel_ = !panel_;
-  ui_.take_events(panel_);
+  ui_.take_events(panel_ || searching_);
   panel_opened_ = panel_;
   panel_frames_ = kPanelFrames;
   const GlobeOptions& options = globe_.options();
@@ -226,6 +291,7 @@ void Viewer::draw_panels(Viewport framebuffer, const FrameStats& stats) {
   if (graticule_) draw_graticules(view);
   draw_status(status(view, stats), unit_px);
   if (panel_) draw_settings();
+  if (searching_) draw_search();
   if (help_) draw_help();
   ui_.end_frame();
 }
@@ -244,6 +310,7 @@ PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
   if (stats.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats.tiles_missing);
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;
+  if (measuring_) status.measure = measure_.text(globe_.options().body.ellipsoid);
   status.attribution = options_.attribution;
   status.scale = scale_bar(view, ground, kScaleBar_px * window_.text_scale());
   return status;

@@ -3,8 +3,11 @@
 #include <optional>
 #include <string>
 
+#include "apps/viewer/gazetteer.h"
 #include "apps/viewer/input.h"
+#include "apps/viewer/measure_tool.h"
 #include "apps/viewer/panels.h"
+#include "apps/viewer/place_search.h"
 #include "apps/viewer/ui.h"
 #include "apps/viewer/view_settings.h"
 #include "apps/viewer/window.h"
@@ -15,6 +18,7 @@ namespace terrella {
 struct ViewerOptions {
   Camera camera;
   std::string attribution;
+  Gazetteer places;           ///< for the search; may be empty
   bool print_camera = false;  ///< a line on standard output each time the camera comes to rest
 };
 
@@ -38,6 +42,11 @@ class Viewer {
   void toggle_underground();
   [[nodiscard]] double deepest_m() const;
   void toggle_panel();
+  void toggle_measuring();
+  void measure_at(glm::dvec2 px);
+  void draw_measure();
+  void toggle_search();
+  void draw_search();
   void draw_settings();
   void draw_graticules(const View& view);
   void draw_frame(Viewport framebuffer);
@@ -61,6 +70,11 @@ class Viewer {
   int panel_frames_ = 0;       ///< still to be drawn: a panel shows an event one frame later
   ViewSettings settings_;
   bool graticule_ = false;
+  bool measuring_ = false;
+  MeasureTool measure_;
+  std::optional<LayerId> measure_layer_;
+  bool searching_ = false;
+  PlaceSearch search_;
   bool screenshot_wanted_ = false;
   std::string message_;
   Clock::time_point message_until_{};

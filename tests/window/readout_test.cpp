@@ -33,6 +33,13 @@ TEST(LengthText, HasThreeDigitsAndGroups) {
   EXPECT_EQ(length_text(-250.0), "-250 m");
 }
 
+TEST(AreaText, HasThreeDigitsAndGroups) {
+  EXPECT_EQ(area_text(12.34), "12.3 m²");
+  EXPECT_EQ(area_text(9.0e4), "90,000 m²");
+  EXPECT_EQ(area_text(3.4e6), "3.4 km²");
+  EXPECT_EQ(area_text(510.07e12), "510,070,000 km²");
+}
+
 TEST(ScaleBar, IsARoundLengthThatFits) {
   for (double height_m = 2.0; height_m < 1e8; height_m *= 1.7) {
     const View view = make_view(down(46, 7, height_m), earth().ellipsoid, {1024, 768});

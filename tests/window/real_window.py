@@ -113,6 +113,10 @@ class Viewer:
         self.move(x, y)
         self.xdotool("click", "--repeat", str(abs(clicks)), "--delay", "60", "4" if clicks > 0 else "5")
 
+    def click(self, x, y):
+        self.move(x, y)
+        self.xdotool("click", "1")
+
     def double_click(self, x, y):
         self.move(x, y)
         self.xdotool("click", "--repeat", "2", "--delay", "80", "1")

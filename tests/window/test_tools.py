@@ -1,0 +1,52 @@
+"""What a person does who wants to know how far it is: find a place, measure, save a picture."""
+
+import unittest
+
+import png
+from real_window import SIZE, WindowTest
+
+
+class Tools(WindowTest):
+    def test_a_place_is_found_and_flown_to(self):
+        viewer = self.start("--camera", "10,20,9000000")
+        viewer.xdotool("key", "--delay", "1", "slash", "s", "a", "o")  # faster than a frame
+        self.screenshot(viewer, "search_found")
+        viewer.key("Return")
+        there = viewer.next_camera()
+        self.assertAlmostEqual(there.lat, -23.55, delta=0.2)
+        self.assertAlmostEqual(there.lon, -46.63, delta=0.2)
+        self.assertLess(there.height_m, 1e6)
+        self.screenshot(viewer, "search_there")
+
+    def test_escape_closes_the_search_and_not_the_window(self):
+        viewer = self.start("--camera", "10,20,9000000")
+        plain = png.read(self.screenshot(viewer, "plain"))
+        viewer.key("slash")
+        viewer.key("x")
+        viewer.key("Escape")
+        again = png.read(self.screenshot(viewer, "search_closed"))
+        self.assertLess(png.changed(plain, again), 10000)
+
+    def test_a_way_and_an_area_are_measured(self):
+        viewer = self.start("--camera", "0,20,9000000")
+        plain = png.read(self.screenshot(viewer, "before"))
+        viewer.key("m")
+        middle = (SIZE[0] // 2, SIZE[1] // 2)
+        for dx, dy in ((-100, 0), (100, 0), (0, -120)):
+            viewer.click(middle[0] + dx, middle[1] + dy)
+        measured = png.read(self.screenshot(viewer, "measured"))
+        # The ways between are drawn, in the tool's yellow, where they lie in the picture: the first one on the equator.
+        red, green, blue = png.pixel(measured, middle[0], middle[1])
+        self.assertGreater(min(red, green) - blue, 60, "no yellow line on the equator")
+        self.assertGreater(png.changed(plain, measured), 2000)
+        viewer.key("BackSpace")
+        viewer.key("Return")
+        self.screenshot(viewer, "measured_again")
+        viewer.key("m")
+        again = png.read(self.screenshot(viewer, "after"))
+        self.assertLess(png.changed(plain, again), 10000)  # the triangle alone was 12,000
+        self.assertTrue(viewer.camera_stays(0.2), "clicks that measure do not fly")
+
+
+if __name__ == "__main__":
+    unittest.main()
