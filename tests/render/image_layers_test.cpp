@@ -6,6 +6,7 @@
 
 #include "gl_fixture.h"
 #include "layer_source.h"
+#include "painted_heights.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {
@@ -210,6 +211,33 @@ TEST_F(ImageLayers, ATranslucentSurfaceIsThatOfItsLayersTogether) {
               kManyRoundings);
     for (std::size_t k = 3; k < both.rgba.size(); k += 4) ASSERT_EQ(both.rgba[k], 255);
   }
+}
+
+TEST_F(ImageLayers, HeightsComeAndGoUnderLayersOfDifferentRows) {
+  TileGrid other = two_roots();
+  other.projection = Projection::equal_area;
+  const auto heights = ElevationSource::open(
+      painted_heights({.tile_px = 64, .max_level = 2},
+                      [](double lat, double lon) { return 3000.0 * std::sin(20.0 * lat) * std::cos(20.0 * lon); }),
+      "heights");
+  ASSERT_TRUE(heights);
+  const auto globe = empty_globe();
+  globe->set_exaggeration(20.0);
+  globe->set_camera(camera_at(30, 10, 1.5e6, 40, -50));
+  const auto below = globe->add_imagery(painted(one_root(), cool));
+  const auto above = globe->add_imagery(painted(other, warm), {.opacity = 0.5});
+  ASSERT_TRUE(below && above);
+  const Picture flat = settled(*globe);
+  ASSERT_TRUE(globe->set_elevation(*heights));
+  EXPECT_TRUE(globe->has_relief());
+  EXPECT_TRUE(globe->needs_frame());
+  const Picture lower = alone(*globe, *below), upper = alone(*globe, *above), both = settled(*globe);
+  EXPECT_GT(std::abs(globe->ground_height_m(Angle::degrees(31.5), Angle::degrees(9.0))), 1000.0);
+  EXPECT_GT(differing(both, flat), 20);
+  EXPECT_LE(worst(both, lower, upper, [](double x, double y) { return 0.5 * x + 0.5 * y; }), kRounding + 1);
+  ASSERT_TRUE(globe->set_elevation({}));
+  EXPECT_EQ(globe->ground_height_m(Angle::degrees(31.5), Angle::degrees(9.0)), 0.0);
+  EXPECT_EQ(differing(settled(*globe), flat), 0);
 }
 
 TEST_F(ImageLayers, LevelsOutsideTheRangeAreNotDrawn) {
