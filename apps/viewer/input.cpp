@@ -84,6 +84,8 @@ std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_,
 
 std::optional<glm::dvec2> Input::take_click() { return std::exchange(click_px_, {}); }
 
+std::optional<BookmarkKey> Input::take_bookmark() { return std::exchange(bookmark_, {}); }
+
 bool Input::take_dirty() { return std::exchange(dirty_, false); }
 
 std::optional<glm::dvec2> Input::cursor_px() const {
@@ -117,7 +119,7 @@ void Input::listen_to_pointer() {
 
 void Input::listen_to_keys() {
   glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int code, int action, int modifiers) {
-    input_of(w).on_key(key, action, input_of(w).ui_.on_key(w, key, code, action, modifiers));
+    input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(w, key, code, action, modifiers));
   });
   // Letters and signs come as characters: so they are where the keyboard's layout has them.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
@@ -153,7 +155,7 @@ void Input::on_button(int button, int action, int modifiers) {
 }
 
 // What a panel has taken is not the globe's, but for the function keys and Esc, which closes the panel.
-void Input::on_key(int key, int action, bool taken) {
+void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
   if (action == GLFW_RELEASE || (taken && !function_key(key))) return;
@@ -163,6 +165,8 @@ void Input::on_key(int key, int action, bool taken) {
     actions_.push_back(*asked);
   } else if (const auto measures = measuring_key(key); measures && !repeating_) {
     actions_.push_back(*measures);
+  } else if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
+    bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = (modifiers & GLFW_MOD_CONTROL) != 0};
   }
 }
 

@@ -28,6 +28,12 @@ enum class ViewerAction {
   leave
 };
 
+/// A bookmark that was asked for: 1 to 9 flies there, with Ctrl it is set to what is seen.
+struct BookmarkKey {
+  int number = 0;
+  bool set = false;
+};
+
 /// Finds double clicks by time and distance.
 class ClickPair {
  public:
@@ -54,6 +60,7 @@ class Input {
   [[nodiscard]] std::vector<ViewerAction> take_actions();
   /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
   [[nodiscard]] std::optional<glm::dvec2> take_click();
+  [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< the last one since the last call
   /// Whether two clicks are a double click, which flies there.
   void set_double_clicks(bool on) { double_clicks_ = on; }
   /// True if anything happened since the last call that can change the picture.
@@ -67,7 +74,7 @@ class Input {
   void listen_to_keys();
   void listen_to_window();
   void on_button(int button, int action, int modifiers);
-  void on_key(int key, int action, bool taken);
+  void on_key(int key, int action, int modifiers, bool taken);
   void on_character(unsigned character);
 
   Window& window_;
@@ -78,6 +85,7 @@ class Input {
   glm::dvec2 pointer_px_;
   ClickPair clicks_;
   bool double_clicks_ = true;
+  std::optional<BookmarkKey> bookmark_;
   std::optional<glm::dvec2> pressed_px_, click_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;

@@ -31,6 +31,7 @@ constexpr const char* kHelp[][2] = {
     {"G", "graticule"},
     {"/", "find a place"},
     {"M", "measure: click places, Enter for the middle, Backspace"},
+    {"1 ... 9", "fly to a bookmark; with Ctrl set it"},
     {"P", "panel of what can be changed"},
     {"U", "translucent surface"},
     {"X", "eye under the ground, and back"},

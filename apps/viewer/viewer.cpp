@@ -43,6 +43,7 @@ void Viewer::run() {
     wait_for_work();
     for (const ViewerAction action : input_.take_actions()) act(action);
     if (const auto click = input_.take_click(); click && measuring_) measure_at(*click);
+    if (const auto bookmark = input_.take_bookmark()) use(*bookmark);
     const Viewport framebuffer = window_.framebuffer();
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
     (void)input_.take_dirty();
@@ -197,6 +198,22 @@ void Viewer::draw_measure() {
     if (!layer) drawn = layer.error();
   }
   if (!drawn) say(drawn.error().message);
+}
+
+// The file is read anew each time: another window may have set one. A damaged one is left as it is.
+void Viewer::use(const BookmarkKey& key) {
+  const auto file = bookmarks_file();
+  if (file) {
+    Result<Bookmarks> kept = Bookmarks::load(*file);
+    if (!kept) return say(kept.error().message);
+    bookmarks_ = *std::move(kept);
+  }
+  const std::optional<Camera>& there = bookmarks_.at(key.number);
+  if (!key.set && !there) return say(fmt::format("No bookmark {0} yet; Ctrl + {0} sets it", key.number));
+  if (!key.set) return navigator_.fly_to(*there, Input::now());
+  bookmarks_.set(key.number, navigator_.camera());
+  const Status saved = file ? bookmarks_.save(*file) : Status(Error{"Kept until the window closes: HOME is not set"});
+  say(saved ? fmt::format("Bookmark {}", key.number) : saved.error().message);
 }
 
 void Viewer::toggle_search() {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/viewer/bookmarks.h"
 #include "apps/viewer/gazetteer.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/measure_tool.h"
@@ -45,6 +46,7 @@ class Viewer {
   void toggle_measuring();
   void measure_at(glm::dvec2 px);
   void draw_measure();
+  void use(const BookmarkKey& key);
   void toggle_search();
   void draw_search();
   void draw_settings();
@@ -73,6 +75,7 @@ class Viewer {
   bool measuring_ = false;
   MeasureTool measure_;
   std::optional<LayerId> measure_layer_;
+  Bookmarks bookmarks_;
   bool searching_ = false;
   PlaceSearch search_;
   bool screenshot_wanted_ = false;

@@ -5,6 +5,7 @@ import queue
 import re
 import shutil
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -145,6 +146,9 @@ class WindowTest(unittest.TestCase):
     def setUpClass(cls):
         cls.display = Display()
         cls.addClassCleanup(cls.display.close)
+        settings = tempfile.TemporaryDirectory(prefix="terrella-settings-")
+        cls.addClassCleanup(settings.cleanup)
+        cls.display.environment["XDG_CONFIG_HOME"] = settings.name
 
     def start(self, *options):
         self.folder = ARTEFACTS / self.id().split(".")[-1]

@@ -27,6 +27,19 @@ class Tools(WindowTest):
         again = png.read(self.screenshot(viewer, "search_closed"))
         self.assertLess(png.changed(plain, again), 10000)
 
+    def test_bookmarks_are_there_in_the_next_run(self):
+        viewer = self.start("--camera", "10,20,9000000")
+        viewer.key("ctrl+3")
+        viewer.key("Home")
+        viewer.next_camera()
+        viewer.close()
+        viewer = self.start("--camera", "-30,120,3000000")
+        viewer.key("3")
+        there = viewer.next_camera()
+        self.assertAlmostEqual(there.lat, 10.0, places=5)
+        self.assertAlmostEqual(there.lon, 20.0, places=5)
+        self.assertAlmostEqual(there.height_m, 9e6, delta=1.0)
+
     def test_a_way_and_an_area_are_measured(self):
         viewer = self.start("--camera", "0,20,9000000")
         plain = png.read(self.screenshot(viewer, "before"))

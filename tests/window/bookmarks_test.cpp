@@ -1,0 +1,58 @@
+#include "apps/viewer/bookmarks.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/scratch_folder.h"
+
+namespace terrella {
+namespace {
+
+Camera somewhere() {
+  return {.eye = {.lat = Angle::degrees(46.1), .lon = Angle::degrees(-7.2), .height_m = 12345.678},
+          .heading = Angle::degrees(30.0),
+          .pitch = Angle::degrees(-20.0)};
+}
+
+TEST(Bookmarks, AreThereInTheNextRunToTheLastBit) {
+  const test::ScratchFolder folder;
+  const auto file = folder.path() / "new" / "folder" / "bookmarks.json";
+  auto bookmarks = Bookmarks::load(file);
+  ASSERT_TRUE(bookmarks) << "a file that is not there has none";
+  bookmarks->set(1, somewhere());
+  bookmarks->set(9, {});
+  ASSERT_TRUE(bookmarks->save(file));
+  const auto again = Bookmarks::load(file);
+  ASSERT_TRUE(again);
+  ASSERT_TRUE(again->at(1) && again->at(9));
+  EXPECT_FALSE(again->at(2));
+  EXPECT_EQ(again->at(1)->eye.height_m, somewhere().eye.height_m);
+  EXPECT_NEAR(again->at(1)->eye.lat.deg(), 46.1, 1e-13);
+}
+
+TEST(Bookmarks, ADamagedFileIsNamedAndOneBadBookmarkLosesNoOther) {
+  const test::ScratchFolder folder;
+  const auto file = folder.path() / "bookmarks.json";
+  std::ofstream(file) << "{\"bookmarks\": {";
+  const auto damaged = Bookmarks::load(file);
+  ASSERT_FALSE(damaged);
+  EXPECT_NE(damaged.error().message.find("bookmarks.json"), std::string::npos);
+  std::ofstream(file) << R"({"bookmarks": {"1": "north of here", "2": 7, "3": "46,7,1000", "12": "0,0,1"}})";
+  const auto some = Bookmarks::load(file);
+  ASSERT_TRUE(some) << some.error().message;
+  EXPECT_FALSE(some->at(1));
+  EXPECT_FALSE(some->at(2));
+  EXPECT_TRUE(some->at(3));
+}
+
+TEST(Bookmarks, WhereNothingCanBeWrittenItSaysSo) {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path() / "file") << "x";
+  const Status saved = Bookmarks().save(folder.path() / "file" / "bookmarks.json");
+  ASSERT_FALSE(saved);
+  EXPECT_NE(saved.error().message.find("file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace terrella
