@@ -111,6 +111,7 @@ class ObjectPicker {
     bool in = false;
     for (const auto& ring : polygon.rings) {
       std::vector<MapPoint> positions;
+      positions.reserve(ring.size());
       for (const Geodetic& place : ring) positions.push_back({place.lon.deg(), place.lat.deg()});
       const Result<std::vector<MapRing>> rings = rings_of(positions);
       if (!rings) return false;
