@@ -66,6 +66,11 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
                   "rather than more")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  command
+      .add_option("--detail", options.texels_per_pixel,
+                  "Texels a pixel asked for: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
+      ->check(number_in(0.125, 8.0))
+      ->capture_default_str();
   add_choice<DepthMode>(
       command, "--depth", options.depth,
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
@@ -218,6 +223,7 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.paper_band = options.band;
   globe.squeezed_rows = options.squeezed_rows;
   globe.polar_columns = options.polar_columns;
+  globe.texels_per_pixel = options.texels_per_pixel;
   globe.depth = options.depth;
   globe.unlit = options.unlit;
   globe.surface = options.surface;

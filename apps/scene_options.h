@@ -28,6 +28,7 @@ struct SceneOptions {
   double band = 0.05;
   bool squeezed_rows = true;
   int polar_columns = 32;
+  double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
   std::string elevation;      ///< tile set of heights; empty: none
   double exaggeration = 1.0;  ///< of heights

@@ -81,16 +81,37 @@ std::string data_of(const std::vector<Curve>& curves, std::size_t plot) {
   return text;
 }
 
+/// A range with a margin: gnuplot's own on a logarithmic axis ends at powers of ten.
+std::string log_range(const char* axis, const std::vector<Curve>& curves, double std::pair<double, double>::*member) {
+  constexpr double kMargin = 1.2;
+  double least = HUGE_VAL, most = 0.0;
+  for (const Curve& curve : curves) {
+    for (const auto& point : curve.points) {
+      least = std::min(least, point.*member);
+      most = std::max(most, point.*member);
+    }
+  }
+  std::string marks;
+  for (double decade = std::pow(10.0, std::floor(std::log10(least / kMargin))); decade < most * kMargin; decade *= 10) {
+    for (const double step : {1.0, 2.0, 5.0}) marks += fmt::format("{}{:g}", marks.empty() ? "" : ",", step * decade);
+  }
+  return fmt::format("set {0}range [{1}:{2}]\nset {0}tics ({3})\n", axis, least / kMargin, most * kMargin, marks);
+}
+
 std::string commands_of(const Report& report, const Plot& plot, const std::vector<Curve>& curves, std::size_t number) {
   std::string text =
       fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n", quoted(plot.title),
                   quoted(axis_name(report, plot.x)), quoted(axis_name(report, plot.y)));
   text += plot.log_x ? "set logscale x\n" : "unset logscale x\n";
   text += plot.log_y ? "set logscale y\n" : "unset logscale y\n";
-  if (!plot.log_y) text += "set yrange [0:*]\n";
-  if (plot.log_y) text += "set yrange [*:*]\n";
+  using Point = std::pair<double, double>;
+  text +=
+      plot.log_x && !curves.empty() ? log_range("x", curves, &Point::first) : "set xrange [*:*]\nset xtics autofreq\n";
+  text +=
+      plot.log_y && !curves.empty() ? log_range("y", curves, &Point::second) : "set yrange [0:*]\nset ytics autofreq\n";
   // An axis without a point cannot be drawn: gnuplot would fail.
-  if (curves.empty()) return text + "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\nset xrange [*:*]\n";
+  if (curves.empty())
+    return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\nset xrange [*:*]\n";
   text += "plot ";
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const std::string title = curves[k].name.empty() ? "notitle" : "title " + quoted(curves[k].name) + " noenhanced";

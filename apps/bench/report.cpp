@@ -83,6 +83,14 @@ std::string line_of(const Finding& finding) {
                      finding.holds() ? "holds" : "does not hold");
 }
 
+std::string verdict_of(const std::vector<Finding>& findings) {
+  const auto held = std::ranges::count_if(findings, [](const Finding& f) { return !std::isnan(f.limit); });
+  if (held == 0) return "";
+  const auto broken = std::ranges::count_if(findings, [](const Finding& f) { return !f.holds(); });
+  return fmt::format("finding: {}, {} of {} figures are within their limits\n", broken == 0 ? "pass" : "fail",
+                     held - broken, held);
+}
+
 }  // namespace
 
 std::size_t Report::column(const std::string& column_name) const {
@@ -97,7 +105,7 @@ std::string as_text(const Report& report) {
   text += '\n' + table_of(report);
   if (!report.findings.empty()) text += '\n';
   for (const Finding& finding : report.findings) text += line_of(finding);
-  return text;
+  return text + verdict_of(report.findings);
 }
 
 std::string as_csv(const Report& report) {

@@ -40,7 +40,8 @@ TEST(ReportTest, JsonSaysTheSame) {
 
 TEST(ReportTest, TheTableHasUnitsFiguresAndFindings) {
   const std::string text = as_text(small_report());
-  for (const char* said : {"A small report", "renderer: none", "ms", "1.2", "does not hold", "no bound: 3"}) {
+  for (const char* said :
+       {"A small report", "renderer: none", "ms", "1.2", "does not hold", "no bound: 3", "finding: fail"}) {
     EXPECT_NE(text.find(said), std::string::npos) << said << '\n' << text;
   }
 }

@@ -73,6 +73,7 @@ OUT_OF_RANGE = [
     ("--depth", "w", "reversed|log|standard"),
     ("--polar-rows", "few", "squeezed|full"),
     ("--polar-columns", "0", "4096"),
+    ("--detail", "0.1", "8"),
     ("--exaggeration", "-1", "100"),
     ("--surface-alpha", "1.1", "1"),
     ("--time", "1899-01-01T00:00Z", "1950 to 2050"),
