@@ -1,7 +1,7 @@
 // Antialiases the limb: a pixel that the limb crosses takes the colours just inside and just outside it, by the part of the
 // pixel that each covers.
 layout(binding = 0) uniform sampler2D frame_srgb;
-layout(location = 0) uniform int rows_apart;   // 2: the rows between are another eye's
+layout(location = 0) uniform int rows_apart;   // 2: the rows between are another eye's; 0: frame_srgb has the limb
 layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
 in vec2 outward;
 in float outside_px;
@@ -15,5 +15,9 @@ vec4 at(float distance_px) {
 }
 
 void main() {
+  if (rows_apart == 0) {
+    color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
+    return;
+  }
   color_srgb = mix(at(-1.25), at(1.25), clamp(0.5 + outside_px, 0.0, 1.0));
 }

@@ -1,16 +1,17 @@
 // Small spheres as they were drawn in memory: colour and depth of the nearest one at each pixel.
-in vec2 in_block_px;
-flat in int first_pixel;
+noperspective in vec2 in_run_px;
+flat in uint first_pixel;
 layout(binding = 0) uniform usamplerBuffer pixels;
 layout(location = 0) out vec4 color_srgb;
 
-const int kBlock_px = 32;
+const uvec2 kBlock_px = uvec2(64, 32);
+const uint kPixels = kBlock_px.x * kBlock_px.y;   // of a block: their colours, then their nearness
 
 void main() {
-  ivec2 at = ivec2(in_block_px);
-  int k = first_pixel + at.y * kBlock_px + at.x;
+  uvec2 at = uvec2(in_run_px), block_at = uvec2(at.x % kBlock_px.x, at.y);
+  int k = int(first_pixel + at.x / kBlock_px.x * 2 * kPixels + block_at.y * kBlock_px.x + block_at.x);
   uint rgba = texelFetch(pixels, k).r;
   if (rgba == 0u) discard;
   color_srgb = unpackUnorm4x8(rgba);
-  gl_FragDepth = window_depth(1.0 / uintBitsToFloat(texelFetch(pixels, k + kBlock_px * kBlock_px).r));
+  gl_FragDepth = window_depth_of_nearness(uintBitsToFloat(texelFetch(pixels, k + int(kPixels)).r));
 }

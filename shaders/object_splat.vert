@@ -1,15 +1,13 @@
-// One block of a picture of small spheres an instance.
-layout(location = 0) in uint place;          // column in the low half, row in the high one
+// Blocks of a picture of small spheres, side by side.
+layout(location = 0) in uvec4 run;           // column and row of the first, how many, which of the buffer's the first is
 
-out vec2 in_block_px;
-flat out int first_pixel;
+noperspective out vec2 in_run_px;
+flat out uint first_pixel;
 
-const int kBlock_px = 32;                    // kSplatBlock_px
+const uvec2 kBlock_px = uvec2(64, 32);       // kSplatBlockWidth_px, kSplatBlockHeight_px
 
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  in_block_px = corner * kBlock_px;
-  first_pixel = gl_InstanceID * 2 * kBlock_px * kBlock_px;
-  vec2 at_px = (vec2(place & 0xFFFFu, place >> 16) + corner) * kBlock_px;
-  gl_Position = vec4(2.0 * at_px / viewport_px - 1.0, 0.5, 1.0);
+  in_run_px = vec2(gl_VertexID & 1, gl_VertexID >> 1) * vec2(uvec2(run.z, 1) * kBlock_px);
+  first_pixel = run.w * 2 * kBlock_px.x * kBlock_px.y;
+  gl_Position = vec4(2.0 * (vec2(run.xy * kBlock_px) + in_run_px) / viewport_px - 1.0, 0.5, 1.0);
 }

@@ -19,18 +19,20 @@ void FrameTargets::fit(Viewport size, bool with_stencil) {
   has_stencil_ = with_stencil;
   color_ = make_picture(GL_RGBA8, size);
   depth_ = make_picture(with_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, size);
-  copy_ = {};
+  beside_ = {};
   framebuffer_ = gl::make_framebuffer();
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
   glNamedFramebufferTexture(framebuffer_.name(), with_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                             depth_.name(), 0);
 }
 
-GLuint FrameTargets::copy_of_color() {
-  if (!copy_) copy_ = make_picture(GL_RGBA8, size_);
-  glCopyImageSubData(color_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, copy_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, size_.width_px,
-                     size_.height_px, 1);
-  return copy_.name();
+FrameTargets::Beside FrameTargets::beside() {
+  if (!beside_) {
+    beside_ = make_picture(GL_RGBA8, size_);
+    beside_framebuffer_ = gl::make_framebuffer();
+    glNamedFramebufferTexture(beside_framebuffer_.name(), GL_COLOR_ATTACHMENT0, beside_.name(), 0);
+  }
+  return {beside_framebuffer_.name(), beside_.name()};
 }
 
 void FrameTargets::copy_to(GLuint framebuffer, glm::ivec2 corner_px) const {

@@ -17,14 +17,18 @@ class FrameTargets {
   [[nodiscard]] GLuint color() const { return color_.name(); }
   [[nodiscard]] Viewport size() const { return size_; }
   [[nodiscard]] bool has_stencil() const { return has_stencil_; }
-  /// A copy of the picture as it is now, for a pass that reads what it writes.
-  [[nodiscard]] GLuint copy_of_color();
+  /// Room for another picture of the same size, by way of which a pass may write what it reads. What is in it is
+  /// anybody's guess.
+  struct Beside {
+    GLuint framebuffer, texture;
+  };
+  [[nodiscard]] Beside beside();
   /// The picture goes to a framebuffer, its lower left corner to a place there.
   void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:
-  gl::Texture color_, depth_, copy_;
-  gl::Framebuffer framebuffer_;
+  gl::Texture color_, depth_, beside_;
+  gl::Framebuffer framebuffer_, beside_framebuffer_;
   Viewport size_{0, 0};
   bool has_stencil_ = false;
 };

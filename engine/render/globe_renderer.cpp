@@ -72,7 +72,7 @@ FrameCounts GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
   if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_STENCIL_TEST);
-    draw_limb({input, pictures.front(), counts}, targets_.color());
+    draw_limb({input, pictures.front(), counts}, false);
   }
   return counts;
 }
@@ -99,7 +99,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_surface(pass, translucent ? SurfaceFromBelow::translucent : SurfaceFromBelow::opaque);
   draw_sky(pass);
-  if (!limb_comes_last(pass)) draw_limb(pass, targets_.copy_of_color());
+  if (!limb_comes_last(pass)) draw_limb(pass, true);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
@@ -229,7 +229,7 @@ void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const 
 }
 
 // The ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
-void GlobeRenderer::draw_limb(const Pass& pass, GLuint picture) const {
+void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   if (pass.input.relief != nullptr) {
     const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
     const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
@@ -237,9 +237,12 @@ void GlobeRenderer::draw_limb(const Pass& pass, GLuint picture) const {
   }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
+  const View& view = pass.eye.view;
+  const LimbPicture picture{
+      .texture = targets_.color(), .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1};
   pass.counts.draw_calls +=
-      limb_->draw(pass.eye.view, ellipsoid_,
-                  {.texture = picture, .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1});
+      in_place ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
+               : limb_->draw(view, ellipsoid_, picture);
   glEnable(GL_CULL_FACE);
   depth_test(GL_GREATER);
 }

@@ -120,7 +120,7 @@ class GlobeRenderer {
   void blend(const SurfaceLook& look) const;
   void draw_sky(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
-  void draw_limb(const Pass& pass, GLuint picture) const;
+  void draw_limb(const Pass& pass, bool in_place);
   void begin_frame(const FrameInput& input, FrameCounts& counts) const;
   void begin_picture(const Pass& pass) const;
   void color_mask(const EyePicture& eye, bool on) const;

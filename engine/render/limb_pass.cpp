@@ -28,19 +28,40 @@ Result<std::unique_ptr<LimbPass>> LimbPass::create() {
   return pass;
 }
 
-int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture) {
+GLsizei LimbPass::upload(const View& view, const Ellipsoid& ellipsoid) const {
   const std::vector<LimbVertex> strip = limb_ribbon(view, ellipsoid, kHalfWidth_px);
   if (strip.empty()) return 0;
   glNamedBufferData(vertices_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(LimbVertex)), strip.data(),
                     GL_STREAM_DRAW);
+  return static_cast<GLsizei>(strip.size());
+}
+
+void LimbPass::draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture) const {
   glUseProgram(program_.name());
   glUniform1i(0, picture.rows_apart);
   glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
   glBindTextureUnit(0, picture.texture);
   glBindSampler(0, 0);
   glBindVertexArray(vertex_array_.name());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, vertices);
+}
+
+int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture) {
+  const GLsizei vertices = upload(view, ellipsoid);
+  if (vertices == 0) return 0;
+  draw_ribbon(vertices, view, picture);
   return 1;
+}
+
+int LimbPass::draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
+                            const FrameTargets::Beside& beside, GLuint framebuffer) {
+  const GLsizei vertices = upload(view, ellipsoid);
+  if (vertices == 0) return 0;
+  glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
+  draw_ribbon(vertices, view, picture);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  draw_ribbon(vertices, view, {.texture = beside.texture, .rows_apart = 0});
+  return 2;
 }
 
 }  // namespace terrella

@@ -4,6 +4,7 @@
 
 #include "geo/camera.h"
 #include "geo/result.h"
+#include "render/frame_targets.h"
 #include "render/gl_handle.h"
 
 namespace terrella {
@@ -12,7 +13,7 @@ namespace terrella {
 struct LimbPicture {
   GLuint texture = 0;
   int left_px = 0;     ///< of the view's part, which is as large as the view and begins at the texture's lowest row
-  int rows_apart = 1;  ///< 2: only every other row is of this view
+  int rows_apart = 1;  ///< 2: only every other row is of this view; 0: the limb is in it already
 };
 
 /// Antialiases the globe's limb in a finished picture; shaders/limb.frag. thread: main
@@ -23,9 +24,15 @@ class LimbPass {
   /// Blends the limb into the framebuffer that is bound, without a depth test. Returns the draw calls made: 0 where no
   /// limb is in view, else 1.
   int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture);
+  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
+  /// is read must not be written. Returns 0 or 2.
+  int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
+                    const FrameTargets::Beside& beside, GLuint framebuffer);
 
  private:
   LimbPass() = default;
+  [[nodiscard]] GLsizei upload(const View& view, const Ellipsoid& ellipsoid) const;
+  void draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture) const;
   gl::Program program_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;

@@ -32,7 +32,7 @@ class SplatPass {
   SphereSplats splats_;
   gl::Program program_;
   gl::VertexArray array_;
-  StreamBuffer places_, pixels_, large_;
+  StreamBuffer runs_, pixels_, large_;
   gl::Texture pixel_texture_;
 };
 

@@ -11,6 +11,9 @@ namespace terrella {
 class StreamBuffer {
  public:
   void fill(const void* data, std::size_t bytes);
+  /// The same in pieces: room for all, then each at its place.
+  void begin(std::size_t bytes);
+  void put(std::size_t at, const void* data, std::size_t bytes) const;
   [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }
 
  private:

@@ -1,0 +1,15 @@
+#define TERRELLA_SPLAT_LANES 4
+#include "scene/splat_lanes.h"
+
+namespace terrella {
+
+void place_splats(const SplatSpheres& spheres, int count, const SplatLens& lens, SplatDiscs& discs) {
+  place_group(spheres, count, lens, discs);
+}
+
+void draw_splat(const SplatSpheres& spheres, const SplatDiscs& discs, int k, int column, int row, bool lit,
+                float* nearness, std::uint32_t* rgba) {
+  draw_block(spheres, discs, k, column, row, lit, nearness, rgba);
+}
+
+}  // namespace terrella
