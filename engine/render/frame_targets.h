@@ -15,6 +15,7 @@ class FrameTargets {
   void fit(Viewport size, bool with_stencil);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] GLuint color() const { return color_.name(); }
+  [[nodiscard]] GLuint depth() const { return depth_.name(); }
   [[nodiscard]] Viewport size() const { return size_; }
   [[nodiscard]] bool has_stencil() const { return has_stencil_; }
   /// Room for another picture of the same size, by way of which a pass may write what it reads. What is in it is

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "render/frame_camera.h"
 #include "render/stencil_bits.h"
@@ -10,6 +11,21 @@
 #include "scene/relief.h"
 
 namespace terrella {
+namespace {
+
+/// A pass that few frames need, made with the first of them. Fails only where the installation is broken.
+template <class T, class... Given>
+T& made(std::unique_ptr<T>& place, Given... given) {
+  if (!place) {
+    Result<std::unique_ptr<T>> pass = T::create(given...);
+    if (!pass) throw std::runtime_error(pass.error().message);
+    place = std::move(*pass);
+  }
+  return *place;
+}
+
+}  // namespace
+
 Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& asked, const Ellipsoid& ellipsoid,
                                                              const SkyAssets* sky) {
   RenderOptions options = asked;
@@ -21,8 +37,6 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
     return Done{};
   };
   if (Status s = keep(renderer->limb_, LimbPass::create()); !s) return s.error();
-  if (Status s = keep(renderer->inner_sphere_, InnerSpherePass::create(options.depth)); !s) return s.error();
-  if (Status s = keep(renderer->interlace_, InterlacePass::create()); !s) return s.error();
   if (sky != nullptr) {
     if (Status s = keep(renderer->sky_, SkyPass::create(sky->body, sky->stars)); !s) return s.error();
   }
@@ -183,24 +197,24 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
   stencil(pass.eye, 0, 0);
 }
 
-void GlobeRenderer::draw_inner_sphere(const Pass& pass) const {
+void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
   if (radius_m <= 0.0) return;
   if (glm::length(pass.eye.view.eye.xyz_m) <= radius_m) return;
   glCullFace(GL_BACK);
-  pass.counts.draw_calls += inner_sphere_->draw(radius_m);
+  pass.counts.draw_calls += made(inner_sphere_, options_.depth).draw(radius_m);
 }
 
 // What lies beyond the point of a line of sight that is nearest to the centre is the far side's. The inner sphere hides
 // it where the line meets that sphere; where it passes by, between the sphere and the ground, the curtain does.
-void GlobeRenderer::draw_far_side_curtain(const Pass& pass) const {
+void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   const Ellipsoid& e = ellipsoid_;
   const double radius_m = inner_radius_m(pass.input);
   if (radius_m <= 0.0) return;
   const double lowest_m = pass.input.relief != nullptr ? std::min(0.0, pass.input.relief->range_m().min_m) : 0.0;
   const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
   glDisable(GL_CULL_FACE);
-  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain);
+  pass.counts.draw_calls += made(inner_sphere_, options_.depth).draw_curtain(curtain);
   glEnable(GL_CULL_FACE);
 }
 
@@ -228,21 +242,32 @@ void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const 
   stencil(pass.eye, 0, 0);
 }
 
-// The ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
+// The limb's ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
+bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
+  if (pass.input.relief == nullptr) return false;
+  const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
+  const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
+  return pass.input.relief->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m;
+}
+
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
-  if (pass.input.relief != nullptr) {
-    const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
-    const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
-    if (pass.input.relief->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m) return;
-  }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   const View& view = pass.eye.view;
   const LimbPicture picture{
       .texture = targets_.color(), .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1};
-  pass.counts.draw_calls +=
-      in_place ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
-               : limb_->draw(view, ellipsoid_, picture);
+  int& calls = pass.counts.draw_calls;
+  if (mountains_on_limb(pass)) {
+    const OutlinePass& outline = made(outline_);
+    const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
+    calls += in_place ? outline.draw_in_place(view.viewport, picture, targets_.depth(), no_depth, targets_.beside(),
+                                              targets_.framebuffer())
+                      : outline.draw(view.viewport, picture, targets_.depth(), no_depth);
+  } else {
+    calls += in_place
+                 ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
+                 : limb_->draw(view, ellipsoid_, picture);
+  }
   glEnable(GL_CULL_FACE);
   depth_test(GL_GREATER);
 }
@@ -267,7 +292,7 @@ std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInp
   return {left, right};
 }
 
-void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) const {
+void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) {
   glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
   glViewport(0, 0, input.size.width_px, input.size.height_px);
   glDisable(GL_SCISSOR_TEST);
@@ -281,7 +306,7 @@ void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) co
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  if (input.stereo == Stereo::interlaced) counts.draw_calls += interlace_->draw(input.size.height_px);
+  if (input.stereo == Stereo::interlaced) counts.draw_calls += made(interlace_).draw(input.size.height_px);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 

@@ -16,6 +16,7 @@
 #include "render/limb_pass.h"
 #include "render/night_lights.h"
 #include "render/object_pass.h"
+#include "render/outline_pass.h"
 #include "render/patch_pass.h"
 #include "render/sky_pass.h"
 #include "render/tile_textures.h"
@@ -108,8 +109,8 @@ class GlobeRenderer {
   void draw_from_above(const Pass& pass);
   void draw_from_below(const Pass& pass);
   void draw_naively(const Pass& pass);
-  void draw_inner_sphere(const Pass& pass) const;
-  void draw_far_side_curtain(const Pass& pass) const;
+  void draw_inner_sphere(const Pass& pass);
+  void draw_far_side_curtain(const Pass& pass);
   void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& first);
   void upload_layers(const FrameInput& input) const;
@@ -121,7 +122,8 @@ class GlobeRenderer {
   void draw_sky(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
   void draw_limb(const Pass& pass, bool in_place);
-  void begin_frame(const FrameInput& input, FrameCounts& counts) const;
+  [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
+  void begin_frame(const FrameInput& input, FrameCounts& counts);
   void begin_picture(const Pass& pass) const;
   void color_mask(const EyePicture& eye, bool on) const;
   void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
@@ -140,6 +142,7 @@ class GlobeRenderer {
   Ellipsoid ellipsoid_;
   std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<LimbPass> limb_;
+  std::unique_ptr<OutlinePass> outline_;
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;

@@ -136,19 +136,34 @@ int MeshPass::draw(ObjectPart part, bool opaque, ObjectChoice choice, float dept
   for (const Model& model : models_) {
     const auto range = model.ranges.range(part, true, choice);
     if (range.count == 0) continue;
-    for (const Part& made : model.parts) {
-      if (made.translucent == opaque) continue;
-      glUseProgram(program_.name());
-      glUniform4f(kMeshColorUniform, made.color_linear.x, made.color_linear.y, made.color_linear.z,
-                  made.color_linear.w);
-      glUniform2f(kMeshCutoffUniform, made.cutoff, made.translucent ? 1.0F : 0.0F);
-      glBindTextureUnit(0, made.texture);
-      glBindSampler(0, 0);
-      glBindVertexArray(made.array.name());
-      glDrawElementsInstancedBaseInstance(GL_TRIANGLES, made.count, GL_UNSIGNED_INT, nullptr,
-                                          static_cast<GLsizei>(range.count), static_cast<GLuint>(range.first));
-      ++calls;
+    if (opaque) {
+      calls += draw_parts(model, range.first, range.count, true);
+      continue;
     }
+    // What faces away lies behind what faces the eye, whatever the order of triangles: right for all that is convex.
+    glEnable(GL_CULL_FACE);
+    for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
+      glCullFace(left_out);
+      calls += draw_parts(model, range.first, range.count, false);
+    }
+    glDisable(GL_CULL_FACE);
+  }
+  return calls;
+}
+
+int MeshPass::draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const {
+  int calls = 0;
+  glUseProgram(program_.name());
+  for (const Part& part : model.parts) {
+    if (part.translucent == opaque) continue;
+    glUniform4f(kMeshColorUniform, part.color_linear.x, part.color_linear.y, part.color_linear.z, part.color_linear.w);
+    glUniform2f(kMeshCutoffUniform, part.cutoff, part.translucent ? 1.0F : 0.0F);
+    glBindTextureUnit(0, part.texture);
+    glBindSampler(0, 0);
+    glBindVertexArray(part.array.name());
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, part.count, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(count),
+                                        static_cast<GLuint>(first));
+    ++calls;
   }
   return calls;
 }

@@ -23,7 +23,8 @@ class MeshPass {
   void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   [[nodiscard]] bool has(ObjectPart part) const;
   /// State as for ObjectPass::draw(), blending on and the depth mask as `opaque` has it. Returns the draw calls made:
-  /// one for each material of each model.
+  /// one for each opaque material of each model, two for each translucent one: faces away from the eye, then towards
+  /// it.
   [[nodiscard]] int draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const;
 
  private:
@@ -49,6 +50,7 @@ class MeshPass {
   };
 
   MeshPass() = default;
+  [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const;
   [[nodiscard]] static Part upload(const MeshPart& part, GLuint stands);
 
   gl::Program program_;

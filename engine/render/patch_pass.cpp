@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "render/shader_library.h"
 #include "render/vertex_attribute.h"
@@ -49,9 +50,6 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  Result<gl::Program> depth = pass->patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
-  if (!depth) return depth.error();
-  pass->depth_program_ = std::move(*depth);
   if (const Status built = pass->build_programs(pass->programs_, kFirstLayer); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
@@ -217,7 +215,12 @@ void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const Pa
   counts.triangles += layer.triangles;
 }
 
-void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const {
+void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) {
+  if (!depth_program_) {
+    Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
+    if (!program) throw std::runtime_error(program.error().message);
+    depth_program_ = std::move(*program);
+  }
   bind_vertices(layer, vertices);
   glUseProgram(depth_program_.name());
   draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);

@@ -55,7 +55,7 @@ class PatchPass {
   void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
                     FrameCounts& counts) const;
   /// Depth alone, in one call; the depths are the bits that draw() makes.
-  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
+  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
   /// The same in opaque black. After prepare_further().
   void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -87,6 +88,8 @@ Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                                 GL_INTERLEAVED_ATTRIBS);
   }
   glLinkProgram(program.name());
+  const std::string_view name = *(std::prev(std::prev(stages.end())->files.end()));
+  glObjectLabel(GL_PROGRAM, program.name(), static_cast<GLsizei>(name.size()), name.data());
   GLint ok = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
   if (ok == GL_TRUE) return program;

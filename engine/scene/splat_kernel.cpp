@@ -1,5 +1,5 @@
 #define TERRELLA_SPLAT_LANES 4
-#include "scene/splat_lanes.h"
+#include "scene/splat_lanes.inl"
 
 namespace terrella {
 

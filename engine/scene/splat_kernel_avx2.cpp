@@ -1,6 +1,6 @@
 // Compiled with AVX2: the program comes here only on a processor that has it.
 #define TERRELLA_SPLAT_LANES 8
-#include "scene/splat_lanes.h"
+#include "scene/splat_lanes.inl"
 
 namespace terrella {
 

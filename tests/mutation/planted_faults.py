@@ -62,6 +62,21 @@ FAULTS = [
           "  return clip_scale.z;\n#else\n  return (w - clip_scale.z)",
           "  return w - clip_scale.z * w / 1e7;\n#else\n  return (w - clip_scale.z)",
           "stability_tests", "Stability.ReversedDepth*"),
+    Fault("relief: the vertex's height is not exaggerated, its bounds are", "engine/scene/relief.cpp",
+          "relief.heights_m.push_back(exaggeration_ * ground", "relief.heights_m.push_back(ground",
+          "render_tests", "GlobeRelief.MountainsStand*"),
+    Fault("translucency: the surface is drawn without regard to its own depth", "engine/render/globe_renderer.cpp",
+          "glDepthFunc(GL_EQUAL);", "glDepthFunc(GL_ALWAYS);",
+          "render_tests", "GlobeRelief.ThroughATranslucent*"),
+    Fault("stereo: the eyes' pictures are sheared the wrong way", "engine/scene/stereo.cpp",
+          "view.shear_x -= right_m / convergence_m;", "view.shear_x += right_m / convergence_m;",
+          "render_tests", "GlobeStereo.*"),
+    Fault("small spheres: the farther one wins", "engine/scene/splat_lanes.inl",
+          "(near > nearest) & (alpha > 0)", "((near < nearest) | (nearest <= 0.0F)) & (alpha > 0)",
+          "object_tests", "*ByWayOfMemory*"),
+    Fault("glass: the faces towards the eye first", "engine/render/mesh_pass.cpp",
+          "{GL_FRONT, GL_BACK}", "{GL_BACK, GL_FRONT}",
+          "mesh_tests", "MeshPassTest.Glass*"),
 ]
 
 

@@ -191,6 +191,37 @@ TEST_F(MeshPassTest, ThoseThatShareAModelAreDrawnAtOnce) {
   EXPECT_EQ(picture.at(100, 80), kExactRed);
 }
 
+/// Red glass below, facing down, and green glass over it, facing up; their triangles in this order or the other.
+std::shared_ptr<const MeshModel> two_panes(bool green_first) {
+  const glm::vec4 red(1.0F, 0.0F, 0.0F, 0.5F), green(0.0F, 1.0F, 0.0F, 0.5F);
+  auto model = std::make_shared<MeshModel>();
+  MeshPart& part = model->parts.emplace_back();
+  part.translucent = true;
+  for (const bool upper : {false, true}) {
+    const float y = upper ? 20.0F : 0.0F;
+    for (const glm::vec2 at : {glm::vec2(-30, -30), glm::vec2(-30, 30), glm::vec2(30, 30), glm::vec2(30, -30)}) {
+      part.vertices.push_back({.position_m = {at.x, y, at.y}, .color_linear = upper ? green : red});
+    }
+  }
+  const std::vector<std::uint32_t> red_down{0, 2, 1, 0, 3, 2}, green_up{4, 5, 6, 4, 6, 7};
+  for (const auto* pane : {green_first ? &green_up : &red_down, green_first ? &red_down : &green_up}) {
+    part.indices.insert(part.indices.end(), pane->begin(), pane->end());
+  }
+  return model;
+}
+
+TEST_F(MeshPassTest, GlassIsSeenThroughGlassWhateverTheOrderOfTriangles) {
+  for (const bool green_first : {true, false}) {
+    const MeshObject glass{.model = two_panes(green_first), .place = place_at(10.0, 20.0, 50.0)};
+    const ObjectColor above = draw({.meshes = {glass}}, looking(10.0, 20.0, 250.0, -90.0, 0.0)).at(100, 100);
+    EXPECT_GT(above.green, above.red + 40) << green_first;
+    EXPECT_GT(above.red, 30) << "the lower pane shows";
+    const ObjectColor below = draw({.meshes = {glass}}, looking(10.0, 20.0, -150.0, 90.0, 0.0)).at(100, 100);
+    EXPECT_GT(below.red, below.green + 40) << green_first;
+    EXPECT_GT(below.green, 30) << "the upper pane shows";
+  }
+}
+
 TEST_F(MeshPassTest, LightFallsOnFacesAsTheyAreTurned) {
   const ObjectScene scene{.meshes = {{.model = red_box(), .place = place_at(0.0, 0.0, 0.0)}}};
   lit_ = true;

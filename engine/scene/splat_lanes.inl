@@ -1,5 +1,3 @@
-#pragma once
-
 #include <cstdint>
 
 #include "scene/splat_kernel.h"

@@ -1,0 +1,44 @@
+// Antialiases the outline of ground that the limb's curve says nothing of, mountains before the sky: a pixel beside it takes
+// the colours just inside and just outside, as in limb.frag. Where the edge runs is read off the pixels around: how many of
+// them are ground tells how far it is, and to which side they lie how it is turned.
+layout(binding = 0) uniform sampler2D frame_srgb;
+layout(binding = 1) uniform sampler2D frame_depth;
+layout(location = 0) uniform int rows_apart;   // 2: the rows between are another eye's; 0: frame_srgb has the outline, alpha 0 beside it
+layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
+layout(location = 2) uniform float no_depth;   // where nothing is
+layout(location = 0) out vec4 color_srgb;
+
+const int kReach = 2;                          // pixels around that are looked at
+
+ivec2 place(ivec2 off) { return clamp(ivec2(gl_FragCoord.xy) + off * ivec2(1, rows_apart), part_px.xy, part_px.zw); }
+bool is_ground(ivec2 off) { return texelFetch(frame_depth, place(off), 0).r != no_depth; }
+vec4 color_at(vec2 off) { return texelFetch(frame_srgb, place(ivec2(round(off))), 0); }
+
+void main() {
+  if (rows_apart == 0) {
+    color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
+    if (color_srgb.a == 0.0) discard;
+    return;
+  }
+  // An edge through or close by this pixel parts the corners.
+  bool low = is_ground(ivec2(-kReach)), high = is_ground(ivec2(kReach));
+  bool same = low == high && low == is_ground(ivec2(-kReach, kReach)) && low == is_ground(ivec2(kReach, -kReach));
+  int reach = same ? -1 : kReach;              // no turn of the loops then
+  float ground = 0.0;
+  vec2 side = vec2(0.0);
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      float here = is_ground(ivec2(x, y)) ? 1.0 : 0.0;
+      ground += here;
+      side += here * vec2(x, y);
+    }
+  }
+  if (side == vec2(0.0)) discard;
+  vec2 outward = -normalize(side);
+  // A straight edge at a distance d leaves half of the square and d times its width there as ground.
+  float width = float(2 * kReach + 1);
+  float outside_px = (0.5 - ground / (width * width)) * width * max(abs(outward.x), abs(outward.y));
+  if (abs(outside_px) >= 1.0) discard;
+  color_srgb = vec4(mix(color_at(outward * (-1.25 - outside_px)), color_at(outward * (1.25 - outside_px)),
+                        clamp(0.5 + outside_px, 0.0, 1.0)).rgb, 1.0);
+}
