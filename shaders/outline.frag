@@ -1,5 +1,5 @@
-// Antialiases the outline of ground that the limb's curve says nothing of, mountains before the sky: a pixel beside it takes
-// the colours just inside and just outside, as in limb.frag. Where the edge runs is read off the pixels around: how many of
+// Antialiases the outline of ground that the limb's curve says nothing of, mountains before the sky: a pixel that
+// it crosses takes a share of the colour beyond. Where the edge runs is read off the pixels around: how many of
 // them are ground tells how far it is, and to which side they lie how it is turned.
 layout(binding = 0) uniform sampler2D frame_srgb;
 layout(binding = 1) uniform sampler2D frame_depth;
@@ -39,6 +39,9 @@ void main() {
   float width = float(2 * kReach + 1);
   float outside_px = (0.5 - ground / (width * width)) * width * max(abs(outward.x), abs(outward.y));
   if (abs(outside_px) >= 1.0) discard;
-  color_srgb = vec4(mix(color_at(outward * (-1.25 - outside_px)), color_at(outward * (1.25 - outside_px)),
-                        clamp(0.5 + outside_px, 0.0, 1.0)).rgb, 1.0);
+  // What is of the other side comes from beyond the edge; what is of its own the pixel has.
+  bool inside = is_ground(ivec2(0));
+  vec4 own = color_at(vec2(0.0)), other = color_at(outward * ((inside ? 1.25 : -1.25) - outside_px));
+  float share = clamp(0.5 + (inside ? outside_px : -outside_px), 0.0, 1.0);
+  color_srgb = vec4(mix(own, other, share).rgb, 1.0);
 }

@@ -82,6 +82,32 @@ TEST_F(GlobeRelief, MountainsStandAgainstTheSkyWhereRaysMeetThem) {
   }
 }
 
+TEST_F(GlobeRelief, TheirOutlineIsAntialiased) {
+  GlobeOptions options = unlit_options();
+  options.exaggeration = 5.0;
+  const auto globe = mountains(options);
+  globe->set_camera(camera_at(10, 20, 4.0e5, 40, -18, 30));
+  settle(*globe, kReliefPicture);
+  const Picture seen = picture();
+  const auto is_ground = [&](int x, int y) { return seen.at(x, y)[0] > kGround[0] - 10; };
+  const auto is_sky = [&](int x, int y) { return seen.at(x, y)[0] < 10; };
+  int between = 0;
+  constexpr int kNear_px = 2;
+  for (int y = kNear_px; y + kNear_px < kReliefPicture.height_px; ++y) {
+    for (int x = kNear_px; x + kNear_px < kReliefPicture.width_px; ++x) {
+      if (is_ground(x, y) || is_sky(x, y)) continue;
+      ++between;
+      int ground = 0, sky = 0;
+      for (int k = 0; k < 25; ++k) {
+        ground += is_ground(x + k % 5 - kNear_px, y + k / 5 - kNear_px) ? 1 : 0;
+        sky += is_sky(x + k % 5 - kNear_px, y + k / 5 - kNear_px) ? 1 : 0;
+      }
+      EXPECT_TRUE(ground > 0 && sky > 0) << x << ',' << y << " is on no outline";
+    }
+  }
+  EXPECT_GT(between, kReliefPicture.width_px / 3) << "the outline is stairs";
+}
+
 TEST_F(GlobeRelief, HasNoCrackFromAThousandRandomCamerasHoweverExaggerated) {
   constexpr Viewport kTiny{32, 32};
   Draw draw(61);
