@@ -264,9 +264,8 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
                                               targets_.framebuffer())
                       : outline.draw(view.viewport, picture, targets_.depth(), no_depth);
   } else {
-    calls += in_place
-                 ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
-                 : limb_->draw(view, ellipsoid_, picture);
+    calls += in_place ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
+                      : limb_->draw(view, ellipsoid_, picture);
   }
   glEnable(GL_CULL_FACE);
   depth_test(GL_GREATER);

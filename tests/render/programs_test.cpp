@@ -36,7 +36,7 @@ class Programs : public GlTest {
   Names of(const GlobeOptions& options, const ObjectScene& objects = {}) {
     const auto globe = make_globe(options, one_colour(kGrid, {200, 120, 40}));
     if (!objects.empty()) {
-      EXPECT_TRUE(globe->set_objects(objects));
+      EXPECT_TRUE(globe->add_objects(objects));
     }
     globe->set_camera(camera_at(10, 20, 2.0e7));
     settle(*globe, kSmall);
