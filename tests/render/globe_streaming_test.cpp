@@ -52,10 +52,13 @@ TEST_F(GlobeStreaming, NeverAHoleWhileTilesComeOneByOne) {
     int after_roots = 0;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
     while (!globe->settled() && std::chrono::steady_clock::now() < deadline) {
-      // Where other work starves the workers, what was released must not pile up and come at once.
-      tiles->release(1);
-      for (int wait = 0; wait < 200 && globe->loading().finished == 0; ++wait)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      // Where other work starves the workers or the upload, what was released must not pile up and come at once.
+      const auto coming = [&] {
+        const LoaderCounts counts = globe->loading();
+        return counts.finished == 0 && counts.waiting + counts.running > 0;
+      };
+      if (coming()) tiles->release(1);
+      for (int wait = 0; wait < 5000 && coming(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       stats = draw(*globe, kStreamed);
       if (after_roots == 0 && stats.patches_uncovered > 0) continue;
       ++after_roots;

@@ -46,10 +46,10 @@ Result<EncodedTile, TileFailure> PaintedSource::read(const TileId& id) {
   {
     // The end of the test must not hang on a tile that nobody releases.
     std::unique_lock lock(mutex_);
-    if (!released_.wait_for(lock, std::chrono::seconds(60), [this] { return !held_ || permits_ > 0; })) {
+    const int place = come_++;
+    if (!released_.wait_for(lock, std::chrono::seconds(60), [&] { return !held_ || place < let_through_; })) {
       return TileFailure{Absence::failed, "held back"};
     }
-    if (held_) --permits_;
   }
   ++reads_;
   if (!exists(info_.grid, id) || (lacks_ && lacks_(id))) return TileFailure{Absence::absent, "not there"};
@@ -70,12 +70,12 @@ Result<EncodedTile, TileFailure> PaintedSource::read(const TileId& id) {
 void PaintedSource::hold() {
   const std::lock_guard lock(mutex_);
   held_ = true;
-  permits_ = 0;
+  let_through_ = come_;
 }
 
 void PaintedSource::release(int tiles) {
   const std::lock_guard lock(mutex_);
-  permits_ += tiles;
+  let_through_ += tiles;
   released_.notify_all();
 }
 

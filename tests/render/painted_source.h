@@ -26,7 +26,7 @@ class PaintedSource : public TileSource {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
 
-  /// From now on a tile comes only where release() lets it. thread: main
+  /// From now on a tile comes only where release() lets it, in the order in which they were asked for. thread: main
   void hold();
   void release(int tiles);
   [[nodiscard]] int reads() const { return reads_; }
@@ -38,7 +38,7 @@ class PaintedSource : public TileSource {
   std::mutex mutex_;
   std::condition_variable released_;
   bool held_ = false;
-  int permits_ = 0;
+  int come_ = 0, let_through_ = 0;  ///< tiles asked for so far; of those, not held
   std::atomic<int> reads_ = 0;
 };
 

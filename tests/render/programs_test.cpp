@@ -14,7 +14,7 @@ namespace terrella::test {
 namespace {
 
 using Names = std::set<std::string>;
-constexpr Viewport kSmall{64, 64};
+constexpr Viewport kProgramsPicture{64, 64};
 const TileGrid kGrid{.tile_px = 64, .max_level = 1};
 
 /// Of all programs in the context, which are labelled with the file that makes them what they are.
@@ -39,7 +39,7 @@ class Programs : public GlTest {
       EXPECT_TRUE(globe->add_objects(objects));
     }
     globe->set_camera(camera_at(10, 20, 2.0e7));
-    settle(*globe, kSmall);
+    settle(*globe, kProgramsPicture);
     return programs();
   }
   /// What the plain globe does not have.

@@ -153,7 +153,7 @@ PolygonObject sheet(double height_m, const ObjectColor& color) {
 
 TEST_F(ReliefHardCases, TwoSurfacesAMetreApartSeenFromAThousandKilometresDoNotFlicker) {
   constexpr ObjectColor kLower{250, 0, 0}, kUpper{0, 0, 250};
-  constexpr Viewport kSmall{64, 64};
+  constexpr Viewport kSheetPicture{64, 64};
   constexpr double kOverMountains_m = 1.05 * kTop_m;
   GlobeOptions options = unlit_options();
   options.exaggeration = kExaggeration;
@@ -172,7 +172,7 @@ TEST_F(ReliefHardCases, TwoSurfacesAMetreApartSeenFromAThousandKilometresDoNotFl
           camera_at(draw.between(-1e-4, 1e-4), draw.between(-1e-4, 1e-4),
                     kOverMountains_m + 1.0e6 + draw.between(-10.0, 10.0), draw.between(0.0, 360.0), -90, 12);
       globe->set_camera(camera);
-      settle(*globe, kSmall);
+      settle(*globe, kSheetPicture);
       const Picture seen = picture();
       int wrong = 0;
       for (int p = 0; p < 64 * 64; ++p) wrong += seen.at(p % 64, p / 64) != Color{0, 0, 250} ? 1 : 0;
