@@ -58,7 +58,7 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 
 Status PatchPass::prepare_further() {
   if (flat_program_) return Done{};
-  if (const Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
+  if (Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
   Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
   if (!flat) return flat.error();
   flat_program_ = std::move(*flat);
