@@ -146,7 +146,7 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
   const int slot = there != nullptr && there->state == TileState::resident ? there->slot : take_slot(frame);
   if (slot < 0) return false;
   for (int k = 0; k < mips_ && k < static_cast<int>(mips.size()); ++k) {
-    const int side = layout_.slot_px() >> k;
+    const int side = layout_.mip_px(k);
     glTextureSubImage3D(texture_.name(), k, 0, 0, slot, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                         mips[static_cast<std::size_t>(k)].data());
   }

@@ -16,6 +16,8 @@ struct SlotLayout {
   int tile_px = 256;
   int gutter_px = 8;
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
+  /// What a tile fills of a slot's mip: less than all where halves of the gutter are not whole.
+  [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
 /// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
