@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/commands.h"
-#include "apps/data_dir.h"
 #include "apps/open_imagery.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
@@ -34,16 +33,6 @@ struct ViewOptions {
   bool full_screen = false;
 };
 
-/// Without the list of places the globe is there all the same.
-Gazetteer load_places() {
-  try {
-    Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
-    if (places) return *std::move(places);
-  } catch (const BrokenInstallation&) {
-  }
-  return {};
-}
-
 int view(const ViewOptions& options) {
   if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
   // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
@@ -67,7 +56,6 @@ int view(const ViewOptions& options) {
   if (options.full_screen) (*window)->toggle_full_screen();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
                                      .attribution = attribution,
-                                     .places = load_places(),
                                      .print_camera = options.print_camera};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "apps/data_dir.h"
 #include "apps/open_remote.h"
 #include "apps/progress.h"
+#include "apps/user_folder.h"
 #include "streaming/cut.h"
 #include "streaming/remote/describe_remote.h"
 
@@ -141,11 +141,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
     if (path.extension() == ".gpkg") return path.parent_path() / (path.stem().string() + "-pictures");
     return path;
   }
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  // The base directory specification says that a relative path is to be ignored.
-  if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "terrella";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".cache" / "terrella";
+  if (const auto folder = user_folder("XDG_CACHE_HOME", ".cache")) return *folder;
   return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
 }
 

@@ -13,7 +13,6 @@ using FrameClock = std::chrono::steady_clock;
 
 // Steps by a quarter in which detail gives way to the budget: six tile levels.
 constexpr int kMostCoarser = 16;
-constexpr std::size_t kMostLackingHeights = 64;
 
 // Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
@@ -108,8 +107,7 @@ void Globe::Impl::take_heights() {
     for (LoadedHeights& tile : batch) {
       if (!tile.heights) {
         relief->set_lacking(tile.id);
-        lacking_heights.push_back({tile.id, tile.heights.error()});
-        if (lacking_heights.size() > kMostLackingHeights) lacking_heights.pop_front();
+        note(lacking_heights, {tile.id, tile.heights.error()});
         continue;
       }
       meshes += relief->touched(stack.front()->tree(), tile.id, first.patches());

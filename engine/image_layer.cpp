@@ -6,7 +6,6 @@ namespace terrella {
 namespace {
 
 constexpr int kMips = 4;
-constexpr std::size_t kMostLacking = 64;
 constexpr std::chrono::seconds kRetryFailed{30};
 constexpr TileGrid kPlainGrid{.tile_px = 16};
 constexpr int kAnyLevel = -1000;
@@ -19,6 +18,12 @@ TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
 }
 
 }  // namespace
+
+void note(std::deque<LackingTile>& lacking, LackingTile tile) {
+  constexpr std::size_t kMostLacking = 64;
+  lacking.push_back(std::move(tile));
+  if (lacking.size() > kMostLacking) lacking.pop_front();
+}
 
 ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
                        const ImageLook& look, std::size_t gpu_bytes, Relief* relief)
@@ -156,8 +161,7 @@ bool ImageLayer::has_news() const {
 void ImageLayer::note_lacking(const TileId& id, const TileFailure& failure, std::deque<LackingTile>& lacking) {
   tiles_.set_state(id, TileState::lacking);
   if (failure.kind == Absence::failed) failed_.emplace_back(std::chrono::steady_clock::now() + kRetryFailed, id);
-  lacking.push_back({id, failure, id_});
-  if (lacking.size() > kMostLacking) lacking.pop_front();
+  note(lacking, {id, failure, id_});
 }
 
 void ImageLayer::retry_failed() {

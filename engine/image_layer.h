@@ -20,6 +20,9 @@ struct UploadAllowance {
   std::chrono::steady_clock::time_point deadline;
 };
 
+/// Keeps the tiles that failed last, the latest at the end, as Globe::lacking() gives them.
+void note(std::deque<LackingTile>& lacking, LackingTile tile);
+
 /// One image layer of a globe: its tiles on their way from the source to the GPU, and what a frame draws of them.
 /// thread: main (of the context)
 class ImageLayer {

@@ -1,14 +1,15 @@
 #include "apps/viewer/bookmarks.h"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <system_error>
 
+#include "apps/user_folder.h"
 #include "apps/viewer/readout.h"
 #include "apps/write_file.h"
 #include "streaming/file_bytes.h"
+#include "streaming/json_fields.h"
 
 namespace terrella {
 namespace {
@@ -23,14 +24,14 @@ Result<Bookmarks> Bookmarks::load(const std::filesystem::path& file) {
   const auto bytes = read_file(file, kMostBookmarkBytes);
   if (!bytes && bytes.error().problem == FileProblem::missing) return bookmarks;
   if (!bytes) return Error{bytes.error().message};
-  const auto* text = reinterpret_cast<const char*>(bytes->data());
-  const nlohmann::json json = nlohmann::json::parse(text, text + bytes->size(), nullptr, false);
-  if (!json.is_object() || !json.contains(kField) || !json[kField].is_object()) {
-    return Error{file.string() + ": no file of bookmarks"};
-  }
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const Result<nlohmann::json> json = parse_json_object(text, kMostBookmarkBytes, file.string());
+  if (!json) return json.error();
+  const auto kept = json->find(kField);
+  if (kept == json->end() || !kept->is_object()) return Error{file.string() + ": no file of bookmarks"};
   for (int number = 1; number <= kMost; ++number) {
-    const auto found = json[kField].find(std::to_string(number));
-    if (found == json[kField].end() || !found->is_string()) continue;
+    const auto found = kept->find(std::to_string(number));
+    if (found == kept->end() || !found->is_string()) continue;
     const Result<Camera> camera = parse_camera(found->get<std::string>());
     if (camera) bookmarks.set(number, *camera);
   }
@@ -50,11 +51,8 @@ Status Bookmarks::save(const std::filesystem::path& file) const {
 }
 
 std::optional<std::filesystem::path> bookmarks_file() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  if (config != nullptr && *config == '/') return std::filesystem::path(config) / "terrella" / "bookmarks.json";
-  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".config" / "terrella" / "bookmarks.json";
-  return {};
+  const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
+  return folder ? std::optional(*folder / "bookmarks.json") : std::nullopt;
 }
 
 }  // namespace terrella

@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "streaming/file_bytes.h"
+#include "streaming/json_fields.h"
 
 namespace terrella {
 namespace {
 
-constexpr std::size_t kMostBytes = 32UL << 20;
+constexpr std::size_t kMostGazetteerBytes = 32UL << 20;
 
 std::string folded(std::string_view text) {
   std::string result;
@@ -54,13 +55,13 @@ std::optional<NamedPlace> place_of(const nlohmann::json& feature) {
 }  // namespace
 
 Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
-  const auto bytes = read_file(file, kMostBytes);
+  const auto bytes = read_file(file, kMostGazetteerBytes);
   if (!bytes) return Error{bytes.error().message};
-  const auto* text = reinterpret_cast<const char*>(bytes->data());
-  const nlohmann::json json = nlohmann::json::parse(text, text + bytes->size(), nullptr, false);
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const Result<nlohmann::json> json = parse_json_object(text, kMostGazetteerBytes, file.string());
+  if (!json) return json.error();
   Gazetteer gazetteer;
-  const auto features = json.is_object() ? json.find("features") : json.end();
-  if (json.is_object() && features != json.end() && features->is_array()) {
+  if (const auto features = json->find("features"); features != json->end() && features->is_array()) {
     for (const nlohmann::json& feature : *features) {
       if (auto place = place_of(feature)) gazetteer.places_.push_back(*std::move(place));
     }

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <utility>
 
+#include "apps/data_dir.h"
 #include "apps/viewer/screenshot.h"
 #include "scene/stereo.h"
 
@@ -25,6 +26,16 @@ constexpr double kEarthEquator_m = 6378137.0;
 constexpr int kPanelFrames = 3;
 constexpr double kPlaceHeight = 0.05;  // in radii, over a place that was found
 constexpr double kFoot = 3.4;          // of the text's height, that the panels below take
+
+// Without the list of places the globe is there all the same.
+Gazetteer load_places() {
+  try {
+    Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
+    if (places) return *std::move(places);
+  } catch (const BrokenInstallation&) {
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -216,9 +227,14 @@ void Viewer::use(const BookmarkKey& key) {
   say(saved ? fmt::format("Bookmark {}", key.number) : saved.error().message);
 }
 
+const Gazetteer& Viewer::places() {
+  if (!places_) places_ = load_places();
+  return *places_;
+}
+
 void Viewer::toggle_search() {
-  searching_ = !searching_ && options_.places.size() > 0;
-  if (options_.places.size() == 0) say("The program was installed without its list of places");
+  searching_ = !searching_ && places().size() > 0;
+  if (places().size() == 0) say("The program was installed without its list of places");
   if (!searching_) ui_.expect_text(false);
   search_ = {.text = {}, .just_opened = searching_};
   ui_.take_events(panel_ || searching_);
@@ -226,7 +242,7 @@ void Viewer::toggle_search() {
 }
 
 void Viewer::draw_search() {
-  const auto chosen = draw_place_search(search_, options_.places);
+  const auto chosen = draw_place_search(search_, places());
   if (!chosen) return;
   toggle_search();
   Camera camera = navigator_.camera();

@@ -19,7 +19,6 @@ namespace terrella {
 struct ViewerOptions {
   Camera camera;
   std::string attribution;
-  Gazetteer places;           ///< for the search; may be empty
   bool print_camera = false;  ///< a line on standard output each time the camera comes to rest
 };
 
@@ -48,6 +47,7 @@ class Viewer {
   void draw_measure();
   void use(const BookmarkKey& key);
   void toggle_search();
+  [[nodiscard]] const Gazetteer& places();
   void draw_search();
   void draw_settings();
   void draw_graticules(const View& view);
@@ -77,6 +77,7 @@ class Viewer {
   std::optional<LayerId> measure_layer_;
   Bookmarks bookmarks_;
   bool searching_ = false;
+  std::optional<Gazetteer> places_;  ///< read when first searched
   PlaceSearch search_;
   bool screenshot_wanted_ = false;
   std::string message_;

@@ -12,17 +12,22 @@ double latitude_deg(const Geodetic& place) { return std::clamp(place.lat.deg(), 
 
 GeographicLib::GeodesicExact geodesics_of(const Ellipsoid& ellipsoid) { return {ellipsoid.a_m(), ellipsoid.f()}; }
 
+double distance_m(const GeographicLib::GeodesicExact& geodesics, const Geodetic& from, const Geodetic& to) {
+  double metres = 0.0;
+  geodesics.Inverse(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg(), metres);
+  return metres;
+}
+
 }  // namespace
 
 double geodesic_m(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to) {
-  double distance_m = 0.0;
-  geodesics_of(ellipsoid).Inverse(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg(), distance_m);
-  return distance_m;
+  return distance_m(geodesics_of(ellipsoid), from, to);
 }
 
 double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places) {
+  const GeographicLib::GeodesicExact geodesics = geodesics_of(ellipsoid);
   double total_m = 0.0;
-  for (std::size_t k = 1; k < places.size(); ++k) total_m += geodesic_m(ellipsoid, places[k - 1], places[k]);
+  for (std::size_t k = 1; k < places.size(); ++k) total_m += distance_m(geodesics, places[k - 1], places[k]);
   return total_m;
 }
 

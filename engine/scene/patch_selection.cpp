@@ -138,6 +138,7 @@ class Selector {
   struct Column {
     double radius_m;   ///< what lies in the patch lies no further from the axis
     double to_axis_m;  ///< from the eye that is nearer
+    double nearest_m;  ///< from that eye, of what lies in the patch
   };
   [[nodiscard]] Column column(const PatchNode& node) const {
     const double half_m = node.relief.half_m;
@@ -149,14 +150,13 @@ class Selector {
     const glm::dvec3 beside = view_.eye_spread_m * view_.right;
     // Normals spread, and the column's ends with them.
     const double spread_m = half_m * 2.0 * node.relief.flat.radius_m / tree_.ellipsoid().b_m();
-    return {node.sphere.radius_m - half_m + spread_m,
-            std::min(to_axis_m(view_.eye.xyz_m - beside), to_axis_m(view_.eye.xyz_m + beside))};
+    Column c{node.sphere.radius_m - half_m + spread_m, to_axis_m(view_.eye.xyz_m - beside), 0.0};
+    if (view_.eye_spread_m != 0.0) c.to_axis_m = std::min(c.to_axis_m, to_axis_m(view_.eye.xyz_m + beside));
+    c.nearest_m = std::max({c.to_axis_m - c.radius_m, 1e-3 * c.radius_m, least_distance_m_});
+    return c;
   }
 
-  [[nodiscard]] double nearest_m(const PatchNode& node) const {
-    const Column c = column(node);
-    return std::max({c.to_axis_m - c.radius_m, 1e-3 * c.radius_m, least_distance_m_});
-  }
+  [[nodiscard]] double nearest_m(const PatchNode& node) const { return column(node).nearest_m; }
 
   // A pixel on the ground at the patch's centre: its short side, across the line of sight, and its extents east and
   // north.
@@ -178,7 +178,7 @@ class Selector {
 
   [[nodiscard]] PixelOnGround nearest_pixel(const PatchNode& node) const {
     const Column c = column(node);
-    return pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, nearest_m(node)));
+    return pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, c.nearest_m));
   }
 
   [[nodiscard]] double texel0_m(const FurtherImagery& imagery, const PatchNode& node) const {
@@ -312,7 +312,9 @@ class Selector {
     // Twice as far as what is nearest, the middle asks for one level less, or the texels where two patches meet would
     // be four pixels wide on one side.
     constexpr double kMostOverNearest = 2.0;
-    return patch.tile_level < finest_level(imagery) && column(node).to_axis_m > kMostOverNearest * nearest_m(node);
+    if (patch.tile_level >= finest_level(imagery)) return false;
+    const Column c = column(node);
+    return c.to_axis_m > kMostOverNearest * c.nearest_m;
   }
 
   [[nodiscard]] bool window_too_wide(const FurtherImagery& imagery, const PatchNode& node,

@@ -95,14 +95,13 @@ class Coverer {
   // First which tile each cell would take, then the tiles: a cell that could do with a coarser one takes the finer one
   // where another cell asks for that anyhow.
   void cover(const std::vector<SelectedPatch>& patches) {
-    for (const SelectedPatch& patch : patches) choose_levels(patch);
+    choose_levels(patches);
     if (too_many_texels()) {
       narrow_texels_are_long_ = true;
       for (const Choice& choice : choices_) {
         if (choice.entry != nullptr) choice.entry->last_chosen = 0;
       }
-      choices_.clear();
-      for (const SelectedPatch& patch : patches) choose_levels(patch);
+      choose_levels(patches);
     }
     const Choice* choice = choices_.data();
     for (const SelectedPatch& patch : patches) {
@@ -117,6 +116,11 @@ class Coverer {
     TileResidency::Entry* entry = nullptr;  ///< none: the cell is out of view
     int spare = 0;                          ///< levels coarser than the window
   };
+
+  void choose_levels(const std::vector<SelectedPatch>& patches) {
+    choices_.clear();
+    for (const SelectedPatch& patch : patches) choose_levels(patch);
+  }
 
   void choose_levels(const SelectedPatch& patch) {
     const TileWindow& win = tree_.window(*patch.node, patch.tile_level, patch.squeeze);
