@@ -71,7 +71,7 @@ bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
 }
 
 Input::Input(Window& window, Ui& ui, Navigator& navigator)
-    : window_(window), ui_(ui), navigator_(navigator), pointer_px_(window.cursor_px()) {
+    : window_(window), ui_(ui), navigator_(navigator), pointer_px_(window.cursor_px()), heard_until_(now()) {
   glfwSetWindowUserPointer(window_.handle(), this);
   listen_to_pointer();
   listen_to_keys();
@@ -79,6 +79,17 @@ Input::Input(Window& window, Ui& ui, Navigator& navigator)
 }
 
 Seconds Input::now() { return Seconds(glfwGetTime()); }
+
+// Events have no time of their own here. Those that came while a frame was drawn may be as old as that frame.
+void Input::listen(std::optional<double> wait_s) {
+  late_ = now() - heard_until_;
+  if (wait_s) {
+    glfwWaitEventsTimeout(*wait_s);
+  } else {
+    glfwPollEvents();
+  }
+  heard_until_ = now();
+}
 
 std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_, {}); }
 
@@ -140,7 +151,7 @@ void Input::on_button(int button, int action, int modifiers) {
   const glm::dvec2 at = pointer_px_;
   const double slack_px = kClickSlack_px * window_.text_scale();
   if (action == GLFW_RELEASE) {
-    navigator_.pointer_up(which, now());
+    navigator_.pointer_up(which, now(), late_);
     const auto pressed = std::exchange(pressed_px_, {});
     if (pressed && glm::distance(*pressed, at) <= slack_px) click_px_ = at;
     return;

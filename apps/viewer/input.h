@@ -56,6 +56,8 @@ class Input {
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
+  /// Hears the window's events; with a time to wait for, seconds, not before there is one or that time is over.
+  void listen(std::optional<double> wait_s = {});
   /// What was asked for since the last call, in order.
   [[nodiscard]] std::vector<ViewerAction> take_actions();
   /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
@@ -65,6 +67,7 @@ class Input {
   void set_double_clicks(bool on) { double_clicks_ = on; }
   /// True if anything happened since the last call that can change the picture.
   [[nodiscard]] bool take_dirty();
+  [[nodiscard]] bool dirty() const { return dirty_; }
   /// Where the cursor is, framebuffer pixels; nothing while it is outside the window.
   [[nodiscard]] std::optional<glm::dvec2> cursor_px() const;
   [[nodiscard]] static Seconds now();
@@ -89,6 +92,8 @@ class Input {
   std::optional<glm::dvec2> pressed_px_, click_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;
+  Seconds heard_until_;     ///< when the window's events were last heard
+  Seconds late_{0.0};       ///< how old those may be that are being heard
   bool repeating_ = false;  ///< the character that follows is a held key's
 };
 

@@ -18,9 +18,10 @@ constexpr float kTipWidth = 26.0F;  // of the text's height
 constexpr double kDeepest_km = 6000.0, kShallowest_km = 150.0;
 constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours{12}};
 
-/// Shown while the item before is under the cursor or has the keyboard.
+/// Shown while the item before is under the cursor, or has the keyboard and a key has moved that on.
 void tip(const char* text) {
-  if (!ImGui::IsItemHovered() && !ImGui::IsItemFocused()) return;
+  const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
+  if (!ImGui::IsItemHovered() && !chosen) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::TextUnformatted(text);
@@ -76,9 +77,9 @@ void draw_from_below(ViewSettings& settings) {
 
 void set_time(ViewSettings& settings, std::optional<UtcTime> time) {
   settings.time = time;
+  settings.written = time;
   settings.time_problem.clear();
-  settings.time_text =
-      time ? fmt::format("{:%Y-%m-%dT%H:%MZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(*time))) : "";
+  settings.time_text = time_field(time);
 }
 
 void draw_time_sliders(ViewSettings& settings) {
@@ -98,6 +99,7 @@ void draw_time_sliders(ViewSettings& settings) {
 }
 
 void draw_time(ViewSettings& settings) {
+  if (settings.written != settings.time) set_time(settings, settings.time);
   std::array<char, 40> text{};
   settings.time_text.copy(text.data(), text.size() - 1);
   if (ImGui::InputText("Time", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
@@ -135,6 +137,11 @@ void draw_stereo(StereoLook& stereo) {
 }
 
 }  // namespace
+
+std::string time_field(std::optional<UtcTime> time) {
+  if (!time) return {};
+  return fmt::format("{:%Y-%m-%dT%H:%MZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(*time)));
+}
 
 void draw_view_settings(ViewSettings& settings, bool just_opened) {
   const float unit = ImGui::GetFontSize();

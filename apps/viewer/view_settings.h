@@ -15,12 +15,16 @@ struct ViewSettings {
   bool under_ground = false;  ///< changed: X is asked for
   bool has_sky = false;       ///< the globe can draw one
   bool sky = false;
-  std::optional<UtcTime> time;  ///< none: light over the viewer's shoulder
-  std::string time_text;        ///< as it is being written
-  std::string time_problem;     ///< what is wrong with it; may be empty
+  std::optional<UtcTime> time;     ///< none: light over the viewer's shoulder
+  std::string time_text;           ///< as it is being written
+  std::string time_problem;        ///< what is wrong with it; may be empty
+  std::optional<UtcTime> written;  ///< what `time_text` was last made of
   bool has_relief = false;
   double exaggeration = 1.0;
 };
+
+/// The time as its field has it; empty without one. thread: any
+[[nodiscard]] std::string time_field(std::optional<UtcTime> time);
 
 /// The panel, beside the left edge, with a word on each of its parts; between Ui::begin_frame() and Ui::end_frame().
 /// `just_opened` gives it the keyboard. Changes `settings` as the person does. thread: main

@@ -20,7 +20,8 @@ namespace terrella {
 namespace {
 
 constexpr std::chrono::seconds kMessageTime(4);
-constexpr double kLoadingPause_s = 1.0 / 60.0;  // between frames that only wait for tiles
+constexpr double kLoadingPause_s = 1.0 / 60.0;  // between looks at what has come
+constexpr double kIdlePause_s = 1.0;            // what could not be had is asked for again
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kEarthEquator_m = 6378137.0;
 constexpr int kPanelFrames = 3;
@@ -57,7 +58,9 @@ void Viewer::run() {
     if (const auto bookmark = input_.take_bookmark()) use(*bookmark);
     const Viewport framebuffer = window_.framebuffer();
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
-    (void)input_.take_dirty();
+    const bool dirty = input_.take_dirty();
+    if (panel_frames_ > 0) --panel_frames_;
+    if (dirty && (panel_ || searching_)) panel_frames_ = kPanelFrames;
     navigator_.set_viewport(framebuffer);
     navigator_.advance(Input::now());
     draw_frame(framebuffer);
@@ -65,14 +68,19 @@ void Viewer::run() {
   }
 }
 
+// Whether another frame would show something else.
+bool Viewer::work() const {
+  return input_.dirty() || panel_frames_ > 0 || navigator_.animating() || screenshot_wanted_ || globe_.needs_frame() ||
+         (!message_.empty() && Clock::now() >= message_until_) || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE;
+}
+
 void Viewer::wait_for_work() {
-  const bool dirty = input_.take_dirty();
-  if (dirty && (panel_ || searching_)) panel_frames_ = kPanelFrames;
-  if (dirty || panel_frames_-- > 0 || navigator_.animating() || screenshot_wanted_) return glfwPollEvents();
-  if (!globe_.settled()) return glfwWaitEventsTimeout(kLoadingPause_s);
-  if (message_.empty()) return glfwWaitEvents();
-  const std::chrono::duration<double> left = message_until_ - Clock::now();
-  glfwWaitEventsTimeout(std::max(left.count(), 0.001));
+  if (work()) return input_.listen();
+  const double pause_s = globe_.settled() ? kIdlePause_s : kLoadingPause_s;
+  do {
+    const std::chrono::duration<double> message_left = message_until_ - Clock::now();
+    input_.listen(message_.empty() ? pause_s : std::clamp(message_left.count(), 0.001, pause_s));
+  } while (!work());
 }
 
 void Viewer::act(ViewerAction action) {
@@ -306,30 +314,39 @@ void Viewer::draw_graticules(const View& view) {
 
 void Viewer::draw_frame(Viewport framebuffer) {
   const auto start = Clock::now();
-  globe_.set_camera(navigator_.camera());
-  const FrameStats stats = globe_.render(0, framebuffer);
+  draw_globe(framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
-  draw_panels(framebuffer, stats);
+  draw_panels(framebuffer);
   if (std::exchange(screenshot_wanted_, false)) save_screenshot(framebuffer);
   glfwSwapBuffers(window_.handle());
   frame_time_ = Clock::now() - start;
 }
 
-void Viewer::draw_panels(Viewport framebuffer, const FrameStats& stats) {
+void Viewer::draw_globe(Viewport framebuffer) {
+  globe_.set_camera(navigator_.camera());
+  const bool resized =
+      !picture_ || picture_size_.width_px != framebuffer.width_px || picture_size_.height_px != framebuffer.height_px;
+  if (resized) picture_.emplace(picture_size_ = framebuffer);
+  if (resized || globe_.needs_frame()) stats_ = globe_.render(picture_->framebuffer(), framebuffer);
+  glBlitNamedFramebuffer(picture_->framebuffer(), 0, 0, 0, framebuffer.width_px, framebuffer.height_px, 0, 0,
+                         framebuffer.width_px, framebuffer.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Viewer::draw_panels(Viewport framebuffer) {
   const View view = globe_.view(framebuffer);
   const double unit_px = window_.pixels_per_unit().x;
   if (!message_.empty() && Clock::now() >= message_until_) message_.clear();
   ui_.begin_frame();
   if (graticule_) draw_graticules(view);
-  draw_status(status(view, stats), unit_px);
+  draw_status(status(view), unit_px);
   if (panel_) draw_settings();
   if (searching_) draw_search();
   if (help_) draw_help();
   ui_.end_frame();
 }
 
-PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
+PanelStatus Viewer::status(const View& view) const {
   const Ground ground = globe_.ground();
   PanelStatus status;
   const auto cursor = input_.cursor_px();
@@ -340,7 +357,7 @@ PanelStatus Viewer::status(const View& view, const FrameStats& stats) const {
   }
   const Camera& camera = navigator_.camera();
   status.eye = "Eye " + length_text(camera.eye.height_m);
-  if (stats.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats.tiles_missing);
+  if (stats_.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats_.tiles_missing);
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;
   if (measuring_) status.measure = measure_.text(globe_.options().body.ellipsoid);

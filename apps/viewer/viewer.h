@@ -13,6 +13,7 @@
 #include "apps/viewer/view_settings.h"
 #include "apps/viewer/window.h"
 #include "engine/globe.h"
+#include "render/offscreen.h"
 
 namespace terrella {
 
@@ -36,6 +37,7 @@ class Viewer {
   using Clock = std::chrono::steady_clock;
 
   void wait_for_work();
+  [[nodiscard]] bool work() const;
   void act(ViewerAction action);
   void next_alpha();
   void next_stereo();
@@ -52,11 +54,12 @@ class Viewer {
   void draw_settings();
   void draw_graticules(const View& view);
   void draw_frame(Viewport framebuffer);
-  void draw_panels(Viewport framebuffer, const FrameStats& stats);
+  void draw_globe(Viewport framebuffer);
+  void draw_panels(Viewport framebuffer);
   void save_screenshot(Viewport framebuffer);
   void say(std::string message);
   void print_camera_at_rest();
-  [[nodiscard]] PanelStatus status(const View& view, const FrameStats& stats) const;
+  [[nodiscard]] PanelStatus status(const View& view) const;
 
   Window& window_;
   Globe& globe_;
@@ -64,6 +67,9 @@ class Viewer {
   Ui ui_;
   Navigator navigator_;
   Input input_;
+  std::optional<OffscreenTarget> picture_;  ///< the globe as drawn last: panels over it cost no new one
+  Viewport picture_size_;
+  FrameStats stats_;             ///< of that
   std::optional<Camera> above_;  ///< where the eye was before it went under the ground
   bool sky_ = true;
   bool help_ = false;

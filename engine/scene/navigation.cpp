@@ -13,6 +13,7 @@ constexpr Seconds kLongestStep(0.25);  // a slower frame, or a clock that jumps,
 constexpr Seconds kFlickMemory(0.1);   // a pointer that rested as long before its release does not flick
 constexpr Seconds kFlickBase(0.15);    // what its speed is taken over
 constexpr Seconds kShortestFlick(0.03);
+constexpr Seconds kLatestFlick(0.5);  // told later than that, a flick and a rest are the same
 constexpr double kSlowestFlick_px_s = 60.0;
 constexpr double kClickSlack_px = 6.0;  // a hand that clicks slips as far
 constexpr double kFastestFlick_px_s = 6000.0;
@@ -92,11 +93,11 @@ void Navigator::pointer_move(glm::dvec2 at_px, Seconds now) {
   stay_over_ground();
 }
 
-void Navigator::pointer_up(PointerButton, Seconds now) {
+void Navigator::pointer_up(PointerButton, Seconds now, Seconds late) {
   if (!finite(now)) return;
   (void)pass(now);
   const Drag* drag = std::get_if<Drag>(&motion_);
-  const glm::dvec2 speed_px_s = drag != nullptr ? flick_px_s(*drag, now) : glm::dvec2(0.0);
+  const glm::dvec2 speed_px_s = drag != nullptr ? flick_px_s(*drag, now, late) : glm::dvec2(0.0);
   if (glm::length(speed_px_s) > kSlowestFlick_px_s) {
     motion_ = Glide{drag->trail.back().at_px, speed_px_s};
   } else if (!animating()) {
@@ -207,13 +208,13 @@ void Navigator::pin_drag(const Drag& drag) {
   camera_ = pin(from, body(), viewport_, drag.held, drag.trail.back().at_px, drag.rule);
 }
 
-glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now) {
+glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now, Seconds late) {
   const Sample& last = drag.trail.back();
-  const bool rested = last.when > now || now - last.when > kFlickMemory;
+  const bool rested = last.when > now || now - last.when > kFlickMemory || late > kLatestFlick;
   if (rested || glm::distance(last.at_px, drag.from_px) <= kClickSlack_px) return glm::dvec2(0.0);
   // Over the whole trail, not between its samples: a slow frame delivers many moves at one time.
   const Sample& first = drag.trail.front();
-  const Seconds took = std::max(Seconds(now - first.when), kShortestFlick);
+  const Seconds took = std::max({Seconds(now - first.when), kShortestFlick, late});
   return limited((last.at_px - first.at_px) / took.count(), kFastestFlick_px_s);
 }
 

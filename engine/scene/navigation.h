@@ -40,7 +40,10 @@ class Navigator {
 
   void pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, Seconds now);
   void pointer_move(glm::dvec2 at_px, Seconds now);
-  void pointer_up(PointerButton button, Seconds now);
+  /// `late`: how long before `now` this and what was told just before may have happened, after a slow frame for
+  /// example. What cannot be told from a rest does not flick, and no flick is faster than all that was told over that
+  /// time.
+  void pointer_up(PointerButton button, Seconds now, Seconds late = Seconds(0.0));
   void double_click(glm::dvec2 at_px, Seconds now);
   void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< steps: positive towards the ground
   /// Fingers on a touch pad or screen: the point under `at_px`, between them, stays there and comes nearer by `factor`,
@@ -115,7 +118,7 @@ class Navigator {
   [[nodiscard]] Grab grab_at(glm::dvec2 at_px) const;
   void pin_to(const Ecef& point, glm::dvec2 at_px, HeadingRule rule);
   void pin_drag(const Drag& drag);
-  [[nodiscard]] static glm::dvec2 flick_px_s(const Drag& drag, Seconds now);
+  [[nodiscard]] static glm::dvec2 flick_px_s(const Drag& drag, Seconds now, Seconds late);
   void shift(glm::dvec2 from_px, glm::dvec2 by_px);
   void set_height(double height_m);
   void zoom_by(double factor, std::optional<glm::dvec2> at_px);

@@ -438,6 +438,22 @@ TEST(Robustness, AClockThatStandsStillFlicksNoFasterThanTheLimit) {
   EXPECT_LT(hand.settle(), Seconds(5.0));
 }
 
+TEST(Robustness, ADragToldAllAtOnceAfterASlowFrameGlidesAsIfItHadTakenThatFrame) {
+  const auto glided_px = [](Seconds late) {
+    Hand hand(camera_at(0.0, 0.0, 3.0e6));
+    hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
+    for (int i = 0; i <= 100; ++i) hand.navigator.pointer_move(kCentre + glm::dvec2(i, 0.0), hand.now);
+    const Angle dropped = hand.navigator.camera().eye.lon;
+    const double px_deg = 100.0 / dropped.deg();
+    hand.navigator.pointer_up(PointerButton::left, hand.now, late);
+    EXPECT_LT(hand.settle(), Seconds(5.0));
+    return px_deg * (hand.navigator.camera().eye.lon - dropped).deg();
+  };
+  constexpr double kDecay_s = 0.3;  // a glide goes as far as its first speed would in this time
+  EXPECT_NEAR(glided_px(Seconds(0.4)), 100.0 * kDecay_s / 0.4, 5.0);
+  EXPECT_NEAR(glided_px(Seconds(2.0)), 0.0, 1e-6);
+}
+
 TEST(Robustness, AOnePixelWindowAndACentreOfTheEarthCameraStayFinite) {
   for (const Viewport viewport : {Viewport{1, 1}, Viewport{16384, 16}, Viewport{0, -3}}) {
     for (const double height_m : {-6.378137e6, -10.0, 0.0, 1.0, 1.0e9}) {
