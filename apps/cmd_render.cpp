@@ -9,6 +9,7 @@
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
+#include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/write_file.h"
@@ -35,6 +36,7 @@ Status write_png(const std::filesystem::path& path, Viewport size, std::vector<s
 struct Rendered {
   FrameStats stats;
   std::vector<LackingTile> lacking, lacking_heights;
+  std::vector<std::string> attributions;
   bool all_objects = true;  ///< nothing in the file of --objects was wrong
 };
 
@@ -55,7 +57,8 @@ void report(const RenderCommand& command, const Rendered& rendered) {
                              {"patches", stats.patches},
                              {"band_patches", stats.band_patches},
                              {"draw_calls", stats.draw_calls},
-                             {"triangles", stats.triangles}};
+                             {"triangles", stats.triangles},
+                             {"attributions", rendered.attributions}};
     for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
     if (!command.scene.elevation.empty()) result["heights_lacked"] = stats.heights_lacked;
     for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
@@ -64,6 +67,9 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   }
   fmt::print("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
              stats.tiles_lacked + stats.tiles_missing);
+  if (!rendered.attributions.empty()) {
+    fmt::print("{}: thanks to {}\n", command.output, fmt::join(rendered.attributions, "; "));
+  }
   if (stats.heights_lacked > 0) fmt::print("{}: {} tiles of heights lacked\n", command.output, stats.heights_lacked);
 }
 
@@ -85,6 +91,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  if (const Status layers = add_image_layers(**globe, command.scene); !layers) return layers.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();
   (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
@@ -97,7 +104,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!written) return written.error();
   const auto& lacking = (*globe)->lacking();
   const auto& heights = (*globe)->lacking_heights();
-  return Rendered{stats, {lacking.begin(), lacking.end()}, {heights.begin(), heights.end()}, *objects};
+  return Rendered{
+      stats, {lacking.begin(), lacking.end()}, {heights.begin(), heights.end()}, (*globe)->attributions(), *objects};
 }
 
 int run(const RenderCommand& command) {
@@ -128,6 +136,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<RenderCommand>();
   add_scene_options(sub, command->scene);
   sub.add_option("-o,--output", command->output, "PNG file to write")->required();
+  sub.get_option("--night")->needs(sub.get_option("--time"));  // without one it is day everywhere
   sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();

@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
+#include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/viewer/viewer.h"
@@ -44,18 +45,18 @@ int view(const ViewOptions& options) {
   if (!elevation) return fail("view", elevation.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
-  const std::string attribution = (*imagery)->info().attribution;
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
+  if (const Status layers = add_image_layers(**globe, options.scene); !layers)
+    return fail("view", layers.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
     return fail("view", added.error().message);
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
-                                     .attribution = attribution,
                                      .print_camera = options.print_camera};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;

@@ -6,6 +6,7 @@
 
 #include "apps/option_checks.h"
 #include "apps/remote_set_options.h"
+#include "geo/number.h"
 #include "scene/almanac.h"
 #include "scene/view_limits.h"
 
@@ -76,6 +77,29 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
       "How depth is stored")
       ->default_str("reversed");
+}
+
+// A colon may be part of the name: what follows the last one is an opacity only if it is one.
+void read_clouds(SceneOptions& options, const std::string& text) {
+  options.clouds = text;
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return;
+  const auto opacity = read_number(std::string_view(text).substr(colon + 1));
+  if (!opacity || !(*opacity >= 0.0 && *opacity <= 1.0)) return;
+  options.clouds = text.substr(0, colon);
+  options.clouds_opacity = *opacity;
+}
+
+void add_layer_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--night", options.night,
+                  "Imagery that shows where it is night at --time, by its own light; it fades through civil twilight")
+      ->type_name("TILESET");
+  command
+      .add_option_function<std::string>(
+          "--clouds", [&options](const std::string& text) { read_clouds(options, text); },
+          "Imagery over all other, white on black, where black is clear; an opacity from 0 to 1 may follow")
+      ->type_name("TILESET[:OPACITY]");
 }
 
 void add_relief_options(CLI::App& command, SceneOptions& options) {
@@ -191,6 +215,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_drawing_options(command, options);
+  add_layer_options(command, options);
   add_relief_options(command, options);
   add_translucency_options(command, options);
   add_sky_options(command, options);

@@ -106,11 +106,11 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   render.paper_a = options.paper_a;
   render.paper_band = options.paper_band;
   SkyAssets sky{.body = options.body, .stars = options.stars, .night_lights = {}};
-  if (options.sky) {
+  if (options.sky || options.time) {
     const Result<Almanac> almanac = almanac_at(options.time.value_or(kQuietSky));
     if (!almanac) return almanac.error();
     impl->almanac = *almanac;
-    impl->sky_on = true;
+    impl->sky_on = options.sky;
     if (options.time && options.body.name == "earth") sky.night_lights = options.night_lights;
   }
   Result<std::unique_ptr<GlobeRenderer>> renderer =
@@ -182,6 +182,16 @@ Status Globe::remove(LayerId layer) {
   return impl_->remove(layer);
 }
 
+Status Globe::set_attribution(LayerId layer, std::string text) {
+  if (!impl_->may_call("Globe::set_attribution")) return refused("Globe::set_attribution");
+  return impl_->set_attribution(layer, std::move(text));
+}
+
+std::vector<std::string> Globe::attributions() const {
+  if (!impl_->may_call("Globe::attributions")) return {};
+  return impl_->attributions();
+}
+
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (!impl_->may_draw("Globe::set_elevation")) return refused("Globe::set_elevation");
   const GlState state;
@@ -220,7 +230,7 @@ void Globe::set_stereo(const StereoLook& stereo) {
 
 void Globe::set_sky(bool on) {
   if (!impl_->may_call("Globe::set_sky")) return;
-  impl_->sky_on = on;
+  impl_->sky_on = on && impl_->options.sky;
   impl_->changed = true;
 }
 
@@ -236,7 +246,7 @@ Status Globe::set_time(std::optional<UtcTime> time) {
   const Result<Almanac> almanac = almanac_at(time.value_or(kQuietSky));
   if (!almanac) return almanac.error();
   impl_->options.time = time;
-  if (impl_->almanac) impl_->almanac = *almanac;
+  impl_->almanac = *almanac;
   impl_->changed = true;
   return Done{};
 }

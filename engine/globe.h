@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geo/body.h"
@@ -53,11 +54,12 @@ struct GlobeOptions {
   StereoLook stereo;
   /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
   bool naive_translucency = false;
-  bool sky = false;                   ///< stars, Sun, Moon and atmosphere; never with `unlit`
-  std::optional<UtcTime> time;        ///< of the sky; none: the Sun stands over the viewer's shoulder and is not drawn
-  std::vector<Star> stars;            ///< of the sky
-  GreyPicture night_lights;           ///< of the Earth's night side, with a sky and a time; may be empty
-  std::vector<std::byte> label_font;  ///< a font file for the labels of objects; empty: no labels
+  bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
+  std::optional<UtcTime> time;  ///< of Sun and sky; none: the Sun stands over the viewer's shoulder, is not drawn, and
+                                ///< it is day everywhere (ImageLook::daylight)
+  std::vector<Star> stars;      ///< of the sky
+  GreyPicture night_lights;     ///< of the Earth's night side, with a sky and a time; may be empty
+  std::vector<std::byte> label_font;    ///< a font file for the labels of objects; empty: no labels
   std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots, of all image layers together
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
@@ -145,6 +147,11 @@ class Globe {
   [[nodiscard]] std::vector<LayerId> objects() const;  ///< the lowest first
   /// An image layer or an object layer. Fails if it is not there, or not any more.
   Status remove(LayerId layer);
+  /// Whom to thank for a layer, in place of what its source says; objects have nothing until it is said. Empty: nobody.
+  Status set_attribution(LayerId layer, std::string text);
+  /// What the sources of the last frame want to be said, each text once: of the image layers, the lowest first, that
+  /// had a tile in view (under an opaque layer too), of the elevation, of the object layers that were shown.
+  [[nodiscard]] std::vector<std::string> attributions() const;
   /// In place of those before; none: the ellipsoid. What ground() gave before must not be used any more.
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< has elevation
@@ -157,8 +164,8 @@ class Globe {
   void set_stereo(const StereoLook& stereo);
   void set_sky(bool on);                       ///< nothing if the globe was made without one
   void set_exaggeration(double exaggeration);  ///< of heights, [0, 100]
-  /// Of the sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes nothing. City lights are
-  /// there only in a globe that was made with a time.
+  /// Of Sun and sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes nothing. City lights
+  /// are there only in a globe that was made with a time.
   Status set_time(std::optional<UtcTime> time);
   /// From the next frame on. Image layers share the GPU's part evenly, and each has room for 16 tiles at least.
   void set_budget(const GlobeBudget& budget);

@@ -27,19 +27,20 @@ bool same_size(Viewport a, Viewport b) { return a.width_px == b.width_px && a.he
 void Globe::Impl::stack_layers() {
   stack.clear();
   for (const auto& layer : images) {
-    if (layer->is_drawn()) {
+    if (layer->is_drawn(has_night())) {
       stack.push_back(layer.get());
     } else {
       layer->stop_asking();
     }
   }
-  if (stack.empty() || !stack.front()->is_opaque()) {
+  if (stack.empty() || !stack.front()->is_opaque(has_night())) {
     if (!plain) plain = ImageLayer::make_plain(options, relief.get());
     stack.insert(stack.begin(), plain.get());
   }
   if (stack.size() == 1) return;
   // Of programs whose like are there: only a broken driver refuses them.
-  const Status prepared = renderer->prepare_further();
+  const bool special = std::ranges::any_of(stack, [this](const auto* layer) { return layer->is_special(has_night()); });
+  const Status prepared = renderer->prepare_further(special);
   assert(prepared);
   if (!prepared) stack.resize(1);
 }
@@ -72,6 +73,7 @@ void Globe::Impl::select(Viewport viewport) {
   for (std::size_t k = 1; k < stack.size(); ++k) further.push_back(stack[k]->as_further());
   select_patches(first.tree(), view, selection, first.patches(), further);
   if (patch_shuffle) std::shuffle(first.patches().begin(), first.patches().end(), std::mt19937(*patch_shuffle));
+  for (std::size_t k = 1; has_night() && k < stack.size(); ++k) stack[k]->keep_side(sun());
   for (ImageLayer* layer : stack) layer->cover(view, layer == &first, frame);
 }
 
@@ -157,7 +159,7 @@ FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
                    .frame = frame,
                    .ground_m = ground_m(),
                    .naive_translucency = options.naive_translucency};
-  for (ImageLayer* layer : stack) input.layers.push_back(layer->frame(layer == stack.front()));
+  for (ImageLayer* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), has_night()));
   return input;
 }
 

@@ -19,6 +19,7 @@ struct ObjectLayer {
   LayerId id = LayerId::none;
   ObjectScene scene;
   bool shown = true;
+  std::string attribution = {};
 };
 
 /// What is behind the façade. Calls are those of Globe, which has checked thread and context.
@@ -34,6 +35,8 @@ struct Globe::Impl {
   Result<LayerId> add_objects(ObjectScene scene, bool shown);
   Status set_objects(LayerId id, ObjectScene scene);
   Status show_objects(LayerId id, bool shown);
+  Status set_attribution(LayerId id, std::string text);
+  [[nodiscard]] std::vector<std::string> attributions() const;
   Status set_elevation(const std::optional<ElevationSource>& elevation);
   void make_relief(const ElevationSource& elevation);
   Status show_objects();
@@ -55,9 +58,11 @@ struct Globe::Impl {
   [[nodiscard]] FrameInput frame_input(Viewport viewport, glm::ivec2 corner_px);
   [[nodiscard]] std::optional<SkyInput> sky() const;
   [[nodiscard]] glm::dvec3 sun() const;
+  [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
   [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief.get()}; }
   [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
   [[nodiscard]] GlobePick pick(const View& eye, glm::dvec2 pixel_px) const;
+  [[nodiscard]] bool shows(const ImageLayer& layer, const Geodetic& place) const;
   [[nodiscard]] bool settled() const;
   [[nodiscard]] bool needs_frame() const;
   void restore_detail();
@@ -72,6 +77,7 @@ struct Globe::Impl {
   Camera camera;
   std::unique_ptr<Relief> relief;         ///< none: the ellipsoid
   std::unique_ptr<HeightLoader> heights;  ///< there if relief is
+  std::string heights_attribution;
   std::uint64_t last_id = 0;
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< the lowest first
   std::unique_ptr<ImageLayer> plain;                ///< made where no image layer is opaque
@@ -80,7 +86,7 @@ struct Globe::Impl {
   std::unique_ptr<GlobeRenderer> renderer;
   View view;  ///< what is selected for: the eye's, or both eyes'
   std::optional<EyePair> eyes;
-  std::optional<Almanac> almanac;  ///< there if a sky can be drawn
+  std::optional<Almanac> almanac;  ///< there if there is a sky or a time
   bool sky_on = false;
   std::optional<unsigned> patch_shuffle;
   std::uint64_t frame = 0;

@@ -148,9 +148,37 @@ Status Globe::Impl::show_objects() {
   return renderer->set_objects(all);
 }
 
+Status Globe::Impl::set_attribution(LayerId id, std::string text) {
+  if (ObjectLayer* layer = object(id); layer != nullptr) {
+    layer->attribution = std::move(text);
+    return Done{};
+  }
+  ImageLayer* layer = image(id);
+  if (layer == nullptr) return no_layer("Globe::set_attribution", "layer", id);
+  layer->set_attribution(std::move(text));
+  return Done{};
+}
+
+std::vector<std::string> Globe::Impl::attributions() const {
+  std::vector<std::string> texts;
+  const auto add = [&texts](const std::string& text) {
+    if (!text.empty() && std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  };
+  for (const ImageLayer* layer : stack) {
+    if (layer->is_on_screen()) add(layer->attribution());
+  }
+  if (stack.empty() || stack.front()->patches().empty()) return texts;
+  if (relief && relief->field().size() > 0) add(heights_attribution);
+  for (const ObjectLayer& layer : objects) {
+    if (layer.shown && !layer.scene.empty()) add(layer.attribution);
+  }
+  return texts;
+}
+
 void Globe::Impl::make_relief(const ElevationSource& elevation) {
   relief = std::make_unique<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration);
   heights = std::make_unique<HeightLoader>(elevation);
+  heights_attribution = elevation.tiles()->info().attribution;
 }
 
 // Patches are raised in their vertices, and have slopes: all of them are made anew.

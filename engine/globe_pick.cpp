@@ -1,6 +1,8 @@
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "engine/globe_impl.h"
+#include "scene/daylight.h"
 
 // What is under a pixel.
 namespace terrella {
@@ -16,13 +18,18 @@ bool holds(const TileGrid& grid, const Ellipsoid& ellipsoid, const Geodetic& pla
 
 }  // namespace
 
+bool Globe::Impl::shows(const ImageLayer& layer, const Geodetic& place) const {
+  if (!layer.is_drawn(has_night()) || !holds(layer.grid(), options.body.ellipsoid, place)) return false;
+  if (!has_night()) return true;
+  const double sun_sine = glm::dot(Ellipsoid::normal(place.lat, place.lon).xyz, sun());
+  return part_shown(layer.look().daylight, sun_sine) > 0.0;
+}
+
 GlobePick Globe::Impl::pick(const View& eye, glm::dvec2 pixel_px) const {
   GlobePick found;
   found.place = terrella::pick(eye, ground(), pixel_px);
   for (const auto& layer : images) {
-    if (found.place && layer->is_drawn() && holds(layer->grid(), options.body.ellipsoid, *found.place)) {
-      found.imagery = layer->id();
-    }
+    if (found.place && shows(*layer, *found.place)) found.imagery = layer->id();
   }
   const PickOptions how{.through_ground = options.surface.alpha < 1.0};
   for (const ObjectLayer& layer : objects) {

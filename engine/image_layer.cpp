@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/daylight.h"
+
 namespace terrella {
 namespace {
 
@@ -35,6 +37,7 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
       grid_(source ? grid_to_draw(options, source->info().grid) : kPlainGrid),
       roots_(root_tiles(grid_)),
       look_(look),
+      attribution_(source ? source->info().attribution : ""),
       tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
   set_relief(relief);
   if (!source) return;
@@ -65,8 +68,16 @@ void ImageLayer::set_relief(Relief* relief) {
   if (relief != nullptr) tree_->set_relief(*relief);
 }
 
-bool ImageLayer::is_opaque() const {
-  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && !has_transparency_;
+bool ImageLayer::is_drawn(bool has_night) const {
+  return look_.shown && look_.opacity > 0.0 && (has_night || look_.daylight != Daylight::night);
+}
+
+bool ImageLayer::is_opaque(bool has_night) const {
+  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && !has_transparency_ && !is_special(has_night);
+}
+
+bool ImageLayer::is_special(bool has_night) const {
+  return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
 }
 
 // Slot 0 and those of the root tiles are never given up.
@@ -108,6 +119,12 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
   return bytes;
 }
 
+void ImageLayer::keep_side(const std::optional<glm::dvec3>& sun) {
+  if (!sun || look_.daylight == Daylight::both) return;
+  std::erase_if(patches_,
+                [&](const SelectedPatch& patch) { return !may_show(look_.daylight, *patch.node, ellipsoid_, *sun); });
+}
+
 void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
   tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   cover_with_tiles(*tree_, view, patches_, tiles_.residency(), frame, coverage_, texels_per_pixel(),
@@ -132,13 +149,15 @@ void ImageLayer::stop_asking() {
   loader_->request({});
 }
 
-LayerFrame ImageLayer::frame(bool first) {
+LayerFrame ImageLayer::frame(bool first, bool has_night) {
   return {.tree = tree_.get(),
           .patches = &patches_,
           .coverage = &coverage_,
           .tiles = &tiles_,
           .gpu = &gpu_,
-          .opacity = first ? 1.0 : look_.opacity};
+          .opacity = first ? 1.0 : look_.opacity,
+          .daylight = has_night ? look_.daylight : Daylight::both,
+          .alpha = look_.alpha};
 }
 
 // Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.

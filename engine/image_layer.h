@@ -3,6 +3,8 @@
 #include <chrono>
 #include <deque>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,9 +40,16 @@ class ImageLayer {
   void set_look(const ImageLook& look);
   void set_relief(Relief* relief);  ///< everything about patches is made anew
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
-  [[nodiscard]] bool is_drawn() const { return look_.shown && look_.opacity > 0.0; }
+  /// Where there is no night a layer by night is not.
+  [[nodiscard]] bool is_drawn(bool has_night) const;
   /// Covers whatever lies under it, wherever it has tiles.
-  [[nodiscard]] bool is_opaque() const;
+  [[nodiscard]] bool is_opaque(bool has_night) const;
+  /// Takes programs of its own: it shows on one side of the terminator, or brightness is its alpha.
+  [[nodiscard]] bool is_special(bool has_night) const;
+  [[nodiscard]] const std::string& attribution() const { return attribution_; }
+  void set_attribution(std::string text) { attribution_ = std::move(text); }
+  /// The last frame drew some of its tiles in view.
+  [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
 
   [[nodiscard]] PatchTree& tree() { return *tree_; }
@@ -56,11 +65,13 @@ class ImageLayer {
 
   /// Uploads what has arrived; returns the bytes. Tiles that are lacking are added to `lacking`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
+  /// Leaves patches out on which nothing of it shows. Without a Sun there is no night.
+  void keep_side(const std::optional<glm::dvec3>& sun);
   /// Finds a tile for each cell of patches().
   void cover(const View& view, bool first, std::uint64_t frame);
   void ask();
   void stop_asking();
-  [[nodiscard]] LayerFrame frame(bool first);
+  [[nodiscard]] LayerFrame frame(bool first, bool has_night);
 
   [[nodiscard]] bool settled();
   [[nodiscard]] LoaderCounts loading() const { return loader_ ? loader_->counts() : LoaderCounts{}; }
@@ -80,6 +91,7 @@ class ImageLayer {
   TileGrid grid_;
   std::vector<TileId> roots_;
   ImageLook look_;
+  std::string attribution_;
   std::unique_ptr<PatchTree> tree_;
   TileTextures tiles_;
   std::unique_ptr<TileLoader> loader_;  ///< none: plain

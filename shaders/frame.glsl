@@ -7,6 +7,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 sun_ecef;           // unit; w: 1 lit, 0 imagery alone
   vec4 texels;             // tile_px over slot_px; slot_px; number of mip levels; polar scale of the row direction (TileGrid's latitude)
   vec4 paper;              // a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of a further layer
+  vec4 layer_look;         // of a special layer: 1 shows by day, -1 by night, 0 by both; 1 brightness is alpha too; unused
 };
 
 // Depth as DepthMode stores it. `w` is the distance before the eye's plane, metres.

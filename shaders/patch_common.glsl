@@ -34,6 +34,10 @@ Cell cell_at(vec2 p) {
   return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
 }
 
+#if defined(SPECIAL_LAYER)
+#define FURTHER_LAYER
+#endif
+
 // The surface's first imagery is opaque; what lies over it is premultiplied by its alpha.
 #if defined(FURTHER_LAYER)
 #define Imagery vec4
@@ -45,6 +49,11 @@ Cell cell_at(vec2 p) {
 
 Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
 
+// Geodetic, of any length.
+vec3 ground_normal() {
+  return (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
+}
+
 #if defined(NIGHT_LIGHTS)
 layout(binding = 6) uniform samplerCube night_lights;
 
@@ -52,7 +61,7 @@ layout(binding = 6) uniform samplerCube night_lights;
 vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
   if (sun_ecef.w == 0.0) return imagery_srgb;
   // A cube looked up by direction has no seam and no pole, and takes no arc tangent.
-  vec3 normal = (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
+  vec3 normal = ground_normal();
   vec3 dx = dFdx(normal), dy = dFdy(normal);
   vec3 color = imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
   float night = 1.0 - smoothstep(-0.16, 0.02, light);
@@ -61,7 +70,24 @@ vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
 }
 #endif
 
-// As if all layers were laid over each other first, and lit then.
+vec3 lit(vec3 imagery_srgb, float alpha) {
+#if defined(NIGHT_LIGHTS)
+  return by_day_and_night(imagery_srgb, alpha);
+#else
+  return imagery_srgb * light;
+#endif
+}
+
+#if defined(SPECIAL_LAYER)
+// Civil twilight: the Sun's centre from 6 degrees under the horizon up to it (engine/scene/daylight.h).
+float part_shown() {
+  if (layer_look.x == 0.0) return 1.0;
+  float day = smoothstep(-0.10452846, 0.0, dot(normalize(ground_normal()), sun_ecef.xyz));
+  return layer_look.x > 0.0 ? day : 1.0 - day;
+}
+#endif
+
+// As if all layers were laid over each other first, and lit then. What shows by night shines by itself.
 void finish(Imagery imagery_srgb) {
 #if defined(FURTHER_LAYER)
   float alpha = imagery_srgb.a;
@@ -69,10 +95,16 @@ void finish(Imagery imagery_srgb) {
 #else
   const float alpha = 1.0, share = 1.0;
 #endif
-#if defined(NIGHT_LIGHTS)
-  color_srgb = vec4(by_day_and_night(imagery_srgb.rgb, alpha), alpha) * share;
+#if defined(SPECIAL_LAYER)
+  if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
+  share *= part_shown();
+  if (layer_look.x < 0.0) {
+    color_srgb = vec4(imagery_srgb.rgb, alpha) * share;
+  } else {
+    color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
+  }
 #else
-  color_srgb = vec4(imagery_srgb.rgb * light, alpha) * share;
+  color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
 #endif
   WRITE_DEPTH(1.0);
 }

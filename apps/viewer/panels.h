@@ -18,7 +18,7 @@ struct PanelStatus {
   std::string frame;        ///< frame time
   std::string message;      ///< of the last action, for some seconds; may be empty
   std::string measure;      ///< what is being measured; may be empty
-  std::string attribution;  ///< of the imagery; may be empty
+  std::string attribution;  ///< of what is on screen; may be empty
   std::optional<ScaleBar> scale;
 };
 

@@ -3,7 +3,7 @@
 #include <epoxy/gl.h>
 // epoxy before GLFW, which otherwise brings its own gl.h
 #include <GLFW/glfw3.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -361,7 +361,7 @@ PanelStatus Viewer::status(const View& view) const {
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;
   if (measuring_) status.measure = measure_.text(globe_.options().body.ellipsoid);
-  status.attribution = options_.attribution;
+  status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));
   status.scale = scale_bar(view, ground, kScaleBar_px * window_.text_scale());
   return status;
 }

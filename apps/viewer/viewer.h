@@ -19,7 +19,6 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  std::string attribution;
   bool print_camera = false;  ///< a line on standard output each time the camera comes to rest
 };
 

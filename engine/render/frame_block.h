@@ -14,7 +14,8 @@ struct FrameBlock {
   glm::vec4 sun_ecef;
   glm::vec4 texels;
   glm::vec4 paper;
+  glm::vec4 layer_look;
 };
-static_assert(sizeof(FrameBlock) == 64 + 6 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 7 * 16);
 
 }  // namespace terrella

@@ -20,6 +20,7 @@
 #include "render/patch_pass.h"
 #include "render/sky_pass.h"
 #include "render/tile_textures.h"
+#include "scene/layers.h"
 #include "scene/patch_selection.h"
 #include "scene/relief.h"
 #include "scene/render_modes.h"
@@ -36,6 +37,9 @@ struct LayerFrame {
   const TileTextures* tiles = nullptr;
   PatchLayer* gpu = nullptr;
   double opacity = 1.0;
+  Daylight daylight = Daylight::both;
+  AlphaFrom alpha = AlphaFrom::own;
+  [[nodiscard]] bool is_special() const { return daylight != Daylight::both || alpha != AlphaFrom::own; }
 };
 
 /// What one frame is drawn from.
@@ -81,7 +85,7 @@ class GlobeRenderer {
   Status set_objects(const ObjectScene& scene);
 
   /// Before the first frame with more than one layer.
-  Status prepare_further() { return patches_->prepare_further(); }
+  Status prepare_further(bool special) { return patches_->prepare_further(special); }
   /// Both eyes' pictures, or the one, into `framebuffer`. What the eyes share is uploaded once.
   FrameCounts draw(const FrameInput& input, GLuint framebuffer);
 

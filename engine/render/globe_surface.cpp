@@ -70,7 +70,7 @@ void GlobeRenderer::draw_first(const Pass& pass) const {
 void GlobeRenderer::draw_further(const Pass& pass, const LayerFrame& layer) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  patches_->draw_further(*layer.gpu, vertices_of(layer, pass.first()), *layer.tiles, pass.counts);
+  patches_->draw_further(*layer.gpu, vertices_of(layer, pass.first()), *layer.tiles, layer.is_special(), pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
@@ -92,6 +92,9 @@ void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) c
       glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), layer.tiles->mips(), polar_scale);
   block.paper = glm::vec4(options_.paper_a, options_.paper_band, grid.projection == Projection::equal_area ? 1.0 : 0.0,
                           layer.opacity);
+  const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
+  block.layer_look = glm::vec4(layer.daylight == Daylight::both ? 0.0F : side,
+                               layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
 }
 
 void GlobeRenderer::upload_frame(const LayerFrame& layer) const {

@@ -56,7 +56,11 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
   return pass;
 }
 
-Status PatchPass::prepare_further() {
+Status PatchPass::prepare_further(bool special) {
+  if (special && !has_special_) {
+    if (Status built = build_programs(special_, "SPECIAL_LAYER"); !built) return built;
+    has_special_ = true;
+  }
   if (flat_program_) return Done{};
   if (Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
   Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
@@ -194,8 +198,8 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
 }
 
 void PatchPass::draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                             FrameCounts& counts) const {
-  draw_programs(further_, layer, vertices, tiles, counts);
+                             bool special, FrameCounts& counts) const {
+  draw_programs(special ? special_ : further_, layer, vertices, tiles, counts);
 }
 
 void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,

@@ -41,8 +41,9 @@ class PatchPass {
   /// `has_relief`: patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Makes the programs of layers over the first, once; before any is drawn.
-  Status prepare_further();
+  /// Makes the programs of layers over the first, once; before any is drawn. Special ones show on one side of the
+  /// terminator, or take alpha from brightness: FrameBlock::layer_look.
+  Status prepare_further(bool special);
 
   /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one; `vertices` are the layer's own or those
   /// of the patches' surface.
@@ -52,7 +53,7 @@ class PatchPass {
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
             FrameCounts& counts) const;
   /// The same premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
-  void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+  void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
                     FrameCounts& counts) const;
   /// Depth alone, in one call; the depths are the bits that draw() makes.
   void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
@@ -76,7 +77,8 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  gl::Program programs_[kPrograms], further_[kPrograms];
+  gl::Program programs_[kPrograms], further_[kPrograms], special_[kPrograms];
+  bool has_special_ = false;
   gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;

@@ -293,6 +293,7 @@ class Coverer {
   // From a tile, `up` levels coarser than the window, upwards.
   Found find_seen(const SelectedPatch& patch, TileId id, int up) {
     bool counted = false;
+    bool in_bounds = true;
     bool asked = false;  // one tile is asked for: the finest that can still come
     for (;;) {
       const EntryMemo::Line& line = memo_.judged(id, patch.squeezed || up > 0);
@@ -300,12 +301,14 @@ class Coverer {
       if (entry.state == TileState::outside && out_of_bounds_ == OutOfBounds::nothing) {
         return {up, line.tile.squeeze, 0, false};
       }
+      if (entry.state == TileState::outside) in_bounds = in_bounds && counted;
       if (!counted && entry.state != TileState::outside) {
         counted = true;
         count(entry);
       }
       if (entry.state == TileState::resident) {
         if (!asked) entry.last_needed = frame_;
+        out_.shown = out_.shown || in_bounds;
         return drawn(line, up);
       }
       if (!asked && entry.state == TileState::unknown) {
@@ -397,6 +400,7 @@ void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<Selec
   out.cells.clear();
   out.wanted.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
+  out.shown = false;
   Coverer coverer(tree, view, residency, frame, out, texels_per_pixel, out_of_bounds);
   coverer.cover(patches);
 }

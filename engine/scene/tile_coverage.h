@@ -42,6 +42,7 @@ struct TileCoverage {
   int missing = 0;                 ///< of those, not there yet
   int lacking = 0;                 ///< of those, replaced by an ancestor for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
+  bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident

@@ -3,6 +3,8 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "streaming/tile_source.h"
 
@@ -19,6 +21,7 @@ class LayerSource : public TileSource {
 
   LayerSource(const TileGrid& grid, Paint paint, Lacks lacks = {});
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  void set_attribution(std::string text) { info_.attribution = std::move(text); }  ///< before a globe has it
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
 
  private:

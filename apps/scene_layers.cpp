@@ -1,0 +1,31 @@
+#include "apps/scene_layers.h"
+
+#include <memory>
+#include <utility>
+
+#include "apps/open_imagery.h"
+
+namespace terrella {
+namespace {
+
+/// What is said of TILESET's rows is not said of another.
+Status add_layer(Globe& globe, const SceneOptions& options, const std::string& tile_set, const ImageLook& look) {
+  if (tile_set.empty()) return Done{};
+  SceneOptions layer = options;
+  layer.tile_set = tile_set;
+  layer.projection.reset();
+  layer.latitude.reset();
+  auto tiles = open_imagery(layer);
+  if (!tiles) return tiles.error();
+  if (const auto added = globe.add_imagery(*std::move(tiles), look); !added) return added.error();
+  return Done{};
+}
+
+}  // namespace
+
+Status add_image_layers(Globe& globe, const SceneOptions& options) {
+  if (Status night = add_layer(globe, options, options.night, {.daylight = Daylight::night}); !night) return night;
+  return add_layer(globe, options, options.clouds, {.opacity = options.clouds_opacity, .alpha = AlphaFrom::brightness});
+}
+
+}  // namespace terrella
