@@ -211,10 +211,10 @@ int ObjectPass::draw_dots(const Ranges& ranges, const gl::VertexArray& array, co
 int ObjectPass::draw_spheres(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame,
                              Viewport viewport, double hiding_radius_m) {
   const auto range = sphere_ranges_.range(part, opaque, choice);
-  if (!splat_ || !opaque || range.count < fewest_splats_) {
+  if (!splat_ || !opaque || range.count < fewest_splats_ ||
+      !splats_.prepare(range.first, range.count, frame, viewport, hiding_radius_m)) {
     return draw_dots(sphere_ranges_, sphere_array_, sphere_, part, opaque, choice);
   }
-  splats_.prepare(range.first, range.count, frame, viewport, hiding_radius_m);
   int calls = 0;
   if (splats_.large_count() > 0) {
     glUseProgram(sphere_.name());

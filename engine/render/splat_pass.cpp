@@ -10,11 +10,6 @@ namespace {
 
 constexpr GLint kSplatViewportUniform = 0;
 
-/// Blocks side by side, as object_splat.vert has them.
-struct RunInstance {
-  std::uint32_t column, row, blocks, first_block;
-};
-
 SplatView splat_view(const FrameBlock& frame, Viewport viewport, double hiding_radius_m) {
   return {.view_from_ecef = glm::mat3(frame.view_from_ecef),
           .eye_high_ecef = glm::vec3(frame.eye_high_ecef),
@@ -35,6 +30,9 @@ Status SplatPass::create(DepthMode depth) {
   if (!built) return built.error();
   program_ = std::move(*built);
   pixel_texture_ = gl::make_texture(GL_TEXTURE_BUFFER);
+  GLint most_texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+  most_blocks_ = static_cast<std::size_t>(most_texels) * sizeof(std::uint32_t) / sizeof(SplatBlock);
   array_ = gl::make_vertex_array();
   glEnableVertexArrayAttrib(array_.name(), 0);
   glVertexArrayAttribIFormat(array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
@@ -43,34 +41,31 @@ Status SplatPass::create(DepthMode depth) {
   return Done{};
 }
 
-void SplatPass::prepare(std::size_t first, std::size_t count, const FrameBlock& frame, Viewport viewport,
+bool SplatPass::prepare(std::size_t first, std::size_t count, const FrameBlock& frame, Viewport viewport,
                         double hiding_radius_m) {
-  splats_.draw(spheres_, first, count, splat_view(frame, viewport, hiding_radius_m));
+  const std::size_t blocks = SphereSplats::blocks_of(viewport);
+  if (blocks > most_blocks_) return false;
+  const std::span<SplatBlock> picture = picture_.begin<SplatBlock>(blocks);
+  if (picture.empty()) return false;
+  splats_.draw(spheres_, first, count, splat_view(frame, viewport, hiding_radius_m), picture);
   large_.fill(splats_.large().data(), splats_.large().size_bytes());
+  return true;
 }
 
 int SplatPass::draw(Viewport viewport) {
-  std::vector<RunInstance> instances;
-  std::uint32_t blocks = 0;
   const std::vector<SphereSplats::Run> runs = splats_.runs();
-  for (const SphereSplats::Run& run : runs) {
-    const auto length = static_cast<std::uint32_t>(run.blocks.size());
-    instances.push_back({run.column, run.row, length, blocks});
-    blocks += length;
-  }
-  if (blocks == 0) return 0;
-  pixels_.begin(blocks * sizeof(SplatBlock));
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    pixels_.put(instances[k].first_block * sizeof(SplatBlock), runs[k].blocks.data(), runs[k].blocks.size_bytes());
-  }
-  runs_.fill(instances.data(), instances.size() * sizeof(RunInstance));
-  glVertexArrayVertexBuffer(array_.name(), 0, runs_.name(), 0, sizeof(RunInstance));
-  glTextureBuffer(pixel_texture_.name(), GL_R32UI, pixels_.name());
+  if (runs.empty()) return 0;
+  runs_.fill(runs.data(), runs.size() * sizeof(SphereSplats::Run));
+  glVertexArrayVertexBuffer(array_.name(), 0, runs_.name(), 0, sizeof(SphereSplats::Run));
+  glTextureBuffer(pixel_texture_.name(), GL_R32UI, picture_.name());
   glProgramUniform2f(program_.name(), kSplatViewportUniform, float(viewport.width_px), float(viewport.height_px));
   glUseProgram(program_.name());
   glBindVertexArray(array_.name());
   glBindTextureUnit(0, pixel_texture_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // two factors are half a millisecond dearer than one, a megapixel
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(runs.size()));
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  picture_.use_ends();
   return 1;
 }
 

@@ -1,9 +1,12 @@
 #include "scene/sphere_splats.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <thread>
 
 #include "scene/patch_mesh.h"
 
@@ -15,6 +18,8 @@ using glm::vec3;
 
 constexpr float kSmallest_px = 0.75F;  // as in object_sphere.vert
 constexpr float kWidestAngle = 0.02F;  // radius over distance, up to which the outline is taken for an ellipse
+constexpr int kMostThreads = 8;
+constexpr int kBandsOfAThread = 2;
 
 /// The ten low bits of a number, two apart.
 std::uint32_t spread(std::uint32_t bits) {
@@ -64,12 +69,23 @@ bool is_hidden(const SplatLens& lens, const SplatView& view, const SphereGroups:
   return along > 0.0F && along < away && glm::length(glm::cross(eye, axis)) < within;
 }
 
-/// False only if nothing of a ball is in the picture.
-bool may_show(const SplatView& view, const SphereGroups::Ball& ball) {
+/// Rows of blocks of a picture.
+struct Rows {
+  int first, end;
+};
+
+/// False only if nothing of a ball, or of the pixels around it, is in these rows of the picture.
+bool may_show(const SplatView& view, const Rows& rows, const SphereGroups::Ball& ball) {
+  constexpr float kAround_px = 2.0F;  // the smallest sphere's radius, and its edge
   const vec3 p = view.view_from_ecef * from_eye(view, ball);
-  const vec2 slope = 1.0F / view.focal;
-  const float w = -p.z, reach = 2.0F * ball.radius_m + 0.01F * glm::length(p);
-  return w > -reach && std::abs(p.x) < slope.x * (w + reach) + reach && std::abs(p.y) < slope.y * (w + reach) + reach;
+  const float half_px = 0.5F * float(view.viewport.height_px);
+  const float w = -p.z, reach = ball.radius_m + kAround_px / (half_px * view.focal.y) * glm::length(p);
+  // A plane through the eye, `slope` to the right or up per distance before it: how far left or below of it p is.
+  const auto beyond = [w](float across, float slope) { return (slope * w - across) / std::sqrt(1.0F + slope * slope); };
+  const auto slope_at = [&](int row) { return (float(row * kSplatBlockHeight_px) / half_px - 1.0F) / view.focal.y; };
+  const float side = 1.0F / view.focal.x;
+  return w > -reach && beyond(p.x, side) > -reach && beyond(-p.x, side) > -reach &&
+         beyond(p.y, slope_at(rows.end)) > -reach && beyond(-p.y, -slope_at(rows.first)) > -reach;
 }
 
 SphereGroups::Ball ball_around(std::span<const DotInstance> spheres) {
@@ -125,53 +141,93 @@ SphereSplats::SphereSplats() {
 #endif
 }
 
-void SphereSplats::begin(Viewport viewport) {
-  columns_ = (viewport.width_px + kSplatBlockWidth_px - 1) / kSplatBlockWidth_px;
+std::size_t SphereSplats::blocks_of(Viewport viewport) {
+  const int columns = (viewport.width_px + kSplatBlockWidth_px - 1) / kSplatBlockWidth_px;
   const int rows = (viewport.height_px + kSplatBlockHeight_px - 1) / kSplatBlockHeight_px;
-  const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows);
-  if (count > most_blocks_) {
-    blocks_.reset(new SplatBlock[count]);  // not a vector: that would write, and so take, memory for all
-    most_blocks_ = count;
+  return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+}
+
+/// Some rows of blocks, and what one thread needs to draw the spheres in them.
+class SphereSplats::Band {
+ public:
+  Band(SphereSplats& splats, std::span<SplatBlock> picture, const SplatView& view, const Rows& rows)
+      : splats_(splats), picture_(picture), view_(view), lens_(lens_of(view)), rows_(rows) {}
+
+  void draw(const SphereGroups& spheres, std::size_t first, std::size_t count) {
+    for (const SphereGroups::Group& group : spheres.groups()) {
+      if (group.first < first || group.first >= first + count) continue;
+      if (!may_show(view_, rows_, group.ball) || is_hidden(lens_, view_, group.ball)) continue;
+      splats_.code_.place(group.spheres, group.count, lens_, discs_);
+      for (int k = 0; k < group.count; ++k) {
+        if (discs_.large[k] != 0) large_.push_back(group.first + static_cast<std::size_t>(k));
+        if (discs_.shown[k] != 0) add(group.spheres, k);
+      }
+    }
   }
-  touched_.assign(count, 0);
+  /// Numbers of the spheres that are left to triangles; those of another band may be among them.
+  [[nodiscard]] const std::vector<std::size_t>& large() const { return large_; }
+
+ private:
+  void add(const SplatSpheres& spheres, int k) {
+    if (discs_.x_first[k] > discs_.x_last[k] || discs_.y_first[k] > discs_.y_last[k]) return;
+    const int last_column = discs_.x_last[k] / kSplatBlockWidth_px;
+    const int last_row = std::min(discs_.y_last[k] / kSplatBlockHeight_px, rows_.end - 1);
+    for (int row = std::max(discs_.y_first[k] / kSplatBlockHeight_px, rows_.first); row <= last_row; ++row) {
+      for (int column = discs_.x_first[k] / kSplatBlockWidth_px; column <= last_column; ++column) {
+        SplatBlock& block = block_at(column, row);
+        splats_.code_.draw(spheres, discs_, k, column, row, view_.lit, block.nearness.data(), block.rgba.data());
+      }
+    }
+  }
+
+  SplatBlock& block_at(int column, int row) {
+    const std::size_t at =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(splats_.columns_) + static_cast<std::size_t>(column);
+    SplatBlock& block = picture_[at];
+    if (splats_.touched_[at] == 0) {
+      splats_.touched_[at] = 1;
+      block.nearness.fill(0.0F);
+    }
+    return block;
+  }
+
+  SphereSplats& splats_;
+  std::span<SplatBlock> picture_;
+  const SplatView& view_;
+  SplatLens lens_;
+  Rows rows_;
+  SplatDiscs discs_{};
+  std::vector<std::size_t> large_;
+};
+
+void SphereSplats::draw(const SphereGroups& spheres, std::size_t first, std::size_t count, const SplatView& view,
+                        std::span<SplatBlock> picture) {
+  assert(picture.size() >= blocks_of(view.viewport));
+  columns_ = (view.viewport.width_px + kSplatBlockWidth_px - 1) / kSplatBlockWidth_px;
+  const int rows = static_cast<int>(blocks_of(view.viewport)) / columns_;
+  touched_.assign(blocks_of(view.viewport), 0);
+  // More bands than threads: where the spheres are is not known.
+  const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+  const int count_of_bands = std::min(threads == 1 ? 1 : kBandsOfAThread * threads, rows);
+  std::vector<Band> bands;
+  for (int k = 0; k < count_of_bands; ++k) {
+    bands.emplace_back(*this, picture, view, Rows{k * rows / count_of_bands, (k + 1) * rows / count_of_bands});
+  }
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < bands.size(); k = next++) bands[k].draw(spheres, first, count);
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k) others.emplace_back(work);
+    work();
+  }
+  std::vector<std::size_t> large;
+  for (const Band& band : bands) large.insert(large.end(), band.large().begin(), band.large().end());
+  std::ranges::sort(large);
+  large.erase(std::unique(large.begin(), large.end()), large.end());
   large_.clear();
-}
-
-void SphereSplats::draw(const SphereGroups& spheres, std::size_t first, std::size_t count, const SplatView& view) {
-  begin(view.viewport);
-  const SplatLens lens = lens_of(view);
-  for (const SphereGroups::Group& group : spheres.groups()) {
-    if (group.first < first || group.first >= first + count) continue;
-    if (is_hidden(lens, view, group.ball) || !may_show(view, group.ball)) continue;
-    code_.place(group.spheres, group.count, lens, discs_);
-    for (int k = 0; k < group.count; ++k) {
-      if (discs_.large[k] != 0) large_.push_back(spheres.items()[group.first + static_cast<std::size_t>(k)]);
-      if (discs_.shown[k] != 0) add(group.spheres, k, view.lit);
-    }
-  }
-}
-
-void SphereSplats::add(const SplatSpheres& spheres, int k, bool lit) {
-  if (discs_.x_first[k] > discs_.x_last[k] || discs_.y_first[k] > discs_.y_last[k]) return;
-  const int last_column = discs_.x_last[k] / kSplatBlockWidth_px, last_row = discs_.y_last[k] / kSplatBlockHeight_px;
-  for (int row = discs_.y_first[k] / kSplatBlockHeight_px; row <= last_row; ++row) {
-    for (int column = discs_.x_first[k] / kSplatBlockWidth_px; column <= last_column; ++column) {
-      SplatBlock& block = block_at(column, row);
-      code_.draw(spheres, discs_, k, column, row, lit, block.nearness.data(), block.rgba.data());
-    }
-  }
-}
-
-SplatBlock& SphereSplats::block_at(int column, int row) {
-  const std::size_t at =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  SplatBlock& block = blocks_[at];
-  if (touched_[at] == 0) {
-    touched_[at] = 1;
-    block.rgba.fill(0);
-    block.nearness.fill(0.0F);
-  }
-  return block;
+  for (const std::size_t k : large) large_.push_back(spheres.items()[k]);
 }
 
 std::vector<SphereSplats::Run> SphereSplats::runs() const {
@@ -182,9 +238,8 @@ std::vector<SphereSplats::Run> SphereSplats::runs() const {
     const std::size_t row_end = (k / columns + 1) * columns;
     while (end < row_end && touched_[end] != 0) ++end;
     if (end > k) {
-      runs.push_back({static_cast<std::uint32_t>(k % columns),
-                      static_cast<std::uint32_t>(k / columns),
-                      {blocks_.get() + k, end - k}});
+      runs.push_back({static_cast<std::uint32_t>(k % columns), static_cast<std::uint32_t>(k / columns),
+                      static_cast<std::uint32_t>(end - k), static_cast<std::uint32_t>(k)});
     }
     k = std::max(end, k + 1);
   }

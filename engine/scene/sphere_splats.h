@@ -6,7 +6,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,8 +30,8 @@ struct SplatView {
 /// A part of the picture, row by row from the bottom: the nearest sphere at each pixel.
 struct SplatBlock {
   static constexpr std::size_t kPixels = std::size_t{kSplatBlockWidth_px} * kSplatBlockHeight_px;
-  std::array<std::uint32_t, kPixels> rgba;  ///< red in the low byte, alpha how much of the pixel is covered; 0: none
-  std::array<float, kPixels> nearness;      ///< 1 over its distance before the eye's plane, metres
+  std::array<std::uint32_t, kPixels> rgba;  ///< red in the low byte, alpha how much of the pixel is covered
+  std::array<float, kPixels> nearness;      ///< 1 over its distance before the eye's plane, metres; 0: no sphere
 };
 
 /// Spheres in the order of a curve through space, within each bucket of their batch, and a ball around each few of
@@ -62,41 +61,40 @@ class SphereGroups {
 
 /// Draws spheres that are few pixels wide into a picture in memory: on software GL a triangle costs a microsecond,
 /// which a hundred thousand of them would pay each. Same look as shaders/object_sphere: its formulas, with the
-/// outline's perspective linear around the centre (less than 0.1 pixels off at the widest, kMostRadius_px). thread:
-/// any, one
+/// outline's perspective linear around the centre (less than 0.1 pixels off at the widest, kMostRadius_px). The
+/// picture's rows are shared out among as many threads as there are processors; the pixels are the same with any
+/// number. thread: any, one
 class SphereSplats {
  public:
   static constexpr float kMostRadius_px = 8.0F;  ///< wider ones are left to triangles
 
   SphereSplats();
 
-  /// Draws a range of spheres, some of their batch's buckets, those that can be seen, into an empty picture.
-  void draw(const SphereGroups& spheres, std::size_t first, std::size_t count, const SplatView& view);
+  /// Blocks that a picture has: row by row from the lower left corner.
+  [[nodiscard]] static std::size_t blocks_of(Viewport viewport);
+  /// Draws a range of spheres, some of their batch's buckets, those that can be seen, into an empty picture of
+  /// blocks_of(view.viewport) blocks. Blocks that no sphere touches are left as they are.
+  void draw(const SphereGroups& spheres, std::size_t first, std::size_t count, const SplatView& view,
+            std::span<SplatBlock> picture);
 
   /// Blocks side by side that hold anything.
   struct Run {
-    std::uint32_t column, row;  ///< of the first, counted from the lower left corner
-    std::span<const SplatBlock> blocks;
+    std::uint32_t column, row, blocks;  ///< of the first, counted from the lower left corner; how many
+    std::uint32_t first_block;          ///< of the picture
   };
   [[nodiscard]] std::vector<Run> runs() const;
   /// What is too wide, or too near to the eye.
   [[nodiscard]] std::span<const DotInstance> large() const { return large_; }
 
  private:
-  void begin(Viewport viewport);
-  void add(const SplatSpheres& spheres, int k, bool lit);
-  [[nodiscard]] SplatBlock& block_at(int column, int row);
-
+  class Band;
   struct Code {
     decltype(&place_splats) place;
     decltype(&draw_splat) draw;
   };
   Code code_{place_splats, draw_splat};  ///< for this processor
-  SplatDiscs discs_;
   int columns_ = 0;
-  std::size_t most_blocks_ = 0;
-  std::unique_ptr<SplatBlock[]> blocks_;  ///< the picture's, row by row; of those not touched nothing is known
-  std::vector<std::uint8_t> touched_;
+  std::vector<std::uint8_t> touched_;  ///< block by block
   std::vector<DotInstance> large_;
 };
 
