@@ -210,6 +210,7 @@ void SphereSplats::draw(const SphereGroups& spheres, std::size_t first, std::siz
   const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
   const int count_of_bands = std::min(threads == 1 ? 1 : kBandsOfAThread * threads, rows);
   std::vector<Band> bands;
+  bands.reserve(static_cast<std::size_t>(count_of_bands));
   for (int k = 0; k < count_of_bands; ++k) {
     bands.emplace_back(*this, picture, view, Rows{k * rows / count_of_bands, (k + 1) * rows / count_of_bands});
   }
