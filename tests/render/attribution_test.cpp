@@ -101,8 +101,30 @@ TEST_F(Attributions, LevelsAndTilesThatAreLackingHaveNone) {
   EXPECT_EQ(of(camera_at(0, 20, 5.0e5)), (Texts{"globe", "near"}));
 }
 
+/// Another's tiles, and whom they are owed to.
+class Owed : public TileSource {
+ public:
+  Owed(std::shared_ptr<TileSource> tiles, const std::string& who) : tiles_(std::move(tiles)), info_(tiles_->info()) {
+    info_.attribution = who;
+  }
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+
+ private:
+  std::shared_ptr<TileSource> tiles_;
+  TileSetInfo info_;
+};
+
 TEST_F(Attributions, HeightsAndObjectsFollow) {
   add(owed_to("globe"));
+  auto tiles = painted_heights({.tile_px = 64, .max_level = 1}, [](double, double) { return 100.0; });
+  const auto heights = ElevationSource::open(std::make_shared<Owed>(std::move(tiles), "levelling"), "heights");
+  ASSERT_TRUE(heights && globe_->set_elevation(*heights));
+  EXPECT_EQ(now(), (Texts{"globe", "levelling"}));
+  EXPECT_EQ(of({.eye = {.lat = {}, .lon = {}, .height_m = 1.0e7}, .heading = {}, .pitch = Angle::degrees(60)}), Texts{})
+      << "beside the globe";
+  globe_->set_camera(camera_at(10, 20, 8.0e6));
+  ASSERT_TRUE(globe_->set_elevation({}));
   const auto objects = globe_->add_objects({.points = {{.place = {}}}});
   ASSERT_TRUE(objects);
   EXPECT_EQ(now(), Texts{"globe"});

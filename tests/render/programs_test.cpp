@@ -18,9 +18,9 @@ constexpr Viewport kProgramsPicture{64, 64};
 const TileGrid kGrid{.tile_px = 64, .max_level = 1};
 
 /// Of all programs in the context, which are labelled with the file that makes them what they are.
-Names programs() {
+std::multiset<std::string> all_programs() {
   constexpr GLuint kMostNames = 4096;  // objects of a context are numbered from 1
-  Names names;
+  std::multiset<std::string> names;
   for (GLuint name = 1; name < kMostNames; ++name) {
     if (glIsProgram(name) == GL_FALSE) continue;
     char label[256] = {};
@@ -28,6 +28,10 @@ Names programs() {
     names.insert(label);
   }
   return names;
+}
+Names programs() {
+  const auto all = all_programs();
+  return {all.begin(), all.end()};
 }
 
 class Programs : public GlTest {
@@ -78,6 +82,21 @@ TEST_F(Programs, StereoBringsOneWhereRowsAreToldApartAndNoneElse) {
   }
   options.stereo.mode = Stereo::interlaced;
   EXPECT_EQ(more(of(options)), Names{"interlace.frag"});
+}
+
+TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAgain) {
+  const auto globe = make_globe({}, one_colour(kGrid, {200, 120, 40}));
+  globe->set_camera(camera_at(10, 20, 2.0e7));
+  const auto count = [&](const ImageLook& look) {
+    EXPECT_TRUE(globe->add_imagery(one_colour(kGrid, {200, 120, 40}), look));
+    settle(*globe, kProgramsPicture);
+    const auto all = all_programs();
+    return std::pair(all.count("patch_polar.frag"), all.size());
+  };
+  const std::size_t alone = plain().size();
+  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 5)) << "and a flat one";
+  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 5)) << "no time";
+  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 9));
 }
 
 TEST_F(Programs, TheSkyBringsStarsSunMoonAndAir) {
