@@ -87,8 +87,8 @@ Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
     return Done{};
   }
   if (type == "Feature") return taker.take(document, 0), Done{};
-  add_geometry(document, ObjectStyle{}, ThirdCoordinate::height_m, file.scene,
-               [&taker](const std::string& what) { taker.complain_of(what); });
+  const Complain complain = [&taker](const std::string& what) { taker.complain_of(what); };
+  add_geometry(document, read_object_style({}, complain), ThirdCoordinate::height_m, file.scene, complain);
   return Done{};
 }
 

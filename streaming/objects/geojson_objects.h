@@ -26,8 +26,8 @@ struct ObjectFile {
 };
 
 /// The objects of GeoJSON (RFC 7946): all its geometries; longitude, latitude, and metres over the ellipsoid, negative
-/// under it. Properties: simplestyle's marker-color, marker-size, stroke, stroke-width, stroke-opacity, fill,
-/// fill-opacity, title; radius_m makes a Point a sphere, model a glTF model; through_surface. See
+/// under it. Properties: those of simplestyle 1.1.0 with its defaults, but for description, which is not kept, and
+/// icons as marker-symbol; radius_m makes a Point a sphere, model a glTF model; through_surface. See
 /// streaming/objects/README.md, also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
 ///
 /// A geometry that is wrong is left out with a complaint; a property that is wrong is as if it were not there, with a

@@ -23,7 +23,7 @@ class StyleReader {
     const json* value = find(name);
     if (value == nullptr) return std::nullopt;
     const auto color = value->is_string() ? read_color(value->get_ref<const std::string&>()) : std::nullopt;
-    if (!color) complain_(fmt::format("\"{}\" is not a colour; #rrggbb is needed", name));
+    if (!color) complain_(fmt::format("\"{}\" is not a colour; #rgb or #rrggbb is needed", name));
     return color;
   }
 
@@ -57,9 +57,31 @@ class StyleReader {
     return std::nullopt;
   }
 
+  /// Others may mean something else by names that simplestyle does not have.
   std::string text(const char* name) const {
     const json* value = find(name);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+  }
+
+  std::string simplestyle_text(const char* name) const {
+    const json* value = find(name);
+    if (value != nullptr && !value->is_string()) complain_(fmt::format("\"{}\" must be a text", name));
+    return text(name);
+  }
+
+  /// A digit or a letter; nothing for an icon, of which there are none here.
+  std::string marker_symbol() const {
+    const json* value = find("marker-symbol");
+    if (value == nullptr) return {};
+    if (value->is_number_unsigned() && value->get<std::uint64_t>() < 10) return value->dump();
+    if (!value->is_string()) {
+      complain_("\"marker-symbol\" must be a digit, a letter or an icon's name");
+      return {};
+    }
+    const auto& symbol = value->get_ref<const std::string&>();
+    const bool drawn =
+        symbol.size() == 1 && ((symbol[0] >= '0' && symbol[0] <= '9') || (symbol[0] >= 'a' && symbol[0] <= 'z'));
+    return drawn ? symbol : std::string();
   }
 
  private:
@@ -82,6 +104,17 @@ void set_color(ObjectColor& color, std::optional<ObjectColor> said) {
   if (said) color = {said->red, said->green, said->blue, color.alpha};
 }
 
+/// What simplestyle 1.1.0 says of properties that are not given, section 3; medium is this size here.
+ObjectStyle simplestyle_defaults() {
+  constexpr ObjectColor kMarker{0x7e, 0x7e, 0x7e}, kStroke{0x55, 0x55, 0x55}, kFill{0x55, 0x55, 0x55, 153};  // 0.6
+  ObjectStyle style;
+  style.point.color = kMarker;
+  style.line.color = style.polygon.stroke = kStroke;
+  style.line.width_px = style.polygon.stroke_width_px = 2.0F;
+  style.polygon.fill = kFill;
+  return style;
+}
+
 }  // namespace
 
 std::optional<ObjectColor> read_color(std::string_view text) {
@@ -100,7 +133,7 @@ std::optional<ObjectColor> read_color(std::string_view text) {
 ObjectStyle read_object_style(const json& properties, const Complain& complain) {
   constexpr double kMostRadius_m = 1.0e9, kMostWidth_px = 256.0, kLeastScale = 1.0e-6, kMostScale = 1.0e6;
   const StyleReader reader(properties, complain);
-  ObjectStyle style;
+  ObjectStyle style = simplestyle_defaults();
   set_color(style.point.color, reader.color("marker-color"));
   if (const auto size = reader.marker_size()) style.point.size_px = *size;
   if (const auto radius = reader.number("radius_m", 0.0, kMostRadius_m)) style.point.radius_m = *radius;
@@ -122,8 +155,11 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   }
   style.mesh.through_surface = style.point.through_surface = style.line.through_surface =
       style.polygon.through_surface = through;
-  style.label.text = reader.text("title");
+  static_cast<void>(reader.simplestyle_text("description"));
+  const std::string symbol = reader.marker_symbol();
+  style.label.text = reader.simplestyle_text("title");
   if (style.label.text.empty()) style.label.text = reader.text("name");
+  if (style.label.text.empty()) style.label.text = symbol;
   if (const auto priority = reader.number("label-priority", -1e9, 1e9)) style.label.priority = *priority;
   return style;
 }

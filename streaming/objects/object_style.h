@@ -22,7 +22,7 @@ struct ObjectStyle {
 /// Told of each property that is wrong.
 using Complain = std::function<void(const std::string& what)>;
 
-/// Reads a feature's properties (null and nothing: the defaults). thread: any
+/// Reads a feature's properties; those that lack or are wrong are as simplestyle 1.1.0 has them by default. thread: any
 [[nodiscard]] ObjectStyle read_object_style(const nlohmann::json& properties, const Complain& complain);
 
 /// "#rgb" or "#rrggbb", the number sign may lack.

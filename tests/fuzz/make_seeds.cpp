@@ -207,6 +207,12 @@ int main(int argc, char** argv) {
       R"("coordinates":[170,10,35]}},{"type":"Feature","properties":null,"geometry":{"type":"GeometryCollection",)"
       R"("geometries":[{"type":"MultiLineString","coordinates":[[[170,10],[-170,80]]]},{"type":"Polygon",)"
       R"("coordinates":[[[170,10],[-170,10],[0,80],[170,10]],[[1,2],[2,2],[2,3],[1,2]]]}]}}]})");
+  write(folder / "geojson_objects/simplestyle.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"marker-color":"#7e7e7e",)"
+        R"("marker-size":"large","marker-symbol":"a","title":"t","description":"d"},"geometry":{"type":"Point",)"
+        R"("coordinates":[8,46]}},{"type":"Feature","properties":{"stroke":"555","stroke-width":2,"stroke-opacity":1,)"
+        R"("fill":"#555555","fill-opacity":0.6,"marker-symbol":7},"geometry":{"type":"Polygon",)"
+        R"("coordinates":[[[1,2],[2,2],[2,3],[1,2]]]}}]})");
   write_models(folder / "gltf");
   const std::string ours =
       std::string(kTables) +

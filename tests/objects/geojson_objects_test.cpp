@@ -88,12 +88,72 @@ TEST(GeojsonObjects, StylesAreSimplestyleRadiusAndThroughSurface) {
   EXPECT_EQ(file.scene.labels[0].text, "Here");
 }
 
+TEST(GeojsonObjects, WhatIsNotSaidIsAsSimplestyleHasItByDefault) {
+  const std::string line = geometry("LineString", "[[0,0],[1,1]]"),
+                    area = geometry("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]");
+  const ObjectFile file = good(collection(
+      feature(kPoint) + "," + feature(kPoint, "null") + "," + feature(line) + "," + feature(area, R"({"fill":"0f0"})") +
+      "," + feature(area, R"({"fill-opacity":0,"stroke-opacity":0.5,"marker-size":null,"title":null})")));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  const ObjectColor gray{0x55, 0x55, 0x55};
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0x7e, 0x7e, 0x7e}));
+  EXPECT_EQ(file.scene.points[1].color, file.scene.points[0].color);
+  EXPECT_EQ(file.scene.points[0].size_px, 10.0F);
+  EXPECT_EQ(file.scene.lines[0].color, gray);
+  EXPECT_EQ(file.scene.lines[0].width_px, 2.0F);
+  EXPECT_EQ(file.scene.polygons[0].fill, (ObjectColor{0, 255, 0, 153})) << "0.6";
+  EXPECT_EQ(file.scene.polygons[0].stroke, gray);
+  EXPECT_EQ(file.scene.polygons[0].stroke_width_px, 2.0F);
+  EXPECT_EQ(file.scene.polygons[1].fill, (ObjectColor{0x55, 0x55, 0x55, 0}));
+  EXPECT_EQ(file.scene.polygons[1].stroke, (ObjectColor{0x55, 0x55, 0x55, 128}));
+  EXPECT_THAT(file.scene.labels, ElementsAre());
+  EXPECT_EQ(good(kPoint).scene.points[0].color, file.scene.points[0].color) << "a geometry alone";
+}
+
+TEST(GeojsonObjects, AMarkersSymbolIsItsLabelIfItIsADigitOrALetterAndThereIsNoTitle) {
+  const auto label = [](const char* properties) {
+    const ObjectFile file = good(collection(feature(kPoint, properties)));
+    EXPECT_THAT(file.complaints, ElementsAre()) << properties;
+    return file.scene.labels.empty() ? std::string() : file.scene.labels[0].text;
+  };
+  EXPECT_EQ(label(R"({"marker-symbol":"a"})"), "a");
+  EXPECT_EQ(label(R"({"marker-symbol":"7"})"), "7");
+  EXPECT_EQ(label(R"({"marker-symbol":7})"), "7");
+  EXPECT_EQ(label(R"({"marker-symbol":"a","title":"","name":"Oslo"})"), "Oslo");
+  EXPECT_EQ(label(R"({"marker-symbol":"a","title":"Rome","name":"Oslo"})"), "Rome");
+  EXPECT_EQ(label(R"({"marker-symbol":"bus","description":"Line 7"})"), "");
+  EXPECT_EQ(label(R"({"marker-symbol":""})"), "");
+}
+
+TEST(GeojsonObjects, EachSimplestyleValueThatIsWrongIsNamedAndItsDefaultDrawn) {
+  for (const char* wrong :
+       {R"("marker-color":"red")", R"("marker-color":"#12345")", R"x("marker-color":"rgb(1,2,3)")x",
+        R"("marker-color":7)", R"("marker-size":"huge")", R"("marker-symbol":12)", R"("marker-symbol":-1)",
+        R"("marker-symbol":[1])", R"("stroke":"")", R"("stroke":"#")", R"("stroke":"#-12345")",
+        R"("stroke-opacity":1.01)", R"("stroke-opacity":"1")", R"("stroke-width":-0.1)", R"("fill":"#ggg")",
+        R"("fill-opacity":-1)", R"("title":7)", R"("description":{})"}) {
+    const std::string name = std::string(wrong).substr(0, std::string(wrong).find(':'));
+    const ObjectFile file =
+        good(collection(feature(kPoint, "{" + std::string(wrong) + "}") + "," +
+                        feature(geometry("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]"), "{" + std::string(wrong) + "}")));
+    EXPECT_THAT(file.complaints,
+                ElementsAre(HasSubstr("f.geojson: feature 1: " + name), HasSubstr("f.geojson: feature 2: " + name)));
+    ASSERT_TRUE(file.scene.points.size() == 1 && file.scene.polygons.size() == 1) << wrong;
+    EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0x7e, 0x7e, 0x7e})) << wrong;
+    EXPECT_EQ(file.scene.points[0].size_px, 10.0F) << wrong;
+    EXPECT_EQ(file.scene.polygons[0].fill, (ObjectColor{0x55, 0x55, 0x55, 153})) << wrong;
+    EXPECT_EQ(file.scene.polygons[0].stroke, (ObjectColor{0x55, 0x55, 0x55})) << wrong;
+    EXPECT_EQ(file.scene.polygons[0].stroke_width_px, 2.0F) << wrong;
+    EXPECT_THAT(file.scene.labels, ElementsAre()) << wrong;
+  }
+}
+
 TEST(GeojsonObjects, AStyleThatIsWrongIsComplainedOfAndTheObjectDrawnWithoutIt) {
   const ObjectFile file = good(collection(feature(
       kPoint,
       R"({"name":"Alps","marker-color":"zzz","marker-size":7,"radius_m":-1,"through_surface":"yes","stroke-width":1e9})")));
   EXPECT_EQ(file.scene.points.size(), 1U);
-  EXPECT_EQ(file.scene.points[0].color, PointObject{}.color);
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0x7e, 0x7e, 0x7e}));
   ASSERT_EQ(file.complaints.size(), 5U);
   for (const std::string& complaint : file.complaints) {
     EXPECT_THAT(complaint, HasSubstr("f.geojson: feature 1 (\"Alps\"): "));
