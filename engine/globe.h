@@ -49,18 +49,19 @@ struct GlobeOptions {
   int gutter_px = 8;
   DepthMode depth = DepthMode::reversed;
   bool unlit = false;  ///< imagery alone: no light, no sky, black background
-  SurfaceLook surface;
+  SurfaceLook surface{};
   double exaggeration = 1.0;  ///< of heights, [0, 100]
-  StereoLook stereo;
+  StereoLook stereo{};
   /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
   bool naive_translucency = false;
-  bool sky = false;             ///< stars, Sun, Moon and atmosphere; never with `unlit`
-  std::optional<UtcTime> time;  ///< of Sun and sky; none: the Sun stands over the viewer's shoulder, is not drawn, and
-                                ///< it is day everywhere (ImageLook::daylight)
-  std::vector<Star> stars;      ///< of the sky
-  GreyPicture night_lights;     ///< of the Earth's night side, with a sky and a time; may be empty
-  std::vector<std::byte> label_font;    ///< a font file for the labels of objects; empty: no labels
-  std::size_t gpu_bytes = 512UL << 20;  ///< tile texture slots, of all image layers together
+  bool sky = false;               ///< stars, Sun, Moon and atmosphere; never with `unlit`
+  std::optional<UtcTime> time{};  ///< of Sun and sky; none: the Sun stands over the viewer's shoulder, is not drawn,
+                                  ///< and it is day everywhere (ImageLook::daylight)
+  std::vector<Star> stars{};               ///< of the sky
+  GreyPicture night_lights{};              ///< of the Earth's night side, with a sky and a time; may be empty
+  std::vector<std::byte> label_font{};     ///< a font file for the labels of objects; empty: no labels
+  std::size_t gpu_bytes = 512UL << 20;     ///< tile texture slots, of all image layers together
+  std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; room for 64 tiles at least
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
   /// Patches whose relief is made anew in a frame, about 0.3 ms each, beyond those that the frame cannot do without:
@@ -81,11 +82,16 @@ struct FrameStats {
   int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
   int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
-  int heights_lacked = 0;        ///< elevation tiles that finally failed, of all that any view wanted
+  int heights_lacked = 0;        ///< elevation tiles that finally failed, of those that views wanted lately
   bool heights_arrived = false;  ///< since it was drawn: another frame will show the ground as it is now
   int relief_meshes = 0;         ///< patches whose relief was made anew
   int relief_put_off = 0;        ///< patches drawn coarser than their relief asks for, for now
   double selection_ms = 0.0;
+  // What is held, of all layers that were drawn.
+  std::size_t gpu_bytes = 0;     ///< texture slots, filled or not
+  std::size_t height_bytes = 0;  ///< elevation tiles
+  std::size_t patches_held = 0;  ///< patches worked out, drawn or not
+  std::size_t tiles_known = 0;   ///< tiles of imagery of which something is remembered
 };
 
 /// A tile that the source could not give, and why.
@@ -97,10 +103,10 @@ struct LackingTile {
 
 /// What is under a pixel.
 struct GlobePick {
-  std::optional<Geodetic> place;       ///< of the ground (scene/ground.h); nothing beside the globe
-  LayerId imagery = LayerId::none;     ///< the highest image layer drawn there, by its bounds
-  LayerId objects = LayerId::none;     ///< the layer of the object; none: no object
-  std::optional<PickedObject> object;  ///< in the lists that the layer was given
+  std::optional<Geodetic> place{};       ///< of the ground (scene/ground.h); nothing beside the globe
+  LayerId imagery = LayerId::none;       ///< the highest image layer drawn there, by its bounds
+  LayerId objects = LayerId::none;       ///< the layer of the object; none: no object
+  std::optional<PickedObject> object{};  ///< in the lists that the layer was given
 };
 
 /// What a globe may use; the same as in GlobeOptions.

@@ -168,7 +168,11 @@ void Globe::Impl::count() {
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
-  for (const ImageLayer* layer : stack) {
+  stats.height_bytes = relief ? relief->bytes() : 0;
+  for (ImageLayer* layer : stack) {
+    stats.gpu_bytes += layer->gpu_bytes();
+    stats.patches_held += layer->tree().size();
+    stats.tiles_known += layer->tiles_known();
     if (layer == plain.get()) continue;
     stats.tiles_wanted += layer->coverage().tiles;
     stats.tiles_missing += layer->coverage().missing;
@@ -195,6 +199,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   const FrameCounts counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
   stats.draw_calls = counts.draw_calls;
   stats.triangles = counts.triangles;
+  for (ImageLayer* layer : stack) layer->end_frame(frame);
   count();
   take_heights();
   return stats;

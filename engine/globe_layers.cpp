@@ -176,7 +176,8 @@ std::vector<std::string> Globe::Impl::attributions() const {
 }
 
 void Globe::Impl::make_relief(const ElevationSource& elevation) {
-  relief = std::make_unique<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration);
+  relief =
+      std::make_unique<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration, options.height_bytes);
   heights = std::make_unique<HeightLoader>(elevation);
   heights_attribution = elevation.tiles()->info().attribution;
 }

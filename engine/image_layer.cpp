@@ -41,8 +41,11 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
       tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
   set_relief(relief);
   if (!source) return;
-  loader_ = std::make_unique<TileLoader>(
-      std::move(source), LoaderOptions{.workers = options.workers, .gutter = options.gutter_px, .mips = kMips});
+  LoaderOptions loading{.workers = options.workers, .gutter = options.gutter_px, .mips = kMips};
+  // What waits for slots is no more than all slots hold.
+  loading.max_finished_bytes =
+      std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
+  loader_ = std::make_unique<TileLoader>(std::move(source), loading);
 }
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
@@ -141,6 +144,11 @@ void ImageLayer::ask() {
   }
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
   loader_->request(requests);
+}
+
+void ImageLayer::end_frame(std::uint64_t frame) {
+  tree_->end_frame();
+  tiles_.residency().end_frame(frame, grid_.min_level);
 }
 
 void ImageLayer::stop_asking() {

@@ -70,9 +70,12 @@ class ImageLayer {
   /// Finds a tile for each cell of patches().
   void cover(const View& view, bool first, std::uint64_t frame);
   void ask();
+  void end_frame(std::uint64_t frame);  ///< what frames have not used for long goes
   void stop_asking();
   [[nodiscard]] LayerFrame frame(bool first, bool has_night);
 
+  [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
+  [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
   [[nodiscard]] bool settled();
   [[nodiscard]] LoaderCounts loading() const { return loader_ ? loader_->counts() : LoaderCounts{}; }
   bool wait(std::chrono::steady_clock::time_point deadline) { return loader_ && loader_->wait(deadline); }

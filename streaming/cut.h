@@ -34,19 +34,19 @@ struct CutShard {
 };
 
 struct CutOptions {
-  std::vector<std::filesystem::path> images;  ///< several are the parts of one picture (streaming/cut/README.md)
-  std::filesystem::path output;               ///< *.gpkg: a GeoPackage; else a directory
+  std::vector<std::filesystem::path> images{};  ///< several are the parts of one picture (streaming/cut/README.md)
+  std::filesystem::path output{};               ///< *.gpkg: a GeoPackage; else a directory
   int tile_px = 256;
   int quality = 85;
-  std::optional<ImageFormat> format;  ///< default: PNG if the picture has transparency, else JPEG
+  std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency, else JPEG
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
   /// Default: what the picture says of itself (GeoTIFF, world file), else the whole planet, and then it must be 2:1.
   /// East < west crosses ±180°.
-  std::optional<GeoRect> bounds;
+  std::optional<GeoRect> bounds{};
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
-  std::string name, attribution, body;
+  std::string name{}, attribution{}, body{};
   int jobs = 0;                        ///< encoders; 0: as many as cores
   std::optional<CutShard> shard = {};  ///< cut that part alone, into OUTPUT.shard-I-of-N
   bool join = false;                   ///< make the output of the shards that lie beside it

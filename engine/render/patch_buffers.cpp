@@ -55,7 +55,7 @@ void PatchBuffers::fill(const PatchNode& node, int place) {
 }
 
 int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {
-  if (const auto found = places_.find(&node); found != places_.end()) {
+  if (const auto found = places_.find(node.serial); found != places_.end()) {
     by_age_.splice(by_age_.begin(), by_age_, found->second);
     found->second->last_drawn = frame;
     if (std::exchange(found->second->relief_made, node.relief.made) != node.relief.made)
@@ -64,8 +64,8 @@ int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {
   }
   const int place = free_place(frame);
   fill(node, place);
-  by_age_.push_front({&node, place, frame, node.relief.made});
-  places_[&node] = by_age_.begin();
+  by_age_.push_front({node.serial, place, frame, node.relief.made});
+  places_[node.serial] = by_age_.begin();
   return place;
 }
 

@@ -28,7 +28,7 @@ class PatchBuffers {
 
  private:
   struct Place {
-    const PatchNode* node = nullptr;
+    std::uint64_t node = 0;  ///< PatchNode::serial
     int place = 0;
     std::uint64_t last_drawn = 0;
     std::uint64_t relief_made = 0;
@@ -45,7 +45,7 @@ class PatchBuffers {
   int capacity_ = 0;
   int used_ = 0;
   std::list<Place> by_age_;  // most recently drawn first
-  std::unordered_map<const PatchNode*, std::list<Place>::iterator> places_;
+  std::unordered_map<std::uint64_t, std::list<Place>::iterator> places_;
 };
 
 }  // namespace terrella

@@ -45,6 +45,7 @@ class TileTextures {
   [[nodiscard]] int mips() const { return mips_; }
   [[nodiscard]] int capacity() const { return most_slots_; }  ///< tiles that the budget has room for
   [[nodiscard]] std::size_t slot_bytes() const;
+  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
 
  private:
   int take_slot(std::uint64_t frame);

@@ -346,8 +346,8 @@ class Selector {
     return c * node.cos_cone - s * node.sin_cone < cos_horizon_;
   }
 
-  // The deepest node of the tree that holds the neighbour across a side. Nodes are never dropped, so the search goes on
-  // from where it ended last.
+  // The deepest node of the tree that holds the neighbour across a side. The search goes on from where it ended last;
+  // the tree forgets that where it drops the node.
   [[nodiscard]] PatchNode& node_beside(PatchNode& node, int side) const {
     PatchNode*& found = node.beside[static_cast<std::size_t>(side)];
     if (found != nullptr && (found->id.level == node.id.level || found->children[0] == nullptr)) return *found;

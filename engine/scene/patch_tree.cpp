@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -110,6 +112,7 @@ BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const E
 
 SurfaceLattice lattice_over(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
   SurfaceLattice lattice;
+  lattice.points_m.reserve(static_cast<std::size_t>(kLatticeQuads + 1) * (kLatticeQuads + 1));
   for (int j = 0; j <= kLatticeQuads; ++j) {
     for (int i = 0; i <= kLatticeQuads; ++i) {
       lattice.points_m.push_back(
@@ -146,7 +149,9 @@ PatchTree::PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segme
 }
 
 PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
-  PatchNode& node = nodes_.emplace_back();
+  PatchNode& node = free_.empty() ? nodes_.emplace_back() : *free_.back();
+  if (!free_.empty()) free_.pop_back();
+  node.serial = ++serial_;
   node.id = id;
   node.parent = parent_node;
   const EcefDir center = patch_point(id, 1, 1, 2, mapping_);
@@ -179,6 +184,7 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
 }
 
 void PatchTree::ensure_children(PatchNode& node) {
+  if (std::exchange(node.children_used, frame_) != frame_) used_ += 4;
   if (node.children[0] != nullptr) return;
   const auto ids = terrella::children(node.id);
   for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
@@ -191,6 +197,40 @@ PatchNode& PatchTree::node(const PatchId& id) {
     found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
   }
   return *found;
+}
+
+void PatchTree::end_frame(std::size_t many) {
+  const std::size_t most = std::max(many, 3 * used_);
+  // A part more than must, so that few frames drop any.
+  if (size() > most) drop_oldest(size() - most * 3 / 4);
+  used_ = 0;
+  ++frame_;
+}
+
+// No frame comes to a node without coming to its parent: what lies under a node that goes is as old, and goes too.
+void PatchTree::drop_oldest(std::size_t nodes) {
+  const auto is_old = [this](const PatchNode& node) {
+    return node.children[0] != nullptr && node.children_used < frame_;
+  };
+  std::vector<std::uint64_t> ages;
+  for (const PatchNode& node : nodes_) {
+    if (is_old(node)) ages.push_back(node.children_used);
+  }
+  if (ages.empty()) return;
+  const auto last = ages.begin() + static_cast<std::ptrdiff_t>(std::min(nodes / 4, ages.size() - 1));
+  std::nth_element(ages.begin(), last, ages.end());
+  const auto kept = free_.size();
+  for (PatchNode& node : nodes_) {
+    if (!is_old(node) || node.children_used > *last) continue;
+    free_.insert(free_.end(), node.children.begin(), node.children.end());
+    node.children = {};
+  }
+  for (PatchNode* node : std::span(free_).subspan(kept)) *node = PatchNode{};
+  for (PatchNode& node : nodes_) {
+    for (PatchNode*& beside : node.beside) {
+      if (beside != nullptr && beside->serial == 0) beside = nullptr;
+    }
+  }
 }
 
 int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
@@ -215,6 +255,7 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze
   const auto end = static_cast<std::int64_t>(std::ceil(std::ldexp(east - kSliver, -win.squeeze)));
   win.w = static_cast<int>(std::max(win.x0 + 1, end) - win.x0);
   win.cells.clear();
+  win.cells.reserve(static_cast<std::size_t>(win.w) * static_cast<std::size_t>(win.h));
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {
       const BoundingSphere whole = cell_sphere(*this, node, cell_extent(*this, node, x, y));

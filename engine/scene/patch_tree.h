@@ -64,6 +64,7 @@ struct PatchRelief {
 /// What never changes about a patch, worked out once and kept in the tree.
 struct PatchNode {
   PatchId id;
+  std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
   BoundingSphere sphere;
   /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
   /// half angle.
@@ -85,6 +86,7 @@ struct PatchNode {
 
   PatchNode* parent = nullptr;
   std::array<PatchNode*, 4> children{};  ///< all or none
+  std::uint64_t children_used = 0;       ///< number of the frame that came to them last
   std::array<PatchNode*, 4> beside{};    ///< by PatchSide, across it: the deepest node found to hold that neighbour
   std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
   std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
@@ -98,8 +100,8 @@ struct PatchNode {
 
 class Relief;
 
-/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited.
-/// thread: main
+/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited, and
+/// dropped when no frame has come to them for long. thread: main
 class PatchTree {
  public:
   /// `segments` a side of each patch: even, in [2, 128].
@@ -127,12 +129,18 @@ class PatchTree {
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] CubeMapping mapping() const { return mapping_; }
-  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  [[nodiscard]] std::size_t size() const { return nodes_.size() - free_.size(); }
+  /// A frame is done. Where there are more than `many` nodes, and over three times as many as the frame came to, those
+  /// go that frames came to longest ago; never one that this frame came to.
+  void end_frame(std::size_t many = kManyNodes);
   /// A number for one selection: marks in nodes that carry another one are out of date.
   [[nodiscard]] std::uint64_t next_stamp() { return ++stamp_; }
 
  private:
+  static constexpr std::size_t kManyNodes = 2048;
+
   PatchNode& make_node(const PatchId& id, PatchNode* parent);
+  void drop_oldest(std::size_t nodes);
 
   Ellipsoid ellipsoid_;
   TileGrid grid_;
@@ -140,6 +148,10 @@ class PatchTree {
   CubeMapping mapping_;
   Relief* relief_ = nullptr;
   std::deque<PatchNode> nodes_;
+  std::vector<PatchNode*> free_;  ///< of nodes_, dropped
+  std::uint64_t serial_ = 0;
+  std::uint64_t frame_ = 1;
+  std::size_t used_ = 0;  ///< nodes that this frame came to
   std::array<PatchNode*, kCubeFaces> roots_{};
   std::uint64_t stamp_ = 0;
 };

@@ -16,6 +16,9 @@ constexpr std::int64_t kMostColumns = 6;
 constexpr double kLatitudeKinds_deg = 7.0;
 // Changes that are remembered one by one. What has not been looked at for longer counts as changed.
 constexpr std::size_t kMostChanges = 1024;
+// Tiles of which it is known when they were wanted: so many at least, and for so many selections.
+constexpr std::size_t kManyWishes = 4096;
+constexpr std::uint64_t kLong = 300;
 
 double span_m(const Ellipsoid& e, const TileGrid& grid) {
   return e.a_m() * (std::numbers::pi / 180.0) * grid.root_span_deg / grid.tile_px;
@@ -27,8 +30,8 @@ Relief::Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggera
     : ellipsoid_(ellipsoid),
       field_(ellipsoid, grid),
       exaggeration_(exaggeration),
-      most_tiles_(std::max<std::size_t>(64, budget_bytes / (sizeof(float) * static_cast<std::size_t>(grid.tile_px) *
-                                                            static_cast<std::size_t>(grid.tile_px)))) {}
+      tile_bytes_(sizeof(float) * static_cast<std::size_t>(grid.tile_px) * static_cast<std::size_t>(grid.tile_px)),
+      most_tiles_(std::max<std::size_t>(64, budget_bytes / tile_bytes_)) {}
 
 void Relief::set_exaggeration(double exaggeration) {
   exaggeration_ = exaggeration;
@@ -132,6 +135,9 @@ void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   relief.heights_m.clear();
   relief.slopes.clear();
+  const auto side = static_cast<std::size_t>(n) + 1;
+  relief.heights_m.reserve(side * side);
+  relief.slopes.reserve(side * side);
   HeightField::Cursor ground(field_);
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
@@ -175,6 +181,7 @@ void Relief::measure_error(const PatchTree& tree, PatchNode& node) const {
 
 std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) {
   ++round_;
+  forget_wishes();
   std::vector<WantedTile> wanted;
   for (const TileId& id : root_tiles(grid())) want_tile(id, 1e9, wanted);
   const double texel_m = span_m(ellipsoid_, grid());
@@ -198,11 +205,24 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
 }
 
 void Relief::want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted) {
-  if (!exists(grid(), id) || lacking_.contains(id)) return;
+  if (!exists(grid(), id)) return;
   std::uint64_t& last = last_wanted_[id];
   const bool first = last != round_;
   last = round_;
-  if (first && !field_.has(id)) wanted.push_back({id, priority});
+  if (first && !field_.has(id) && !lacking_.contains(id)) wanted.push_back({id, priority});
+}
+
+// Of tiles that are not there, and have not been wanted for long. What was lacking is asked for again.
+void Relief::forget_wishes() {
+  if (last_wanted_.size() <= std::max(kManyWishes, most_wishes_)) return;
+  const auto is_old = [&](const auto& item) {
+    return item.second + kLong < round_ && item.first.level > grid().min_level && !field_.has(item.first);
+  };
+  for (const auto& item : last_wanted_) {
+    if (is_old(item)) lacking_.erase(item.first);
+  }
+  std::erase_if(last_wanted_, is_old);
+  most_wishes_ = 2 * last_wanted_.size();
 }
 
 void Relief::keep_to_budget() {

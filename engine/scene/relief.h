@@ -53,6 +53,8 @@ class Relief {
   [[nodiscard]] bool may_split(const PatchNode& node);
   /// Patches that the last selection drew coarser than it should.
   [[nodiscard]] int put_off() const { return put_off_; }
+  /// Of the tiles that are there.
+  [[nodiscard]] std::size_t bytes() const { return field_.size() * tile_bytes_; }
   [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
 
   /// Brings a node's bounds up to date with the heights: its sphere, the cone that the horizon is tested by.
@@ -79,10 +81,12 @@ class Relief {
   [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
   void want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted);
   void keep_to_budget();
+  void forget_wishes();
 
   Ellipsoid ellipsoid_;
   HeightField field_;
   double exaggeration_;
+  std::size_t tile_bytes_;
   std::size_t most_tiles_;
   std::deque<Change> changes_;  ///< the latest ones
   std::uint64_t changes_forgotten_ = 0;
@@ -93,6 +97,7 @@ class Relief {
   std::unordered_set<TileId, TileIdHash> lacking_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> last_wanted_;
   std::uint64_t round_ = 0;
+  std::size_t most_wishes_ = 0;  ///< in last_wanted_, before it is looked through the next time
 };
 
 }  // namespace terrella

@@ -52,7 +52,7 @@ enum class Stereo {
 /// How the two eyes look; can change from frame to frame.
 struct StereoLook {
   Stereo mode = Stereo::off;
-  std::optional<double> eye_separation_m;  ///< none: a thirtieth of the distance to what is in the picture's middle
+  std::optional<double> eye_separation_m{};  ///< none: a thirtieth of the distance to what is in the picture's middle
 };
 
 }  // namespace terrella

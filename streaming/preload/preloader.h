@@ -39,9 +39,9 @@ struct PreloadCounts {
 struct PreloadOptions {
   std::size_t window = 384;  ///< questions under way at most, [1, 1e5]
   int tile_px = 256;
-  std::optional<std::chrono::seconds> refresh_older_than;  ///< none: what has expired is asked for again
-  std::chrono::seconds tile_life{7 * 24 * 3600};           ///< where the server says nothing
-  std::chrono::seconds absence_life{24 * 3600};            ///< likewise
+  std::optional<std::chrono::seconds> refresh_older_than{};  ///< none: what has expired is asked for again
+  std::chrono::seconds tile_life{7 * 24 * 3600};             ///< where the server says nothing
+  std::chrono::seconds absence_life{24 * 3600};              ///< likewise
   bool expires = true;                      ///< false: what is stored without a time to expire stays (sets on disk)
   std::size_t most_second_tries = 1000000;  ///< failures beyond these are not tried a second time
   int give_up_after = 512;                  ///< failures in a row after which the source is taken to be down

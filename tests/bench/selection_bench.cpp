@@ -62,6 +62,8 @@ struct Settled {
   void frame_once() {
     select_patches(tree, view, options, patches);
     cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
+    tree.end_frame();
+    residency.end_frame(frame, kGrid.min_level);
   }
 
   Body body = earth();

@@ -196,6 +196,15 @@ TEST(PatchSelection, SelectsNothingForAViewThatIsNotFinite) {
   }
 }
 
+void expect_same(const std::vector<SelectedPatch>& first, const std::vector<SelectedPatch>& again) {
+  ASSERT_EQ(first.size(), again.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].node->id, again[i].node->id);
+    EXPECT_EQ(first[i].coarse_sides, again[i].coarse_sides);
+    EXPECT_EQ(first[i].tile_level, again[i].tile_level);
+  }
+}
+
 TEST(PatchSelection, GivesTheSameListWhateverWasSelectedBefore) {
   Draw draw(4);
   PatchTree used(earth().ellipsoid, deep_grid(), kSegments);
@@ -205,13 +214,36 @@ TEST(PatchSelection, GivesTheSameListWhateverWasSelectedBefore) {
     PatchTree fresh(earth().ellipsoid, deep_grid(), kSegments);
     select_patches(fresh, view, {}, first);
     select_patches(used, view, {}, again);
-    ASSERT_EQ(first.size(), again.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_EQ(first[i].node->id, again[i].node->id);
-      EXPECT_EQ(first[i].coarse_sides, again[i].coarse_sides);
-      EXPECT_EQ(first[i].tile_level, again[i].tile_level);
-    }
+    expect_same(first, again);
   }
+}
+
+// Of the tree that gives nodes up, and of one of further imagery over it.
+TEST(PatchSelection, WhatNoFrameComesToGoesAndNothingElseChanges) {
+  constexpr std::size_t kMany = 200;
+  Draw draw(14);
+  PatchTree used(earth().ellipsoid, deep_grid(), kSegments), above(earth().ellipsoid, deep_grid(), kSegments);
+  std::vector<SelectedPatch> first, again, further;
+  const FurtherImagery over{.tree = &above, .out = &further};
+  std::size_t dropped = 0;
+  for (int k = 0; k < 60; ++k) {
+    // A flight between two places: what is given up comes back.
+    Camera camera = random_camera(draw, 10.0, 1.0e8);
+    if (k % 3 == 0) camera = camera_at(46, 7, 1.0e4 * (1 + k % 2), 30, -20);
+    const View view = make_view(camera, earth().ellipsoid, {320, 240});
+    PatchTree fresh(earth().ellipsoid, deep_grid(), kSegments);
+    select_patches(fresh, view, {}, first);
+    select_patches(used, view, {}, again, std::span(&over, 1));
+    for (PatchTree* tree : {&used, &above}) {
+      const std::size_t before = tree->size();
+      tree->end_frame(kMany);
+      dropped += before - tree->size();
+      EXPECT_LE(tree->size(), std::max(kMany, 3 * fresh.size()));
+    }
+    expect_same(first, again);  // nor has any of these been given up
+    for (const SelectedPatch& patch : further) EXPECT_EQ(patch.node->id, patch.surface->id);
+  }
+  EXPECT_GT(dropped, 10 * kMany);
 }
 
 // Where one tile of heights is there and its neighbours are not, a cliff stands between them; an eye among the heights,
@@ -233,6 +265,27 @@ TEST(PatchSelection, ACliffBetweenHeightsThatCameAndThatDidNotIsNoRunaway) {
       EXPECT_LT(patches.size(), kRunaway / 10) << lat << " " << height_m;
     }
   }
+}
+
+TEST(Relief, WhatIsLackingIsForgottenWhereNoViewHasWantedItForLong) {
+  constexpr int kViews = 900, kMost = 2 * 4096 + 1000;
+  Draw draw(15);
+  Relief relief(earth().ellipsoid, {.tile_px = 32, .max_level = 12}, 1.0);
+  PatchTree tree(earth().ellipsoid, deep_grid(), 8);
+  tree.set_relief(relief);
+  std::vector<SelectedPatch> patches;
+  int lacked = 0;
+  for (int k = 0; k < kViews; ++k) {
+    select_patches(tree, make_view(random_camera(draw, 1.0e3, 1.0e6), earth().ellipsoid, {64, 48}), {}, patches);
+    for (const WantedTile& tile : relief.want(patches)) {
+      relief.set_lacking(tile.id);
+      ++lacked;
+    }
+    for (const WantedTile& tile : relief.want(patches)) ADD_FAILURE() << "wants what is lacking: " << tile.id.level;
+    EXPECT_LT(relief.lacking(), kMost);
+    tree.end_frame();
+  }
+  EXPECT_GT(lacked, 3 * kMost / 2);
 }
 
 TEST(PatchSelection, SpheresHoldTheirPatches) {

@@ -256,6 +256,25 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
   }
 }
 
+TEST(TileResidency, WhatNoFrameHasHadToDoWithForLongIsForgotten) {
+  constexpr std::uint64_t kFrames = 5000;
+  TileResidency residency;
+  residency.entry({0, 0, 0}).state = TileState::lacking;
+  residency.entry({9, 0, 1}).state = TileState::resident;
+  for (std::uint64_t frame = 1; frame <= kFrames; ++frame) {
+    for (std::int64_t x = 0; x < 10; ++x) {
+      TileResidency::Entry& entry = residency.entry({9, static_cast<std::int64_t>(10 * frame) + x, 0});
+      entry.last_wanted = frame;
+      if (x < 5) entry.state = TileState::lacking;
+    }
+    residency.end_frame(frame, 0);
+  }
+  EXPECT_LT(residency.entries().size(), 2 * 4096U);
+  EXPECT_NE(residency.find({9, 10 * kFrames, 0}), nullptr);
+  EXPECT_NE(residency.find({0, 0, 0}), nullptr) << "of the coarsest level";
+  EXPECT_NE(residency.find({9, 0, 1}), nullptr) << "is in a slot";
+}
+
 /// The largest texel, in degrees of latitude and of longitude, that still shows all that the picture resolves at a
 /// pixel: a picture's frequencies reach half a cycle a pixel in every direction; what they reach along north and east
 /// is a row's length of the inverse transposed derivative of the ground by the picture.
