@@ -151,7 +151,7 @@ bool hidden_by_ground(const View& view, const Ground& ground, const Ecef& place)
   const glm::dvec3 way = place.xyz_m - view.eye.xyz_m;
   const double distance_m = glm::length(way);
   if (distance_m <= 0.0) return false;
-  const auto ground_m = ground.intersect_m(view.eye, EcefDir{way / distance_m});
+  const auto ground_m = ground.intersect_m(view.eye, EcefDir{way / distance_m}, 1.0 / view.pixels_per_radian());
   return ground_m && *ground_m < distance_m * (1.0 - kGroundShare);
 }
 

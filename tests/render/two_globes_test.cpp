@@ -6,6 +6,7 @@
 
 #include "gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
+#include "tests/support/leaks.h"
 
 namespace terrella::test {
 namespace {
@@ -79,6 +80,7 @@ TEST_F(TwoGlobes, MadeAndEndedAHundredTimesTheyLeaveNothing) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   RecordProperty("seconds", std::to_string(took.count()));
   EXPECT_EQ(objects_there(), before);
+  EXPECT_FALSE(has_leaked());
 }
 
 }  // namespace
