@@ -51,7 +51,7 @@ struct CutOptions {
   std::optional<CutShard> shard = {};  ///< cut that part alone, into OUTPUT.shard-I-of-N
   bool join = false;                   ///< make the output of the shards that lie beside it
   /// Called from the calling thread with rows done and rows in all; false asks to stop.
-  std::function<bool(std::int64_t done, std::int64_t total)> progress;
+  std::function<bool(std::int64_t done, std::int64_t total)> progress{};
 };
 
 struct CutSummary {

@@ -48,7 +48,7 @@ struct PreloadOptions {
   std::chrono::milliseconds finish_within{5000};  ///< for what is in flight once told to stop
 
   /// Called about ten times a second, and at the end; false: stop. thread: the one that runs
-  std::function<bool(const PreloadCounts&)> progress;
+  std::function<bool(const PreloadCounts&)> progress{};
   /// A tile that would survive kill -9. thread: the cache's writer
   std::function<void(const TileId&)> on_stored;
   /// A tile that is finally lacking, and why. thread: the one that runs

@@ -3,6 +3,9 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "gl_fixture.h"
@@ -69,6 +72,16 @@ class OneAnswer : public TileSource {
   Result<EncodedTile, TileFailure> answer_;
 };
 
+/// Has all of its tiles elsewhere, and who is asked for them never answers.
+class NeverAnswers : public OneAnswer, public RemoteTiles {
+ public:
+  NeverAnswers() : OneAnswer(TileFailure{Absence::remote, "elsewhere"}) {}
+  [[nodiscard]] RemoteTiles* remote() override { return this; }
+  void fetch(const TileId&, double, Done) override {}
+  void set_priority(const TileId&, double) override {}
+  void cancel(const TileId&) override {}
+};
+
 std::string message_of(const auto& result) { return result ? "no error" : result.error().message; }
 
 #ifdef NDEBUG
@@ -102,6 +115,20 @@ TEST(MisuseWithoutContext, CreatingInOneOfAnotherKindIsAnError) {
   ASSERT_FALSE(globe);
   EXPECT_NE(globe.error().message.find("OpenGL ES"), std::string::npos) << globe.error().message;
   EXPECT_NE(globe.error().message.find("needs OpenGL 4.5"), std::string::npos) << globe.error().message;
+}
+
+[[noreturn]] void create_in_an_older_context() {
+  setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+  const OtherContext old(EGL_OPENGL_API);
+  const auto globe = Globe::create(GlobeOptions{});
+  if (!globe) std::fprintf(stderr, "%s\n", globe.error().message.c_str());
+  std::exit(old.made() && !globe ? 0 : 1);
+}
+
+// In a process of its own: Mesa asks once which version to be.
+TEST(MisuseWithoutContext, CreatingInAnOlderOneIsAnError) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(create_in_an_older_context(), testing::ExitedWithCode(0), "is OpenGL 3.3; the globe needs OpenGL 4.5");
 }
 
 TEST_F(Misuse, ALayerThatIsNotThereIsAnErrorThatNamesTheCall) {
@@ -149,6 +176,21 @@ TEST_F(Misuse, ASourceThatAnswersNothingLeavesThePlainColour) {
   const auto globe = make_globe(unlit_options(), std::make_shared<OneAnswer>(EncodedTile{}));
   settle(*globe, kMisused);
   EXPECT_FALSE(globe->lacking().empty());
+}
+
+TEST_F(Misuse, ASourceThatNeverAnswersIsWaitedForNoLongerThanTheDeadline) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kPatience{200};
+  const OffscreenTarget target(kMisused);
+  auto globe = make_globe(unlit_options(), std::make_shared<NeverAnswers>());
+  globe->set_camera(camera_at(0, 0, 1.0e6));
+  const auto start = Clock::now();
+  EXPECT_FALSE(globe->render_until_settled(target.framebuffer(), kMisused, start + kPatience));
+  EXPECT_GE(Clock::now() - start, kPatience);
+  EXPECT_GT(globe->loading().fetching, 0U);
+  EXPECT_GT(globe->render(target.framebuffer(), kMisused).tiles_missing, 0);
+  globe.reset();
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST_F(Misuse, AnotherThreadIsTold) {
