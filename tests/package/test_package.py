@@ -1,7 +1,9 @@
 """Installs the build to an empty prefix, moves it, and uses it where the source tree cannot be reached."""
 
+import concurrent.futures
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -50,6 +52,16 @@ int main() {
   std::puts(done.error().message.c_str());
 }
 """
+
+
+# Options by name, one of many.
+BY_NAME = {
+    "terrella/globe.h": "terrella::GlobeOptions a{.unlit = true}; terrella::GlobePick b{.objects = terrella::LayerId::none};"
+                        "terrella::ImageLook c{.opacity = 0.5};",
+    "terrella/geo/objects.h": "terrella::PointObject a{.place = {}}; terrella::LineObject b{.places = {}};",
+    "terrella/streaming/cut.h": 'terrella::CutOptions a{.output = "o.gpkg"};',
+    "terrella/streaming/cache/tile_cache.h": "terrella::CacheOptions a{};",
+}
 
 
 def run(*command, **options):
@@ -135,6 +147,21 @@ class PackageTest(unittest.TestCase):
         flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
         self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
         self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "outside", *flags, cwd=folder)
+
+    def test_every_header_by_itself(self):
+        """What an application includes brings what it needs, and options are given by name without a warning."""
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
+        flags = shlex.split(run("pkg-config", "--cflags", "terrella", env=environment))
+        named = re.search(r"TERRELLA_PUBLIC_HEADERS\n(.*?)\)", (SOURCE / "engine/package/public_headers.cmake").read_text(), re.DOTALL)
+        names = {re.sub("^(engine/)?", "terrella/", header) for header in named[1].split()} | set(BY_NAME)
+        self.assertGreater(len(names), 15)
+
+        def check(name):
+            self.run_outside(COMPILER, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-x", "c++", *flags, "-",
+                             input=f"#include <{name}>\n{BY_NAME.get(name, '')}\n")
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(check, sorted(names)))
 
     def test_no_path_of_the_source(self):
         """What is installed as text names nothing of the machine that it was built on."""

@@ -19,9 +19,7 @@ void open_context() {
 
 int main(int, char** argv) {
   open_context();
-  GlobeOptions options;
-  options.unlit = true;
-  const auto globe = Globe::create(options);
+  const auto globe = Globe::create({.unlit = true});
   auto earth = open_tile_set(argv[1]), overlay = open_tile_set(argv[2]);
   auto quakes = read_geojson_objects(argv[3]);
   if (!globe || !earth || !overlay || !quakes) return 1;
