@@ -32,6 +32,16 @@ vec2 unit_or(vec2 v, vec2 otherwise) {
   return l > 1e-3 ? v / l : otherwise;
 }
 
+// A line is as wide on the level that it lies on: with the depth of its middle all along, ground that rises towards the
+// eye would hide one of its halves. How many times as far as `p` that level is, `off` from it on the plane at distance 1.
+float flat_depth(vec3 p, vec2 off) {
+  vec3 up = mat3(view_from_ecef) * eye_high_ecef.xyz + p;  // from the planet's centre
+  vec3 ray = vec3(p.xy / -p.z + off, -1.0);
+  float along = dot(up, ray);
+  const float most = 1.05;  // seen along the level the width is all that there is
+  return along < 0.0 ? clamp(dot(up, p) / (-p.z * along), 1.0 / most, most) : 1.0;
+}
+
 void main() {
   vec3 here = view_of(here_high_ecef, here_low_ecef), next = view_of(next_high_ecef, next_low_ecef);
   half_width_px = 0.5 * width;
@@ -54,8 +64,10 @@ void main() {
   float reach = min(1.0 / max(dot(mitre, way), 1e-3), kMostMitre);
   float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
   float across_px = side * (half_width_px + 1.0);
-  vec4 clip = clip_of(at_b ? b : a, pull);
-  clip.xy += vec2(-mitre.y, mitre.x) * (across_px * reach) * (2.0 / viewport_px) * clip.w;
+  vec3 middle = at_b ? b : a;
+  vec2 off = vec2(-mitre.y, mitre.x) * (across_px * reach) * (2.0 / viewport_px);
+  vec4 clip = clip_of(middle * flat_depth(middle, off / clip_scale.xy), pull);
+  clip.xy += off * clip.w;
   across_w = across_px * clip.w;
   gl_Position = clip;
 }

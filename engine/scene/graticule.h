@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geo/camera.h"
+#include "geo/objects.h"
 
 namespace terrella {
 
@@ -40,5 +41,19 @@ struct LabelSize {
 /// horizon does not hide. Parallels are named at the left edge or the limb, meridians at the lower edge or, where they
 /// do not reach it, along the parallel next to the picture's centre. At most some 120 lines. thread: any
 [[nodiscard]] Graticule make_graticule(const View& view, const Ellipsoid& ellipsoid, LabelSize label = {});
+
+/// How a graticule that is a layer looks.
+struct GraticuleLook {
+  double spacing_deg = 15.0;  ///< of parallels and meridians: [1, 90], taken to the nearest divisor of 90
+  double height_m = 0.0;      ///< over the ellipsoid: relief hides what lies under it
+  float width_px = 1.0F;
+  ObjectColor color{255, 255, 255, 110};
+  bool labels = true;  ///< parallels along the prime meridian, meridians along the equator; others' labels go first
+};
+
+/// The whole planet's lines as objects: a layer for Globe::add_objects() that no view changes. Meridians are exact,
+/// parallels pieces of geodesics within 0.0003° (30 m on Earth) of them; of the meridians those of whole 90° alone
+/// reach the poles, the others end at the last parallel. thread: any
+[[nodiscard]] ObjectScene graticule_objects(const GraticuleLook& look = {});
 
 }  // namespace terrella

@@ -132,5 +132,45 @@ TEST(Graticule, StaysSmallEverywhere) {
   }
 }
 
+double arc_deg(const EcefDir& a, const EcefDir& b) {
+  return Angle::radians(2.0 * std::asin(0.5 * glm::distance(a.xyz, b.xyz))).deg();
+}
+
+TEST(Graticule, AsALayerIsTheWholePlanetsAndItsLinesAreNearWhereTheyShould) {
+  constexpr double kOffParallel_deg = 0.0003;  // the header's promise
+  const ObjectScene net = graticule_objects({.spacing_deg = 30.0, .height_m = 100.0, .width_px = 3.0F});
+  ASSERT_EQ(net.lines.size(), 5U + 12U);
+  for (const LineObject& line : net.lines) {
+    EXPECT_EQ(line.width_px, 3.0F);
+    const bool parallel = line.places[0].lat == line.places[1].lat;
+    for (std::size_t k = 0; k < line.places.size(); ++k) {
+      const Geodetic& at = line.places[k];
+      EXPECT_EQ(at.height_m, 100.0);
+      const double deg = parallel ? at.lat.deg() : at.lon.deg();
+      EXPECT_NEAR(deg, 30.0 * std::round(deg / 30.0), 1e-9);
+      if (!parallel || k == 0) continue;
+      const EcefDir a = Ellipsoid::normal(line.places[k - 1].lat, line.places[k - 1].lon),
+                    b = Ellipsoid::normal(at.lat, at.lon), between{glm::normalize(a.xyz + b.xyz)};
+      const EcefDir on = Ellipsoid::normal(at.lat, Angle::degrees(at.lon.deg() - 0.25));
+      EXPECT_LE(arc_deg(between, on), kOffParallel_deg);
+    }
+  }
+  std::set<std::string> texts;
+  for (const LabelObject& label : net.labels) texts.insert(label.text);
+  EXPECT_EQ(texts.size(), 4U + 12U);
+  for (const char* text : {"60° N", "30° S", "0°", "150° W", "30° E", "180°"})
+    EXPECT_TRUE(texts.contains(text)) << text;
+  EXPECT_TRUE(graticule_objects({.labels = false}).labels.empty());
+}
+
+TEST(Graticule, AsALayerItsSpacingDivides90) {
+  const auto lines = [](double spacing_deg) { return graticule_objects({.spacing_deg = spacing_deg}).lines.size(); };
+  EXPECT_EQ(lines(90.0), 1U + 4U);
+  EXPECT_EQ(lines(15.0), 11U + 24U);
+  EXPECT_EQ(lines(17.0), lines(18.0)) << "five a quarter";
+  EXPECT_EQ(lines(1.0), lines(0.01));
+  EXPECT_EQ(lines(1.0), 179U + 360U);
+}
+
 }  // namespace
 }  // namespace terrella
