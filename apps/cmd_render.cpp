@@ -12,6 +12,7 @@
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
+#include "apps/scene_overlays.h"
 #include "apps/write_file.h"
 #include "engine/globe.h"
 #include "render/offscreen.h"
@@ -91,6 +92,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  if (const Status overlaid = add_overlays(**globe, command.scene); !overlaid) return overlaid.error();
   if (const Status layers = add_image_layers(**globe, command.scene); !layers) return layers.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();

@@ -9,6 +9,7 @@
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
+#include "apps/scene_overlays.h"
 #include "apps/viewer/viewer.h"
 
 namespace terrella {
@@ -50,6 +51,8 @@ int view(const ViewOptions& options) {
   add_label_font(globe_options_with_sky);
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
   if (!globe) return fail("view", globe.error().message);
+  if (const Status overlaid = add_overlays(**globe, options.scene); !overlaid)
+    return fail("view", overlaid.error().message);
   if (const Status layers = add_image_layers(**globe, options.scene); !layers)
     return fail("view", layers.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)

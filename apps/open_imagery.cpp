@@ -107,7 +107,8 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options) {
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
-  auto tiles = is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path);
+  const bool said_geodetic = options.projection == Projection::equirectangular;
+  auto tiles = is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -157,6 +158,14 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options) 
   auto tiles = open_named(options);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
+  const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
+  if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
+    return Error{options.tile_set + (mercator
+                                         ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                                         : ": it is not in Web Mercator by what it says of itself, as --projection "
+                                           "says; leave that out")};
+  }
+  if (mercator) return tiles;
   info.grid.projection = options.projection.value_or(info.grid.projection);
   info.grid.latitude = options.latitude.value_or(info.grid.latitude);
   if (info.grid == (*tiles)->info().grid) return tiles;

@@ -12,6 +12,7 @@
 #include "geo/hash_mix.h"
 #include "streaming/cache/tile_cache.h"
 #include "streaming/image.h"
+#include "streaming/mercator/mercator_source.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
@@ -34,8 +35,9 @@ std::string cache_name(const SceneOptions& options) {
     name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
   }
   const RemoteOptions& r = options.remote;
-  const std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", address, r.layer, r.matrix_set, r.style, r.time,
-                                        r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", address, r.layer, r.matrix_set, r.style, r.time,
+                                  r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  if (options.projection == Projection::web_mercator) whole += "|web-mercator";
   return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
 }
 
@@ -116,6 +118,7 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   const HttpOptions http = network_options();
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
+  if (options.projection) remote.projection = options.projection;
   auto set = describe_remote(options.tile_set, remote,
                              [&http](const std::string& url, const std::vector<std::string>& headers) {
                                return fetch_document(http, url, headers);
@@ -126,7 +129,10 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
-  return make_remote_source(*std::move(set), *std::move(cache), http);
+  // The cache has the tiles as the server has them.
+  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
 }  // namespace terrella

@@ -123,6 +123,11 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
       ->type_name("CACHE.gpkg");
   add_area_options(app, command);
   add_remote_set_options(app, command.remote);
+  add_choice<Projection>(app, "--projection", command.remote.projection,
+                         {{"equirectangular", Projection::equirectangular},
+                          {"equal-area", Projection::equal_area},
+                          {"web-mercator", Projection::web_mercator}},
+                         "Of a URL template: what its rows are linear in (default equirectangular)");
   add_network_options(app, command);
   app.add_option("--cache-size", command.cache_size_mb, "Of the cache in MB; the least recently used tiles go first")
       ->type_name("MB")

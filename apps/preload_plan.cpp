@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "apps/flight_tiles.h"
 #include "geo/body.h"
+#include "streaming/mercator/mercator_grid.h"
 #include "streaming/preload/geojson_region.h"
 
 namespace terrella {
@@ -32,6 +34,17 @@ Result<Region> region_of(const PreloadCommand& command) {
   return region;
 }
 
+/// In Web Mercator: what the tiles that are drawn are made of.
+std::vector<TileId> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body, Viewport size,
+                                     const TileGrid& grid) {
+  if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});
+  std::set<TileId> stored;
+  for (const TileId& id : tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size})) {
+    for (const MercatorPiece& piece : plan_tile(grid, id).pieces) stored.insert(piece.id);
+  }
+  return {stored.begin(), stored.end()};
+}
+
 Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command, const TileSetInfo& info) {
   const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
   if (!body) return body.error();
@@ -40,8 +53,7 @@ Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command
   if (!command.flight.empty()) {
     auto path = read_flight(command.flight);
     if (!path) return path.error();
-    const FlightView view{.body = *body, .grid = info.grid, .size = command.size};
-    std::vector<TileId> tiles = tiles_along(*path, view);
+    std::vector<TileId> tiles = tiles_flown_over(*path, *body, command.size, info.grid);
     std::erase_if(tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
     return std::shared_ptr<const TilePlan>(plan_list(std::move(tiles)));
   }

@@ -24,7 +24,7 @@ Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions
 }
 
 Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
-  auto tiles = open_tile_set(source);
+  auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
   // A cache has no place for what GeoPackages say of single tiles' heights.
   if ((*tiles)->info().elevation) {

@@ -6,6 +6,7 @@
 
 #include "apps/option_checks.h"
 #include "apps/remote_set_options.h"
+#include "apps/scene_overlays.h"
 #include "geo/number.h"
 #include "scene/almanac.h"
 #include "scene/view_limits.h"
@@ -35,8 +36,10 @@ void add_planet_options(CLI::App& command, SceneOptions& options) {
           "The planet's figure: a name, or semi-major axis in metres and flattening")
       ->type_name("earth|moon|mars|sphere|A,F");
   add_choice<Projection>(command, "--projection", options.projection,
-                         {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
-                         "What the imagery's rows are linear in: latitude, or its sine");
+                         {{"equirectangular", Projection::equirectangular},
+                          {"equal-area", Projection::equal_area},
+                          {"web-mercator", Projection::web_mercator}},
+                         "What the imagery's rows are linear in: latitude, its sine, or what web maps' are");
   add_choice<LatitudeKind>(command, "--latitude", options.latitude,
                            {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
                            "Which latitude the imagery's rows count: planetographic or planetocentric");
@@ -77,6 +80,26 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
       "How depth is stored")
       ->default_str("reversed");
+}
+
+void add_overlay_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--overlay",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              options.overlays.push_back(parsed_or_throw("--overlay", parse_overlay(text)));
+            }
+          },
+          "Imagery over the imagery, with its opacity from 0 to 1; where it is transparent or lacks, what lies below "
+          "shows. May be given again")
+      ->type_name("TILESET[:OPACITY]")
+      ->allow_extra_args(false);
+  add_choice<Projection>(command, "--overlay-projection", options.overlay_projection,
+                         {{"equirectangular", Projection::equirectangular},
+                          {"equal-area", Projection::equal_area},
+                          {"web-mercator", Projection::web_mercator}},
+                         "Of overlays that do not say it themselves, as URL templates do not");
 }
 
 // A colon may be part of the name: what follows the last one is an opacity only if it is one.
@@ -215,6 +238,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_drawing_options(command, options);
+  add_overlay_options(command, options);
   add_layer_options(command, options);
   add_relief_options(command, options);
   add_translucency_options(command, options);

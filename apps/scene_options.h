@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/globe.h"
 #include "geo/body.h"
@@ -14,14 +15,22 @@
 
 namespace terrella {
 
+/// One --overlay.
+struct OverlayOption {
+  std::string tile_set;
+  double opacity = 1.0;
+};
+
 /// What `view` and `render` have in common on the command line. Every value has been checked once the parse is over.
 struct SceneOptions {
   std::string tile_set;          ///< empty: the Earth that the program carries
   std::optional<Camera> camera;  ///< absent: the whole globe, see first_camera()
   Viewport size{.width_px = 1024, .height_px = 1024};
-  std::optional<Body> body;              ///< absent: what the tile set says, else Earth
-  std::optional<Projection> projection;  ///< absent: what the tile set says
-  std::optional<LatitudeKind> latitude;  ///< absent: what the tile set says
+  std::optional<Body> body;                      ///< absent: what the tile set says, else Earth
+  std::optional<Projection> projection;          ///< absent: what the tile set says
+  std::optional<LatitudeKind> latitude;          ///< absent: what the tile set says
+  std::vector<OverlayOption> overlays;           ///< over the tile set, the lowest first
+  std::optional<Projection> overlay_projection;  ///< absent: what they say of themselves
   bool unlit = false;
   Texturing texturing = Texturing::automatic;
   double paper_a = 4.0;

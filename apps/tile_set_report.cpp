@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "streaming/projection_names.h"
 #include "streaming/tileset_json.h"
 
 namespace terrella {
@@ -39,6 +40,11 @@ std::string rows_text(const TileGrid& grid) {
 std::string elevation_text(const ElevationInfo& elevation) {
   const std::string nodata = elevation.nodata ? fmt::format(", {} says that there is none", *elevation.nodata) : "";
   return fmt::format("elevation    metres = number * {:.9g} + {:.9g}{}\n", elevation.scale, elevation.offset, nodata);
+}
+
+std::string made_of_text(const TileGrid& grid) {
+  return fmt::format("made of      tiles in Web Mercator (EPSG:3857): {} px a tile, levels {} to {}, {} tiles around\n",
+                     grid.tile_px, grid.min_level, grid.max_level, columns(grid, grid.max_level));
 }
 
 std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : text; }
@@ -106,6 +112,7 @@ std::string to_text(const TileSetReport& report) {
   text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", grid.bounds.west.deg(),
                       grid.bounds.south.deg(), grid.bounds.east.deg(), grid.bounds.north.deg());
   text += fmt::format("format       {}\n", format_name(report.info.format));
+  if (report.info.made_of) text += made_of_text(*report.info.made_of);
   if (report.info.elevation) text += elevation_text(*report.info.elevation);
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {
@@ -121,6 +128,13 @@ std::string to_json(const TileSetReport& report) {
   if (report.info.format == ImageFormat::unknown) object["format"] = nullptr;
   object["path"] = report.path;
   if (report.size_bytes) object["size_bytes"] = *report.size_bytes;
+  if (const auto& made_of = report.info.made_of) {
+    object["made_of"] = {{"projection", projection_name(made_of->projection)},
+                         {"root_span_deg", made_of->root_span_deg},
+                         {"tile_px", made_of->tile_px},
+                         {"min_level", made_of->min_level},
+                         {"max_level", made_of->max_level}};
+  }
   auto& levels = object["levels"] = nlohmann::ordered_json::array();
   for (const LevelReport& level : report.levels) {
     nlohmann::ordered_json entry{{"level", level.level}, {"tile_span_deg", level.span_deg}, {"places", level.places}};

@@ -22,9 +22,13 @@ struct MatrixRow {
   std::optional<double> pixel_x_deg, pixel_y_deg;
 };
 
-MatrixRow get_row(const SqliteQuery& query) {
+MatrixRow get_row(const SqliteQuery& query, double unit_deg) {
+  const auto degrees = [&](int column) {
+    const std::optional<double> units = query.number(column);
+    return units ? std::optional(*units * unit_deg) : std::nullopt;
+  };
   return {query.integer(0), query.integer(1), query.integer(2), query.integer(3),
-          query.integer(4), query.number(5),  query.number(6)};
+          query.integer(4), degrees(5),       degrees(6)};
 }
 
 bool in_range(const std::optional<std::int64_t>& value, std::int64_t low, std::int64_t high) {
@@ -112,9 +116,9 @@ std::optional<std::int64_t> whole_tiles(double offset_deg, const TileMatrix& mat
   return std::abs(tiles - whole) * matrix.tile_px <= kSlackTexels ? std::optional(std::llround(whole)) : std::nullopt;
 }
 
-std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& extent) {
+std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& extent, double top_deg) {
   const auto first_column = whole_tiles(extent.west + 180.0, matrix);
-  const auto first_row = whole_tiles(90.0 - extent.north, matrix);
+  const auto first_row = whole_tiles(top_deg - extent.north, matrix);
   if (!first_column || !first_row) return std::nullopt;
   return GeoPackageLevel{.zoom = matrix.zoom,
                          .columns = matrix.columns,
@@ -124,7 +128,13 @@ std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& ext
                          .turn_columns = whole_tiles(360.0, matrix).value_or(0)};
 }
 
-Error between_tiles(const Extent& extent, const TileMatrix& finest, const std::string& where) {
+Error between_tiles(const Extent& extent, const TileMatrix& finest, double top_deg, const std::string& where) {
+  if (top_deg > 90.0) {
+    return Error{fmt::format(
+        "{}: its tiles in Web Mercator are not those that web maps have (level 0 the whole square, each level half of "
+        "the one before). Write it again with gdal_translate -of GPKG -co TILING_SCHEME=GoogleMapsCompatible",
+        where)};
+  }
   return Error{fmt::format(
       "{}: its tiles begin at ({}°, {}°), which is no whole number of tiles ({}°) from (-180°, 90°). Write it again "
       "with "
@@ -144,23 +154,23 @@ int level_of_finest(const TileMatrix& finest, int coarsest_steps) {
 
 }  // namespace
 
-Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const std::string& table, const Extent& extent,
+Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const MatrixTable& table, const Extent& extent,
                                               const std::string& where) {
   const auto refuse = [&](const std::string& why) {
-    return Error{fmt::format("{}: table \"{}\": {}", where, table, why)};
+    return Error{fmt::format("{}: table \"{}\": {}", where, table.name, why)};
   };
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT zoom_level, matrix_width, matrix_height, tile_width, tile_height, pixel_x_size, pixel_y_size FROM "
       "gpkg_tile_matrix WHERE table_name = ?1");
   if (!query) return refuse("gpkg_tile_matrix: " + query.error().message);
-  query->bind(1, table);
+  query->bind(1, table.name);
   std::vector<TileMatrix> matrices;
   while (true) {
     const Result<bool, SqlError> more = query->step();
     if (!more) return refuse("gpkg_tile_matrix: " + more.error().message);
     if (!*more) break;
     if (matrices.size() == kMaxMatrices) return refuse(fmt::format("more than {} zoom levels", kMaxMatrices));
-    const MatrixRow row = get_row(*query);
+    const MatrixRow row = get_row(*query, table.unit_deg);
     if (const auto fault = fault_of(row)) return refuse(*fault);
     matrices.push_back(to_matrix(row));
     if (const auto fault = fault_in_extent(matrices.back(), extent)) return refuse(*fault);
@@ -176,16 +186,25 @@ Status place_on_grid(const std::vector<TileMatrix>& matrices, const Extent& exte
                      const std::string& where) {
   std::vector<std::pair<int, GeoPackageLevel>> placed;  // halvings to the finest, finest first
   for (const TileMatrix& matrix : matrices) {
-    const auto level = place(matrix, extent);
+    const auto level = place(matrix, extent, top_row_deg(tiles.info.grid));
     if (!level) break;  // where a tile does not fit, one of twice its span does not either
     placed.emplace_back(*halvings(matrix, matrices.front()), *level);
   }
   const TileMatrix& finest = matrices.front();
-  if (placed.empty()) return between_tiles(extent, finest, where);
+  if (placed.empty()) return between_tiles(extent, finest, top_row_deg(tiles.info.grid), where);
   const int top = level_of_finest(finest, placed.back().first);
   TileGrid& grid = tiles.info.grid;
   grid.tile_px = finest.tile_px;
   grid.root_span_deg = std::ldexp(finest.span_deg, top);
+  if (grid.projection == Projection::web_mercator) {
+    // Written in metres, a span is 360° or a half, a quarter … of it but for rounding.
+    const double exact = std::ldexp(360.0, -static_cast<int>(std::lround(std::log2(360.0 / grid.root_span_deg))));
+    const double texels = std::ldexp(finest.tile_px, top);
+    if (std::abs(grid.root_span_deg / exact - 1.0) * texels > kSlackTexels) {
+      return between_tiles(extent, finest, top_row_deg(grid), where);
+    }
+    grid.root_span_deg = exact;
+  }
   grid.max_level = top;
   grid.min_level = top - placed.back().first;
   for (const auto& [steps, level] : placed) tiles.levels[top - steps] = level;
@@ -208,8 +227,8 @@ Status match_grid(const std::vector<TileMatrix>& matrices, const Extent& extent,
                       "such",
                       where, level, span_deg, grid.tile_px)};
     }
-    const auto placed = place(*found, extent);
-    if (!placed) return between_tiles(extent, *found, where);
+    const auto placed = place(*found, extent, top_row_deg(grid));
+    if (!placed) return between_tiles(extent, *found, top_row_deg(grid), where);
     tiles.levels[level] = *placed;
   }
   return Done{};

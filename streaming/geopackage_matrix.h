@@ -23,14 +23,20 @@ struct Extent {
   double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
 };
 
+/// A tile table, and what a unit of its reference system counts in degrees.
+struct MatrixTable {
+  std::string name;
+  double unit_deg = 1.0;
+};
+
 /// The tile matrices of a table, finest first: square tiles of one size, each matrix filling the extent, each span a
 /// power of two times the finest. What else there may be is refused with the reason. The error begins with `where`.
-[[nodiscard]] Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const std::string& table,
+[[nodiscard]] Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const MatrixTable& table,
                                                             const Extent& extent, const std::string& where);
 
 /// The level of each matrix and the root span, so that level = zoom where that gives a sensible root; `info.grid` gets
-/// root span, tile size and level range. Matrices whose corner is no whole number of tiles from (-180°, 90°) are left
-/// out.
+/// root span, tile size and level range; its projection says where the origin is. Matrices whose corner is no whole
+/// number of tiles from there are left out.
 [[nodiscard]] Status place_on_grid(const std::vector<TileMatrix>& matrices, const Extent& extent,
                                    GeoPackageTiles& tiles, const std::string& where);
 

@@ -9,6 +9,7 @@
 
 #include "streaming/geopackage_matrix.h"
 #include "streaming/gpkg_coverage.h"
+#include "streaming/gpkg_schema.h"
 #include "streaming/tile_range.h"
 #include "streaming/tileset_check.h"
 #include "streaming/tileset_json.h"
@@ -26,39 +27,23 @@ struct TileTable {
   Extent set;
   std::optional<Extent> data;
   bool is_coverage = false;
+  Projection projection = Projection::equirectangular;
 };
 
-std::optional<Extent> get_extent(const SqliteQuery& query, int first_column) {
+/// Degrees that a unit of the table's reference system is: metres of Web Mercator count as degrees of its rows.
+double degrees_a_unit(const TileTable& table) {
+  return table.projection == Projection::web_mercator ? 1.0 / kMercatorDegree_m : 1.0;
+}
+
+std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, double unit_deg) {
   std::array<double, 4> sides{};
   for (int i = 0; i < 4; ++i) {
     const std::optional<double> side = query.number(first_column + i);
-    if (!side || std::abs(*side) > kMaxCoordinateDeg) return std::nullopt;
-    sides[static_cast<std::size_t>(i)] = *side;
+    if (!side || !(std::abs(*side * unit_deg) <= kMaxCoordinateDeg)) return std::nullopt;
+    sides[static_cast<std::size_t>(i)] = *side * unit_deg;
   }
   const Extent extent{sides[0], sides[1], sides[2], sides[3]};
   return extent.west < extent.east && extent.south < extent.north ? std::optional(extent) : std::nullopt;
-}
-
-Result<TileTable> get_table(const SqliteQuery& query, const std::string& where) {
-  const std::optional<std::string> name = query.text(0);
-  if (!name) return Error{where + ": gpkg_contents: a table_name is not a text"};
-  const std::optional<std::int64_t> srs_id = query.integer(3);
-  if (!srs_id)
-    return Error{fmt::format("{}: gpkg_tile_matrix_set: the srs_id of \"{}\" is not a whole number", where, *name)};
-  const std::optional<Extent> set = get_extent(query, 8);
-  if (!set) {
-    return Error{
-        fmt::format("{}: gpkg_tile_matrix_set: min_x, min_y, max_x, max_y of \"{}\" are not the corners of a "
-                    "rectangle in degrees",
-                    where, *name)};
-  }
-  return TileTable{.name = *name,
-                   .identifier = query.text(1).value_or(*name),
-                   .description = query.text(2).value_or(""),
-                   .srs_id = *srs_id,
-                   .set = *set,
-                   .data = get_extent(query, 4),
-                   .is_coverage = query.text(12) == kCoverageDataType};
 }
 
 /// What an SRS is called, for example "EPSG:4326".
@@ -75,11 +60,38 @@ std::string srs_name(SqliteReader& reader, std::int64_t srs_id) {
   return fmt::format("srs_id {}", srs_id);
 }
 
-bool is_epsg_4326(SqliteReader& reader, std::int64_t srs_id) {
-  return srs_id == 4326 || srs_name(reader, srs_id) == "EPSG:4326";
+bool is_epsg(SqliteReader& reader, std::int64_t srs_id, int code) {
+  return srs_id == code || srs_name(reader, srs_id) == fmt::format("EPSG:{}", code);
 }
 
-/// The first tile table that can be used, pictures before heights: any if `any_srs` (one of ours), else in EPSG:4326.
+Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, const std::string& where) {
+  const std::optional<std::string> name = query.text(0);
+  if (!name) return Error{where + ": gpkg_contents: a table_name is not a text"};
+  const std::optional<std::int64_t> srs_id = query.integer(3);
+  if (!srs_id)
+    return Error{fmt::format("{}: gpkg_tile_matrix_set: the srs_id of \"{}\" is not a whole number", where, *name)};
+  TileTable table{.name = *name,
+                  .identifier = query.text(1).value_or(*name),
+                  .description = query.text(2).value_or(""),
+                  .srs_id = *srs_id,
+                  .set = {},
+                  .data = {},
+                  .is_coverage = query.text(12) == kCoverageDataType};
+  if (is_epsg(reader, *srs_id, kSrsWebMercator)) table.projection = Projection::web_mercator;
+  const std::optional<Extent> set = get_extent(query, 8, degrees_a_unit(table));
+  if (!set) {
+    return Error{
+        fmt::format("{}: gpkg_tile_matrix_set: min_x, min_y, max_x, max_y of \"{}\" are not the corners of a "
+                    "rectangle in degrees",
+                    where, *name)};
+  }
+  table.set = *set;
+  table.data = get_extent(query, 4, degrees_a_unit(table));
+  return table;
+}
+
+/// The first tile table that can be used, pictures before heights: any if `any_srs` (one of ours), else in EPSG:4326 or
+/// EPSG:3857.
 Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
@@ -92,14 +104,15 @@ Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::stri
     const Result<bool, SqlError> more = query->step();
     if (!more) return Error{fmt::format("{}: gpkg_contents: {}", where, more.error().message)};
     if (!*more) break;
-    Result<TileTable> table = get_table(*query, where);
+    Result<TileTable> table = get_table(reader, *query, where);
     if (!table) return table;
-    if (any_srs || is_epsg_4326(reader, table->srs_id)) return table;
+    const bool mercator = table->projection == Projection::web_mercator;
+    if (any_srs || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
     if (!refused) {
-      refused =
-          Error{fmt::format("{}: the tiles of \"{}\" are in {}, they must be in EPSG:4326 (gdalwarp -t_srs EPSG:4326 "
-                            "makes a picture that `terrella cut` takes)",
-                            where, table->name, srs_name(reader, table->srs_id))};
+      refused = Error{fmt::format(
+          "{}: the tiles of \"{}\" are in {}, they must be in EPSG:4326 or EPSG:3857 (gdalwarp -t_srs EPSG:4326 "
+          "makes a picture that `terrella cut` takes)",
+          where, table->name, srs_name(reader, table->srs_id))};
     }
   }
   if (refused) return *refused;
@@ -118,6 +131,13 @@ GeoRect bounds_of(const Extent& extent) {
           .south = Angle::degrees(std::clamp(extent.south, -90.0, 90.0)),
           .east = Angle::degrees(east),
           .north = Angle::degrees(std::clamp(extent.north, -90.0, 90.0))};
+}
+
+Extent in_latitude(Extent extent, Projection projection) {
+  if (projection != Projection::web_mercator) return extent;
+  extent.south = latitude_of_mercator_row_deg(extent.south);
+  extent.north = latitude_of_mercator_row_deg(extent.north);
+  return extent;
 }
 
 /// By the first tile that the table holds: the format is only said, decoders look for themselves.
@@ -187,7 +207,7 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   const bool ours = description->has_value();
   const Result<TileTable> table = find_table(reader, ours, where);
   if (!table) return table.error();
-  const auto matrices = read_matrices(reader, table->name, table->set, where);
+  const auto matrices = read_matrices(reader, {table->name, degrees_a_unit(*table)}, table->set, where);
   if (!matrices) return matrices.error();
 
   GeoPackageTiles tiles;
@@ -197,12 +217,18 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
     Result<TileSetInfo> info = parse_tileset_json(**description, fmt::format("{}: {}", where, kTileSetTable));
     if (!info) return info.error();
     tiles.info = *std::move(info);
+    const bool mercator = tiles.info.grid.projection == Projection::web_mercator;
+    if (mercator != (table->projection == Projection::web_mercator)) {
+      return Error{fmt::format(
+          "{}: its description and its gpkg_tile_matrix_set differ on whether it is in Web Mercator", where)};
+    }
     if (Status matched = match_grid(*matrices, table->set, tiles, where); !matched) return matched.error();
     return tiles;
   }
   tiles.info.name = table->identifier;
   tiles.info.attribution = table->description;
-  tiles.info.grid.bounds = bounds_of(table->data.value_or(table->set));
+  tiles.info.grid.projection = table->projection;
+  tiles.info.grid.bounds = bounds_of(in_latitude(table->data.value_or(table->set), table->projection));
   tiles.info.format = format_of(reader, table->name);
   if (table->is_coverage) {
     const Result<ElevationInfo> elevation = read_coverage(reader, table->name, where);

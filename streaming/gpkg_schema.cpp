@@ -56,34 +56,65 @@ constexpr const char* kReferenceSystems =
     "298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\","
     "\"8901\"]],UNIT[\"degree\",0.0174532925199433,AUTHORITY[\"EPSG\",\"9122\"]],AXIS[\"Latitude\",NORTH],"
     "AXIS[\"Longitude\",EAST],AUTHORITY[\"EPSG\",\"4326\"]]', 'longitude and latitude in decimal degrees')";
+
+constexpr const char* kWebMercator =
+    "INSERT INTO gpkg_spatial_ref_sys VALUES "
+    "('WGS 84 / Pseudo-Mercator', 3857, 'EPSG', 3857, 'PROJCS[\"WGS 84 / Pseudo-Mercator\",GEOGCS[\"WGS 84\","
+    "DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\","
+    "\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\",\"8901\"]],UNIT[\"degree\",0.0174532925199433,AUTHORITY["
+    "\"EPSG\",\"9122\"]],AUTHORITY[\"EPSG\",\"4326\"]],PROJECTION[\"Mercator_1SP\"],PARAMETER[\"central_meridian\",0],"
+    "PARAMETER[\"scale_factor\",1],PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1,"
+    "AUTHORITY[\"EPSG\",\"9001\"]],AXIS[\"Easting\",EAST],AXIS[\"Northing\",NORTH],EXTENSION[\"PROJ4\",\"+proj=merc "
+    "+a=6378137 +b=6378137 +lat_ts=0 +lon_0=0 +x_0=0 +y_0=0 +k=1 +units=m +nadgrids=@null +wktext +no_defs\"],AUTHORITY["
+    "\"EPSG\",\"3857\"]]', 'Web Mercator')";
 // clang-format on
 
 /// Rounds away what the way through radians has left; 1e-11 degrees is a micrometre on Earth.
 double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; }
 
+bool is_mercator(const TileGrid& grid) { return grid.projection == Projection::web_mercator; }
+
+double units_a_degree(const TileGrid& grid) { return is_mercator(grid) ? kMercatorDegree_m : 1.0; }
+
 SqlStatement tile_matrix(const TileGrid& grid, int level) {
   const double columns_of_level = std::ldexp(static_cast<double>(columns(grid, 0)), level);
   const double rows_of_level = std::ldexp(static_cast<double>(rows(grid, 0)), level);
-  const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
+  const double pixel = tile_span_deg(grid, level) / grid.tile_px * units_a_degree(grid);
   return {.sql =
               "INSERT INTO gpkg_tile_matrix VALUES ('tiles', CAST(?1 AS INTEGER), CAST(?2 AS INTEGER), "
               "CAST(?3 AS INTEGER), CAST(?4 AS INTEGER), CAST(?4 AS INTEGER), ?5, ?5)",
           .texts = {},
           .numbers = {static_cast<double>(level), columns_of_level, rows_of_level, static_cast<double>(grid.tile_px),
-                      pixel_deg}};
+                      pixel}};
 }
 
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
   const bool crosses = bounds.east < bounds.west;
+  const bool mercator = is_mercator(info.grid);
+  const double unit = units_a_degree(info.grid);
+  const RowLatitudes rows = row_bounds(info.grid);
   return {.sql =
               "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
               "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
-              "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, 4326)",
+              "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, CAST(?9 AS INTEGER))",
           .texts = {info.elevation ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
                     info.attribution, last_change},
-          .numbers = {crosses ? -180.0 : tidy_degrees(bounds.west), tidy_degrees(bounds.south),
-                      crosses ? 180.0 : tidy_degrees(bounds.east), tidy_degrees(bounds.north)}};
+          .numbers = {unit * (crosses ? -180.0 : tidy_degrees(bounds.west)),
+                      mercator ? unit * rows.south_deg : tidy_degrees(bounds.south),
+                      unit * (crosses ? 180.0 : tidy_degrees(bounds.east)),
+                      mercator ? unit * rows.north_deg : tidy_degrees(bounds.north),
+                      static_cast<double>(mercator ? kSrsWebMercator : kSrsGeodetic)}};
+}
+
+SqlStatement matrix_set(const TileGrid& grid) {
+  const double unit = units_a_degree(grid);
+  const double top = top_row_deg(grid);
+  return {.sql = "INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', CAST(?1 AS INTEGER), ?2, ?3, ?4, ?5)",
+          .texts = {},
+          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * -180.0,
+                      unit * (top - static_cast<double>(rows(grid, 0)) * grid.root_span_deg),
+                      unit * (-180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
 }
 
 void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {
@@ -116,11 +147,9 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   for (const char* table : kTables) all.push_back({table, {}});
   all.push_back({tile_table_sql("tiles"), {}});
   all.push_back({kReferenceSystems, {}});
+  if (is_mercator(grid)) all.push_back({kWebMercator, {}});
   all.push_back(contents(info, last_change));
-  all.push_back({"INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', 4326, -180, ?1, ?2, 90)",
-                 {},
-                 {90.0 - static_cast<double>(rows(grid, 0)) * grid.root_span_deg,
-                  -180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg}});
+  all.push_back(matrix_set(grid));
   for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix(grid, level));
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
   all.push_back(

@@ -1,6 +1,7 @@
 #include "streaming/json_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -62,12 +63,19 @@ double JsonFields::number(const char* field) {
   return value->is_number() ? value->get<double>() : fail<double>(field, "must be a number");
 }
 
-int JsonFields::choice(const char* field, const char* first, const char* second, std::optional<int> otherwise) {
+int JsonFields::choice(const char* field, std::span<const char* const> words, std::optional<int> otherwise) {
   const json* value = find(field, !otherwise);
   if (value == nullptr) return otherwise.value_or(0);
-  if (*value == first) return 0;
-  if (*value == second) return 1;
-  return fail<int>(field, fmt::format("must be \"{}\" or \"{}\"", first, second));
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (*value == words[i]) return static_cast<int>(i);
+    list += fmt::format("{}\"{}\"", i == 0 ? "" : " or ", words[i]);
+  }
+  return fail<int>(field, "must be " + list);
+}
+
+int JsonFields::choice(const char* field, const char* first, const char* second, std::optional<int> otherwise) {
+  return choice(field, std::array{first, second}, otherwise);
 }
 
 GeoRect JsonFields::bounds(const char* field) {

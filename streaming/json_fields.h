@@ -33,6 +33,8 @@ class JsonFields {
   /// `otherwise` stands for a field that is not there; none: it must be.
   int integer(const char* field, std::optional<int> otherwise);
   double number(const char* field);  ///< must be there
+  /// One of a few words, as its place among them.
+  int choice(const char* field, std::span<const char* const> words, std::optional<int> otherwise);
   /// One of two words, as 0 or 1.
   int choice(const char* field, const char* first, const char* second, std::optional<int> otherwise);
   GeoRect bounds(const char* field);                       ///< degrees; the planet if it is not there

@@ -153,21 +153,57 @@ Status check_tiles_lie_on(const std::optional<TileRange>& finest, const TileGrid
                   width, height, kCutThePicture)};
 }
 
-/// Why a file that does not say it is geodetic cannot be drawn, and how to get one that can.
-Error not_geodetic(const Metadata& metadata, const std::string& where) {
+/// The one tile of level 0 reaches from -90° to 270° and lies on no grid that begins at 90°.
+Status leave_out_root(TileGrid& grid, const std::string& where) {
+  if (grid.root_span_deg < 360.0 || grid.min_level > 0) return Done{};
+  if (grid.max_level == 0) return Error{where + ": its only level has one tile that reaches from -90° to 270°"};
+  grid.min_level = 1;
+  return Done{};
+}
+
+/// The reference system that the metadata name, if it is neither geodetic nor Web Mercator.
+std::optional<Error> other_system(const Metadata& metadata, const std::string& where) {
   for (const char* name : {"crs", "srs"}) {
     const std::string crs = value_of(metadata, name);
     if (crs.empty() || is_web_mercator(crs)) continue;
-    return Error{fmt::format("{}: its {} is {}; only longitude and latitude (EPSG:4326, CRS84) can be drawn. {}", where,
-                             name, crs.substr(0, 100), kCutThePicture)};
+    return Error{
+        fmt::format("{}: its {} is {}; only longitude and latitude (EPSG:4326, CRS84) and Web Mercator "
+                    "(EPSG:3857) can be drawn. {}",
+                    where, name, crs.substr(0, 100), kCutThePicture)};
   }
-  return Error{
-      fmt::format("{}: an MBTiles file that does not say it is geodetic, so it is in Web Mercator, which cannot be "
-                  "drawn: `gdalwarp -t_srs EPSG:4326 '{}' new.tif -tr 0.1 0.1 -tap`, then `terrella cut new.tif -o "
-                  "new.gpkg` makes of it "
-                  "what can. If it is in EPSG:4326, its metadata should say so: INSERT INTO metadata VALUES "
-                  "('profile', 'geodetic')",
-                  where, where)};
+  return std::nullopt;
+}
+
+/// A geodetic file that does not say so: it has columns where Web Mercator has none, or its tiles, which count from the
+/// south, end at the equator.
+Status check_mercator_tiles(const std::optional<TileRange>& finest, const TileGrid& grid, const std::string& where) {
+  if (!finest) return Done{};
+  const std::int64_t side = columns(grid, grid.max_level);
+  const bool outside =
+      finest->first_column < 0 || finest->last_column >= side || finest->first_row < 0 || finest->last_row >= side;
+  const bool both_halves = grid.bounds.south.deg() < -10.0 && grid.bounds.north.deg() > 10.0;
+  const bool south_alone = both_halves && grid.max_level > 0 && finest->last_row < side / 2;
+  if (!outside && !south_alone) return Done{};
+  return Error{fmt::format(
+      "{}: it does not say that it is geodetic, so it should be in Web Mercator, but level {} has columns {} to {} and "
+      "rows {} to {} of {}, which does not go with its bounds. If it is in EPSG:4326, say --projection "
+      "equirectangular, "
+      "or write it into its metadata: INSERT INTO metadata VALUES ('profile', 'geodetic')",
+      where, grid.max_level, finest->first_column, finest->last_column, finest->first_row, finest->last_row, side)};
+}
+
+Status place_mercator(const std::optional<TileRange>& finest, TileGrid& grid, const std::string& where) {
+  grid.projection = Projection::web_mercator;
+  grid.root_span_deg = 360.0;
+  if (Status checked = check_grid(grid, where); !checked) return checked;
+  return check_mercator_tiles(finest, grid, where);
+}
+
+Status place_geodetic(const std::optional<TileRange>& finest, TileGrid& grid, const std::string& where) {
+  grid.root_span_deg = root_span_of(finest, grid);
+  if (Status left = leave_out_root(grid, where); !left) return left;
+  if (Status checked = check_grid(grid, where); !checked) return checked;
+  return check_tiles_lie_on(finest, grid, where);
 }
 
 /// The size of the tiles, and their format, from one of them.
@@ -178,7 +214,7 @@ Status look_at_tile(SqliteReader& reader, TileSetInfo& info, const std::string& 
   const Result<bool, SqlError> row = query->step();
   if (!row) return Error{fmt::format("{}: the table \"tiles\": {}", where, row.error().message)};
   const auto blob = *row ? query->blob(0) : std::nullopt;
-  if (!blob) return Error{where + ": it holds no tiles"};
+  if (!blob) return Error{where + ": an MBTiles file that holds no tiles"};
   info.format = sniff_format(*blob);
   if (info.format == ImageFormat::unknown) {
     return Error{where + ": its tiles are neither JPEG nor PNG pictures (vector tiles and WebP are not read)"};
@@ -208,14 +244,6 @@ Status read_levels(SqliteReader& reader, const Metadata& metadata, TileGrid& gri
   return Done{};
 }
 
-/// The one tile of level 0 reaches from -90° to 270° and lies on no grid that begins at 90°.
-Status leave_out_root(TileGrid& grid, const std::string& where) {
-  if (grid.root_span_deg < 360.0 || grid.min_level > 0) return Done{};
-  if (grid.max_level == 0) return Error{where + ": its only level has one tile that reaches from -90° to 270°"};
-  grid.min_level = 1;
-  return Done{};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& path, bool geodetic) {
@@ -227,9 +255,8 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   if (!reader) return broken(reader.error());
   const Result<Metadata, SqlError> metadata = read_metadata(*reader);
   if (!metadata) return broken(metadata.error());
-  if (!geodetic && !says_geodetic(*metadata)) {
-    return not_geodetic(*metadata, where);
-  }
+  geodetic = geodetic || says_geodetic(*metadata);
+  if (const auto other = other_system(*metadata, where); other && !geodetic) return *other;
   TileSetInfo info;
   info.name = value_of(*metadata, "name");
   info.attribution = value_of(*metadata, "attribution");
@@ -237,10 +264,8 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   if (Status looked = look_at_tile(*reader, info, where); !looked) return looked.error();
   if (Status levels = read_levels(*reader, *metadata, info.grid, where); !levels) return levels.error();
   const std::optional<TileRange> finest = tiles_of_level(*reader, info.grid.max_level);
-  info.grid.root_span_deg = root_span_of(finest, info.grid);
-  if (Status left = leave_out_root(info.grid, where); !left) return left.error();
-  if (Status checked = check_grid(info.grid, where); !checked) return checked.error();
-  if (Status on_grid = check_tiles_lie_on(finest, info.grid, where); !on_grid) return on_grid.error();
+  const auto place = geodetic ? place_geodetic : place_mercator;
+  if (Status placed = place(finest, info.grid, where); !placed) return placed.error();
   Result<std::unique_ptr<SqliteTiles>, SqlError> tiles = SqliteTiles::open(path, "tiles");
   if (!tiles) return broken(tiles.error());
   return std::unique_ptr<TileSource>(std::make_unique<MbtilesSource>(std::move(info), *std::move(tiles)));

@@ -3,11 +3,12 @@
 #include "streaming/directory_source.h"
 #include "streaming/file_bytes.h"
 #include "streaming/geopackage_source.h"
+#include "streaming/mercator/mercator_source.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
 
-Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {
+Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -21,8 +22,14 @@ Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& p
   if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
   return Error{
       fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
-                  "a GeoPackage in EPSG:4326, and MBTiles with a geodetic profile",
+                  "a GeoPackage in EPSG:4326 or EPSG:3857, and MBTiles",
                   path.string())};
+}
+
+Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {
+  auto stored = open_stored_tile_set(path, geodetic_mbtiles);
+  if (!stored) return stored;
+  return as_geodetic(*std::move(stored), path.string());
 }
 
 }  // namespace terrella

@@ -9,16 +9,25 @@
 namespace terrella {
 namespace {
 
+Result<TileTexels, TileFailure> as_texture(const Image& image, int tile_px, const LoaderOptions& options) {
+  Result<TileTexels, TileFailure> texels = make_texels(image, tile_px, options.gutter, options.mips);
+  if (texels) premultiply(*texels);
+  return texels;
+}
+
 Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, const LoaderOptions& options) {
+  if (tile.make_picture) {
+    const Result<Image, TileFailure> made = tile.make_picture();
+    if (!made) return made.error();
+    return as_texture(*made, tile_px, options);
+  }
   // A tile of another size is refused in any case: a small one after decoding, by name of both sizes, a vast one
   // before.
   DecodeLimits limits;
   limits.max_side_px = std::max(tile_px, 1024);
   const Result<Image> image = decode_image(tile.bytes, limits);
   if (!image) return TileFailure{Absence::broken, image.error().message};
-  Result<TileTexels, TileFailure> texels = make_texels(*image, tile_px, options.gutter, options.mips);
-  if (texels) premultiply(*texels);
-  return texels;
+  return as_texture(*image, tile_px, options);
 }
 
 }  // namespace

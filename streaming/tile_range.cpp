@@ -27,8 +27,9 @@ TileSpan rows_in_bounds(const TileGrid& grid, int level) {
   TileGrid band = grid;
   band.bounds.west = GeoRect{}.west;
   band.bounds.east = GeoRect{}.east;
-  const double north = tile_xy(grid, level, grid.bounds.north.deg(), 0.0).y;
-  const double south = tile_xy(grid, level, grid.bounds.south.deg(), 0.0).y;
+  const RowLatitudes range = row_bounds(grid);
+  const double north = tile_xy(grid, level, range.north_deg, 0.0).y;
+  const double south = tile_xy(grid, level, range.south_deg, 0.0).y;
   return span_over(north, south, rows(grid, level), [&](std::int64_t y) { return exists(band, {level, 0, y}); });
 }
 

@@ -32,6 +32,7 @@ struct TileSetInfo {
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
   std::optional<ElevationInfo> elevation = {};  ///< the tiles are heights; none: pictures
+  std::optional<TileGrid> made_of = {};         ///< the tiles are made of those of this grid (streaming/mercator)
 };
 
 /// Why a tile is not there (DESIGN 11). Each kind has its own lifetime.
@@ -47,12 +48,14 @@ struct TileFailure {
   std::string why;
 };
 
-/// The bytes of one tile as stored.
+/// The bytes of one tile as stored, or what makes it.
 struct EncodedTile {
   std::vector<std::byte> bytes;
   /// Of heights: what is decoded counts as decoded · scale + offset among the set's numbers (ElevationInfo).
   double number_scale = 1.0;
   double number_offset = 0.0;
+  /// Of a tile that is made of others: its picture, and `bytes` are empty. Takes milliseconds. thread: worker
+  std::function<Result<Image, TileFailure>()> make_picture = {};
 };
 
 /// The far side of a source behind a network: what read() does not have here is fetched without blocking.
@@ -86,10 +89,15 @@ class TileSource {
   }
 };
 
-/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 (ours,
-/// GDAL's), or MBTiles with a geodetic profile; `geodetic_mbtiles` says that the latter's is, whatever it says. The
-/// error names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h).
+/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 or
+/// EPSG:3857 (ours, GDAL's), or MBTiles; `geodetic_mbtiles` says that the latter's profile is, whatever it says. Sets
+/// in Web Mercator become geodetic ones (streaming/mercator/mercator_source.h). The error names the path, what is
+/// wrong, and what to do. Image files are cut first (streaming/cut.h).
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,
                                                                 bool geodetic_mbtiles = false);
+
+/// The same with sets in Web Mercator as they are stored: of a grid that nothing can draw, to be copied.
+[[nodiscard]] Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::path& path,
+                                                                       bool geodetic_mbtiles = false);
 
 }  // namespace terrella

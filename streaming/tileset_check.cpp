@@ -32,6 +32,17 @@ Status check_bounds(const GeoRect& bounds, const std::string& where) {
   return Done{};
 }
 
+/// Tiles of a quadtree over the square: those of 360° and their quarters.
+Status check_mercator(const TileGrid& grid, const std::string& where) {
+  if (grid.projection != Projection::web_mercator) return Done{};
+  const double halvings = std::log2(360.0 / grid.root_span_deg);
+  if (halvings < 0.0 || halvings != std::round(halvings)) {
+    return field_error(where, "root_span_deg", grid.root_span_deg, "360 or a half, a quarter … of it in Web Mercator");
+  }
+  if (grid.reduced) return Error{where + ": polar_rows are not squeezed in Web Mercator, which has no poles"};
+  return Done{};
+}
+
 }  // namespace
 
 Status check_grid(const TileGrid& grid, const std::string& where) {
@@ -48,6 +59,7 @@ Status check_grid(const TileGrid& grid, const std::string& where) {
   if (grid.min_level < 0 || grid.min_level > grid.max_level) {
     return field_error(where, "min_level", grid.min_level, fmt::format("in [0, max_level = {}]", grid.max_level));
   }
+  if (Status square = check_mercator(grid, where); !square) return square.error();
   return check_bounds(grid.bounds, where);
 }
 

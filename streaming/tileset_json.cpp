@@ -7,6 +7,7 @@
 
 #include "geo/body.h"
 #include "streaming/json_fields.h"
+#include "streaming/projection_names.h"
 #include "streaming/tileset_check.h"
 
 namespace terrella {
@@ -46,13 +47,12 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.name = fields.text("name");
   info.attribution = fields.text("attribution");
   info.body = fields.text("body");
-  info.grid.root_span_deg = fields.number("root_span_deg");
+  const bool mercator = fields.choice("projection", kProjectionNames, 0) == static_cast<int>(Projection::web_mercator);
+  info.grid.root_span_deg = mercator && !fields.has("root_span_deg") ? 360.0 : fields.number("root_span_deg");
   info.grid.tile_px = fields.integer("tile_px", std::nullopt);
   info.grid.min_level = fields.integer("min_level", 0);
   info.grid.max_level = fields.integer("max_level", std::nullopt);
-  info.grid.projection = fields.choice("projection", "equirectangular", "equal-area", 0) == 1
-                             ? Projection::equal_area
-                             : Projection::equirectangular;
+  info.grid.projection = static_cast<Projection>(fields.choice("projection", kProjectionNames, 0));
   info.grid.latitude =
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
@@ -84,7 +84,7 @@ std::string to_tileset_json(const TileSetInfo& info) {
   object["tile_px"] = grid.tile_px;
   object["min_level"] = grid.min_level;
   object["max_level"] = grid.max_level;
-  object["projection"] = grid.projection == Projection::equal_area ? "equal-area" : "equirectangular";
+  object["projection"] = projection_name(grid.projection);
   object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};

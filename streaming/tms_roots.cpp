@@ -45,6 +45,7 @@ Range tiles_over(double low_deg, double high_deg, double origin_deg, double span
 
 Result<TmsDescription> correct_tms_roots(TmsDescription tms, const fs::path& root) {
   const TileGrid& grid = tms.info.grid;
+  if (grid.projection == Projection::web_mercator) return tms;
   const fs::path finest = root / tms.folder.at(grid.max_level);
   const std::optional<Range> columns = numbers_in(finest);
   if (!columns) return tms;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <pugixml.hpp>
 #include <vector>
 
+#include "streaming/gpkg_schema.h"
 #include "streaming/tileset_check.h"
 
 namespace terrella {
@@ -34,20 +36,42 @@ double number(const pugi::xml_node& node, const char* attribute) {
   return end != text && *end == '\0' ? value : std::nan("");
 }
 
-std::optional<std::string> refuse_reference_system(const pugi::xml_node& map) {
-  const std::string profile = map.child("TileSets").attribute("profile").value();
+bool is_mercator(const pugi::xml_node& map) {
   const std::string srs = map.child_value("SRS");
-  if (profile.find("mercator") != std::string::npos || srs.find("3857") != std::string::npos ||
-      srs.find("900913") != std::string::npos) {
-    return "it is in Web Mercator; make a geodetic one (gdal2tiles.py --profile=geodetic), or cut the picture itself";
+  return srs.find("3857") != std::string::npos || srs.find("900913") != std::string::npos;
+}
+
+std::optional<std::string> refuse_reference_system(const pugi::xml_node& map) {
+  const std::string srs = map.child_value("SRS");
+  const std::string profile = map.child("TileSets").attribute("profile").value();
+  if (!is_mercator(map) && profile.find("mercator") != std::string::npos) {
+    return fmt::format("its <SRS> is {} and its profile \"{}\", which do not go together", srs, profile);
   }
-  if (srs != "EPSG:4326" && srs != "OGC:CRS84" && srs != "CRS:84") {
-    return fmt::format("its <SRS> is \"{}\", it must be EPSG:4326", srs);
+  if (!is_mercator(map) && srs != "EPSG:4326" && srs != "OGC:CRS84" && srs != "CRS:84") {
+    return fmt::format("its <SRS> is \"{}\", it must be EPSG:4326 or EPSG:3857", srs);
   }
   return std::nullopt;
 }
 
+/// In metres, but gdal2tiles writes degrees.
+GeoRect mercator_bounds(const pugi::xml_node& map) {
+  constexpr double kMostDegrees = 360.0;
+  const pugi::xml_node box = map.child("BoundingBox");
+  const std::array sides = {number(box, "minx"), number(box, "miny"), number(box, "maxx"), number(box, "maxy")};
+  if (!std::ranges::all_of(sides, [](double side) { return std::isfinite(side); })) return {};
+  const bool degrees = std::ranges::all_of(sides, [](double side) { return std::abs(side) <= kMostDegrees; });
+  const auto lon = [&](double side) {
+    return Angle::degrees(std::clamp(degrees ? side : side / kMercatorDegree_m, -180.0, 180.0));
+  };
+  const auto lat = [&](double side) {
+    const double latitude = degrees ? side : latitude_of_mercator_row_deg(side / kMercatorDegree_m);
+    return Angle::degrees(std::clamp(latitude, -90.0, 90.0));
+  };
+  return {.west = lon(sides[0]), .south = lat(sides[1]), .east = lon(sides[2]), .north = lat(sides[3])};
+}
+
 GeoRect read_bounds(const pugi::xml_node& map) {
+  if (is_mercator(map)) return mercator_bounds(map);
   const pugi::xml_node box = map.child("BoundingBox");
   const auto side = [&](const char* name, double limit, double otherwise) {
     const double value = number(box, name);
@@ -64,11 +88,11 @@ bool is_safe_folder(const std::string& name) {
   return !name.empty() && name.size() <= 64 && name.find('/') == std::string::npos && name != "." && name != "..";
 }
 
-Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, int tile_px, const std::string& where) {
+Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double tile_units, const std::string& where) {
   std::vector<TmsLevel> levels;
   for (const pugi::xml_node set : sets.children("TileSet")) {
     if (levels.size() == kMaxTileSets) return Error{fmt::format("{}: more than {} <TileSet>s", where, kMaxTileSets)};
-    TmsLevel level{number(set, "units-per-pixel") * tile_px, set.attribute("href").value()};
+    TmsLevel level{number(set, "units-per-pixel") * tile_units, set.attribute("href").value()};
     if (const auto slash = level.folder.find_last_of('/'); slash != std::string::npos) level.folder.erase(0, slash + 1);
     if (!(level.span_deg > 0.0 && std::isfinite(level.span_deg))) {
       return Error{fmt::format("{}: <TileSet href=\"{}\"> has no positive units-per-pixel", where, level.folder)};
@@ -93,9 +117,25 @@ bool divides_half_turn(double span_deg) {
   return rows > 0.5 && near(rows, std::round(rows), kRelativeSlack);
 }
 
+/// A level's number is how often 360° are halved.
+Status assign_mercator_levels(const std::vector<TmsLevel>& levels, TmsDescription& tms, const std::string& where) {
+  TileGrid& grid = tms.info.grid;
+  grid.root_span_deg = 360.0;
+  const double steps = std::log2(360.0 / levels.front().span_deg);
+  if (!(std::abs(steps - std::round(steps)) < 1e-6 && steps > -0.5 && steps < kMaxTileLevel + 0.5)) {
+    return Error{fmt::format("{}: a tile of \"{}\" spans {}° in Web Mercator, it must be 360° halved some times", where,
+                             levels.front().folder, levels.front().span_deg)};
+  }
+  grid.min_level = static_cast<int>(std::lround(steps));
+  grid.max_level = grid.min_level + static_cast<int>(levels.size()) - 1;
+  for (std::size_t i = 0; i < levels.size(); ++i) tms.folder[grid.min_level + static_cast<int>(i)] = levels[i].folder;
+  return Done{};
+}
+
 /// Gives each folder its level of a grid whose root tile spans 180 · 2^n degrees or, for other spans, the coarsest
 /// tile.
 Status assign_levels(std::vector<TmsLevel> levels, TmsDescription& tms, const std::string& where) {
+  if (tms.info.grid.projection == Projection::web_mercator) return assign_mercator_levels(levels, tms, where);
   std::erase_if(levels, [](const TmsLevel& level) { return !divides_half_turn(level.span_deg); });
   if (levels.empty())
     return Error{where + ": no level's tiles divide 180°, so its rows cannot be counted from the north"};
@@ -136,7 +176,9 @@ Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& w
   tms.info.format = tms.extension == "png" ? ImageFormat::png : ImageFormat::jpeg;
   tms.info.grid.tile_px = static_cast<int>(width);
   tms.info.grid.bounds = read_bounds(map);
-  Result<std::vector<TmsLevel>> levels = read_levels(map.child("TileSets"), tms.info.grid.tile_px, where);
+  if (is_mercator(map)) tms.info.grid.projection = Projection::web_mercator;
+  const double unit_deg = is_mercator(map) ? 1.0 / kMercatorDegree_m : 1.0;
+  Result<std::vector<TmsLevel>> levels = read_levels(map.child("TileSets"), tms.info.grid.tile_px * unit_deg, where);
   if (!levels) return levels.error();
   if (Status assigned = assign_levels(*std::move(levels), tms, where); !assigned) return assigned.error();
   if (Status grid = check_grid(tms.info.grid, where); !grid) return grid.error();

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geo/hash_mix.h"
 
@@ -58,7 +59,19 @@ double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
   return grid.latitude == LatitudeKind::centric ? ellipsoid.one_minus_e2() : 1.0;
 }
 
+double mercator_row_of(double tangent) {
+  return std::clamp(std::asinh(tangent) * (180.0 / std::numbers::pi), -180.0, 180.0);
+}
+
 }  // namespace
+
+double mercator_row_deg(double latitude_deg) {
+  return mercator_row_of(std::tan(Angle::degrees(std::clamp(latitude_deg, -89.9, 89.9)).rad()));
+}
+
+double latitude_of_mercator_row_deg(double row_deg) {
+  return Angle::radians(std::atan(std::sinh(Angle::degrees(std::clamp(row_deg, -180.0, 180.0)).rad()))).deg();
+}
 
 std::size_t TileIdHash::operator()(const TileId& id) const {
   const std::uint64_t row = mix_bits(static_cast<std::uint64_t>(id.y) ^ static_cast<std::uint64_t>(id.level) << 58);
@@ -76,10 +89,19 @@ double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.r
 
 std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, grid, level); }
 
-std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(180.0, grid, level); }
+std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(2.0 * top_row_deg(grid), grid, level); }
+
+double top_row_deg(const TileGrid& grid) { return grid.projection == Projection::web_mercator ? 180.0 : 90.0; }
+
+RowLatitudes row_bounds(const TileGrid& grid) {
+  const double south = grid.bounds.south.deg();
+  const double north = grid.bounds.north.deg();
+  if (grid.projection != Projection::web_mercator) return {south, north};
+  return {mercator_row_deg(south), mercator_row_deg(north)};
+}
 
 int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y) {
-  if (!grid.reduced || grid.projection == Projection::equal_area) return 0;
+  if (!grid.reduced || grid.projection != Projection::equirectangular) return 0;
   const double span = tile_span_deg(grid, level);
   const double north = 90.0 - static_cast<double>(y) * span;
   const double to_equator = std::min(north < 0.0 ? -north : std::max(0.0, north - span), 90.0);
@@ -106,7 +128,8 @@ bool exists(const TileGrid& grid, const TileId& id) {
   if (id.x >= squeezed_columns(grid, id.level, id.squeeze)) return false;
   const TileBounds tile = tile_bounds(grid, id);
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
-  const Interval data_rows{grid.bounds.south.deg(), grid.bounds.north.deg()};
+  const RowLatitudes data = row_bounds(grid);
+  const Interval data_rows{data.south_deg, data.north_deg};
   // What reaches over 180° is padding, not the planet's west once more.
   const Interval on_planet{tile.west_deg, std::min(tile.east_deg, 180.0)};
   return touches({tile.south_deg, tile.north_deg}, data_rows, sliver_deg) &&
@@ -123,13 +146,16 @@ TileId ancestor(const TileId& id, int steps) {
 double row_latitude_deg(const TileGrid& grid, const Ellipsoid& ellipsoid, const EcefDir& normal) {
   const double polar = polar_scale(grid, ellipsoid) * normal.xyz.z;
   const double equatorial = std::hypot(normal.xyz.x, normal.xyz.y);
+  if (grid.projection == Projection::web_mercator) return mercator_row_of(polar / equatorial);
   const double row = grid.projection == Projection::equal_area ? 90.0 * (polar / std::hypot(equatorial, polar))
                                                                : Angle::radians(std::atan2(polar, equatorial)).deg();
   return std::clamp(row, -90.0, 90.0);
 }
 
 Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double row_latitude_deg) {
-  const double row = std::clamp(row_latitude_deg, -90.0, 90.0);
+  const bool mercator = grid.projection == Projection::web_mercator;
+  const double row =
+      mercator ? latitude_of_mercator_row_deg(row_latitude_deg) : std::clamp(row_latitude_deg, -90.0, 90.0);
   const bool equal_area = grid.projection == Projection::equal_area;
   if (!equal_area && grid.latitude == LatitudeKind::graphic) return Angle::degrees(row);
   const double sine = equal_area ? row / 90.0 : std::sin(Angle::degrees(row).rad());
@@ -139,18 +165,19 @@ Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double r
 
 TileXY tile_xy(const TileGrid& grid, int level, double row_latitude_deg, double lon_deg) {
   const double span = tile_span_deg(grid, level);
-  return {.x = (lon_deg + 180.0) / span, .y = (90.0 - row_latitude_deg) / span};
+  return {.x = (lon_deg + 180.0) / span, .y = (top_row_deg(grid) - row_latitude_deg) / span};
 }
 
 TileBounds tile_bounds(const TileGrid& grid, const TileId& id) {
   const double span = tile_span_deg(grid, id.level);
   const double width = std::ldexp(span, id.squeeze);
+  const double top = top_row_deg(grid);
   const auto x = static_cast<double>(id.x);
   const auto y = static_cast<double>(id.y);
   return {.west_deg = -180.0 + x * width,
-          .south_deg = 90.0 - (y + 1.0) * span,
+          .south_deg = top - (y + 1.0) * span,
           .east_deg = -180.0 + (x + 1.0) * width,
-          .north_deg = 90.0 - y * span};
+          .north_deg = top - y * span};
 }
 
 }  // namespace terrella

@@ -74,11 +74,12 @@ MapRect BlockWalk::rect(const Node& node) const {
   const TileSpan columns = side(node.x, node.shift);
   const TileSpan rows = side(node.y, node.shift);
   const auto degrees = [&](std::int64_t tiles) { return static_cast<double>(tiles) * span_deg; };
+  const double top = top_row_deg(grid_);
   const auto latitude = [&](double row_deg) { return latitude_of_row(grid_, ellipsoid_, row_deg).deg(); };
   return {.west_deg = degrees(columns.first) - 180.0 + sliver_deg_,
-          .south_deg = latitude(std::max(-90.0, 90.0 - degrees(rows.last + 1) + sliver_deg_)),
+          .south_deg = latitude(std::max(-top, top - degrees(rows.last + 1) + sliver_deg_)),
           .east_deg = std::min(180.0, degrees(columns.last + 1) - 180.0 - sliver_deg_),
-          .north_deg = latitude(90.0 - degrees(rows.first) - sliver_deg_)};
+          .north_deg = latitude(top - degrees(rows.first) - sliver_deg_)};
 }
 
 }  // namespace terrella

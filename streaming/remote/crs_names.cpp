@@ -52,7 +52,7 @@ Result<GeographicCrs> parse_crs(std::string_view name) {
   const std::string_view lowered = upper_or_not;
   const std::string_view code = lowered.substr(lowered.find_last_of(":/") + 1);
   if (is_web_mercator(name)) {
-    return Error{fmt::format("it is in Web Mercator ({}), which has no poles; use a matrix set in EPSG:4326", name)};
+    return Error{fmt::format("it is in Web Mercator ({}), not in longitude and latitude", name)};
   }
   if (code == "crs84" || (code == "84" && lowered.find("epsg") == std::string_view::npos)) {
     return GeographicCrs{.body = "earth"};

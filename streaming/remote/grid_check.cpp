@@ -65,6 +65,7 @@ class Checking {
     const bool planet = bounds.west.deg() < -179.0 && bounds.east.deg() > 179.0 && bounds.south.deg() < -85.0 &&
                         bounds.north.deg() > 85.0;
     if (!planet || grid_.min_level > 1 || grid_.max_level <= grid_.min_level) return std::nullopt;
+    if (grid_.projection == Projection::web_mercator) return check_square();
     if (grid_.root_span_deg == 360.0) return check_one_root();
     return grid_.root_span_deg == 180.0 && grid_.min_level == 0 ? check_two_roots() : std::nullopt;
   }
@@ -92,10 +93,26 @@ class Checking {
     return std::nullopt;
   }
 
+  /// A geodetic set has tiles east of the square's, or none in its southern half.
+  std::optional<Fault> check_square() {
+    if (grid_.root_span_deg != 360.0 || grid_.min_level > 0) return std::nullopt;
+    if (fetch({1, 2, 0})) {
+      return Fault{Verdict::two_roots,
+                   "there are tiles east of the square of Web Mercator: the set has two root tiles of 180° and is "
+                   "geodetic; leave out --projection web-mercator"};
+    }
+    const bool north = has_picture({1, 0, 0}) || has_picture({1, 1, 0});
+    if (!north || fetch({1, 0, 1}) || fetch({1, 1, 1})) return std::nullopt;
+    return Fault{
+        Verdict::one_root,
+        "there are no tiles in the southern half of the square of Web Mercator: the set is most likely geodetic "
+        "with one root tile; say --root-span 360 instead of --projection web-mercator"};
+  }
+
   static Fault mercator() {
     return {Verdict::web_mercator,
-            "one root tile shows the whole planet and four tiles lie under it: the set is most likely in Web Mercator, "
-            "which cannot be drawn; use one in EPSG:4326 (geodetic)"};
+            "one root tile shows the whole planet and four tiles lie under it: the set is most likely in Web Mercator; "
+            "say --projection web-mercator (\"projection\": \"web-mercator\" in a description)"};
   }
 
   /// The first tiles with two tiles under each half.

@@ -68,6 +68,14 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
   return merged;
 }
 
+Status check_projection(const TileGrid& grid, const RemoteOptions& options) {
+  if (!options.projection) return Done{};
+  const bool said = *options.projection == Projection::web_mercator;
+  if (said == (grid.projection == Projection::web_mercator)) return Done{};
+  if (said) return Error{"it is in longitude and latitude, not in Web Mercator as was given"};
+  return Error{"it is in Web Mercator, not in the projection that was given"};
+}
+
 Status check_options(const RemoteOptions& options, const std::string& where) {
   if (options.headers.size() > kMaxHeaders) {
     return Error{fmt::format("{}: {} headers, at most {} are sent", where, options.headers.size(), kMaxHeaders)};

@@ -17,12 +17,12 @@ struct RemoteOptions {
   std::string style{};       ///< of a WMTS; empty: its default
   std::string time{};        ///< of a WMTS's time dimension, ISO 8601; empty: its default
 
-  std::optional<double> root_span_deg{};  ///< of a URL template; none: 180. Others: must agree with the document
-  std::optional<int> tile_px{};           ///< of a URL template; none: 256. Others: must agree with the document
-  std::optional<int> min_level{};         ///< none: 0
-  std::optional<int> max_level{};         ///< required for a URL template
-  std::optional<GeoRect> bounds{};        ///< none: the planet, or what the document says
-  std::optional<Projection> projection{};
+  std::optional<double> root_span_deg{};   ///< of a URL template; none: 180. Others: must agree with the document
+  std::optional<int> tile_px{};            ///< of a URL template; none: 256. Others: must agree with the document
+  std::optional<int> min_level{};          ///< none: 0
+  std::optional<int> max_level{};          ///< required for a URL template
+  std::optional<GeoRect> bounds{};         ///< none: the planet, or what the document says
+  std::optional<Projection> projection{};  ///< web_mercator: what the tiles are in; others must agree with the document
   std::optional<LatitudeKind> latitude{};
   std::optional<ImageFormat> format{};  ///< none: by the ending of a URL template, else jpeg
 
@@ -37,6 +37,9 @@ struct RemoteOptions {
 
 /// `said`, and where it says nothing, `otherwise`. Headers of both, those of `said` first. thread: any
 [[nodiscard]] RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise);
+
+/// Fails if one of what is said and what a document says of its grid is Web Mercator and the other is not. thread: any
+[[nodiscard]] Status check_projection(const TileGrid& grid, const RemoteOptions& options);
 
 /// Checks what a set of options may hold apart from any set: headers, sub-domains, body. The error begins with `where`
 /// and does not repeat a header's value. thread: any

@@ -185,9 +185,9 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
 }  // namespace
 
-std::shared_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
+std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
                                                const HttpOptions& options) {
-  return std::make_shared<RemoteSource>(std::move(set), std::move(cache), options);
+  return std::make_unique<RemoteSource>(std::move(set), std::move(cache), options);
 }
 
 }  // namespace terrella

@@ -17,7 +17,7 @@ namespace terrella {
 ///   own life; what failed for now is not stored.
 /// Without a cache (nullptr) everything is fetched. A cache that cannot be read counts as empty for that tile: the
 /// network still serves.
-[[nodiscard]] std::shared_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
+[[nodiscard]] std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
                                                              const HttpOptions& options);
 
 }  // namespace terrella

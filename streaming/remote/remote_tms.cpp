@@ -37,6 +37,9 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& 
                                        const std::string& where) {
   Result<TmsDescription> tms = parse_tms_xml(xml, where);
   if (!tms) return tms.error();
+  if (Status same = check_projection(tms->info.grid, options); !same) {
+    return Error{where + ": " + same.error().message};
+  }
   if (Status adjusted = adjust(tms->info.grid, options, where); !adjusted) return adjusted.error();
   const std::string plain = encode_braces(address.substr(0, address.find('#')));
   const std::size_t query = std::min(plain.find('?'), plain.size());
@@ -48,6 +51,8 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& 
   rest.min_level = tms->info.grid.min_level;
   rest.max_level = tms->info.grid.max_level;
   rest.format = tms->info.format;
+  rest.projection = tms->info.grid.projection;
+  if (options.projection) rest.projection = options.projection;
   if (!options.bounds) rest.bounds = tms->info.grid.bounds;
   if (!options.name && !tms->info.name.empty()) rest.name = tms->info.name;
   // Level 0 of one root tile does not lie on the grid; that it was not left out is no wish of anybody's.

@@ -5,6 +5,7 @@
 
 #include "geo/tile_grid.h"
 #include "streaming/json_fields.h"
+#include "streaming/projection_names.h"
 #include "streaming/tileset_check.h"
 
 namespace terrella {
@@ -51,8 +52,7 @@ void read_grid(JsonFields& fields, RemoteOptions& options) {
     options.format = fields.choice("format", "jpg", "png", 0) == 1 ? ImageFormat::png : ImageFormat::jpeg;
   }
   if (fields.has("projection")) {
-    const bool equal_area = fields.choice("projection", "equirectangular", "equal-area", 0) == 1;
-    options.projection = equal_area ? Projection::equal_area : Projection::equirectangular;
+    options.projection = static_cast<Projection>(fields.choice("projection", kProjectionNames, 0));
   }
   if (fields.has("latitude")) {
     const bool centric = fields.choice("latitude", "graphic", "centric", 0) == 1;

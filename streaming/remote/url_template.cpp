@@ -83,7 +83,7 @@ std::string fault_of(const RemoteTileSet& set, bool files) {
 
 /// Rows can be counted from the south where a whole number of tiles covers 180°; finer levels then do too.
 bool counts_from_south(const TileGrid& grid, int level) {
-  const double tiles = 180.0 / tile_span_deg(grid, level);
+  const double tiles = 2.0 * top_row_deg(grid) / tile_span_deg(grid, level);
   return tiles > 0.75 && std::abs(tiles - std::round(tiles)) < 1e-9 * tiles;
 }
 
@@ -148,7 +148,8 @@ Result<RemoteTileSet> template_tile_set(const std::string& url, const RemoteOpti
     return Error{where + ": it is not said how many levels it has; say --levels 0-N (max_level in a description)"};
   }
   TileGrid& grid = set.info.grid;
-  grid.root_span_deg = options.root_span_deg.value_or(180.0);
+  grid.projection = options.projection.value_or(grid.projection);
+  grid.root_span_deg = options.root_span_deg.value_or(grid.projection == Projection::web_mercator ? 360.0 : 180.0);
   grid.tile_px = options.tile_px.value_or(256);
   grid.min_level = options.min_level.value_or(0);
   grid.max_level = *options.max_level;

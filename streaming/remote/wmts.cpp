@@ -59,6 +59,12 @@ Result<WmtsGrid> read_grid(const pugi::xml_node& contents, const WmtsLink& link,
   return Error{"the document does not describe it"};
 }
 
+/// Of several matrix sets those in longitude and latitude come first, and of a kind that was asked for, that.
+bool is_wanted(const TileGrid& grid, const RemoteOptions& options) {
+  const bool mercator = grid.projection == Projection::web_mercator;
+  return mercator == (options.projection == Projection::web_mercator);
+}
+
 struct ChosenGrid {
   WmtsGrid placed;
   std::string matrix_set;
@@ -67,15 +73,21 @@ struct ChosenGrid {
 Result<ChosenGrid> choose_grid(const pugi::xml_node& contents, const WmtsLayer& layer, const RemoteOptions& options) {
   std::vector<std::string> names;
   std::string reasons;
+  std::optional<ChosenGrid> resampled;
   for (const WmtsLink& link : layer.links) {
     names.push_back(link.matrix_set);
     if (!options.matrix_set.empty() && link.matrix_set != options.matrix_set) continue;
     Result<WmtsGrid> placed = read_grid(contents, link, options);
-    if (placed) return ChosenGrid{*std::move(placed), link.matrix_set};
+    if (placed && is_wanted(placed->grid, options)) return ChosenGrid{*std::move(placed), link.matrix_set};
+    if (placed) {
+      if (!resampled) resampled = ChosenGrid{*std::move(placed), link.matrix_set};
+      continue;
+    }
     if (names.size() <= kMaxShown) {
       reasons += fmt::format("; matrix set \"{}\": {}", link.matrix_set.substr(0, 100), placed.error().message);
     }
   }
+  if (resampled) return *std::move(resampled);
   if (!reasons.empty()) return Error{fmt::format("layer \"{}\" cannot be shown{}", layer.name, reasons)};
   return Error{
       fmt::format("layer \"{}\" has no matrix set \"{}\"; it has: {}", layer.name, options.matrix_set, list_of(names))};
@@ -153,6 +165,7 @@ Status check_against(const RemoteOptions& options, TileGrid& grid) {
     return Error{fmt::format("its root tile spans {}°, not the {}° that were given", grid.root_span_deg,
                              *options.root_span_deg)};
   }
+  if (Status same = check_projection(grid, options); !same) return same;
   if (options.tile_px && *options.tile_px != grid.tile_px) {
     return Error{fmt::format("its tiles have {} pixels, not the {} that were given", grid.tile_px, *options.tile_px)};
   }

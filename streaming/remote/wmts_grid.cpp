@@ -83,6 +83,27 @@ Corner corner_of(const WmtsMatrix& matrix, bool latitude_first) {
   return first ? Corner{.lon = b, .lat = a} : Corner{.lon = a, .lat = b};
 }
 
+/// EPSG:3857 counts metres of a sphere of the Earth's equator, eastings first; here they are degrees of the grid's
+/// rows.
+Corner mercator_corner_of(const WmtsMatrix& matrix) {
+  const double degree_m = kEarthRadius_m * std::numbers::pi / 180.0;
+  // Some write the square's corner with two decimals, some without.
+  constexpr double kRounding_m = 0.6;
+  const auto degrees = [&](double metres, double end_deg) {
+    return std::abs(metres - end_deg * degree_m) <= kRounding_m ? end_deg : metres / degree_m;
+  };
+  return {.lon = degrees(matrix.corner.first, -180.0), .lat = degrees(matrix.corner.second, 180.0)};
+}
+
+bool begins_at_square(const Corner& corner) { return corner.lon == -180.0 && corner.lat == 180.0; }
+
+/// Of its tiles a power of two go around the planet, but for the rounding of the scale.
+double mercator_span_deg(const WmtsMatrix& matrix) {
+  const double span = span_deg(matrix, kEarthRadius_m);
+  const double exact = std::ldexp(360.0, -static_cast<int>(std::lround(std::log2(360.0 / span))));
+  return std::abs(span / exact - 1.0) < kRelativeSlack ? exact : span;
+}
+
 std::optional<std::int64_t> whole_tiles(double offset_deg, double span, int tile_px) {
   const double tiles = offset_deg / span;
   if (!(std::abs(tiles) < 0x1p40)) return std::nullopt;
@@ -90,9 +111,9 @@ std::optional<std::int64_t> whole_tiles(double offset_deg, double span, int tile
   return std::abs(tiles - whole) * tile_px <= kSlackTexels ? std::optional(std::llround(whole)) : std::nullopt;
 }
 
-std::optional<TileShift> shift_of(const Corner& corner, double span, int tile_px) {
+std::optional<TileShift> shift_of(const Corner& corner, double top_deg, double span, int tile_px) {
   const auto columns = whole_tiles(corner.lon + 180.0, span, tile_px);
-  const auto rows = whole_tiles(90.0 - corner.lat, span, tile_px);
+  const auto rows = whole_tiles(top_deg - corner.lat, span, tile_px);
   if (!columns || !rows) return std::nullopt;
   const std::int64_t turn = *columns == 0 ? 0 : whole_tiles(360.0, span, tile_px).value_or(0);
   return TileShift{.columns = -*columns, .rows = -*rows, .turn_columns = turn};
@@ -125,9 +146,12 @@ WmtsLimits within(const WmtsLimits& limits, const WmtsMatrix& matrix) {
 
 double wrapped(double lon_deg) { return std::remainder(lon_deg, 360.0); }
 
-GeoRect rect_of(const Extent& extent) {
-  GeoRect rect{.south = Angle::degrees(std::clamp(extent.south, -90.0, 90.0)),
-               .north = Angle::degrees(std::clamp(extent.north, -90.0, 90.0))};
+GeoRect rect_of(const Extent& extent, Projection projection) {
+  const auto latitude = [&](double row_deg) {
+    const bool mercator = projection == Projection::web_mercator;
+    return Angle::degrees(mercator ? latitude_of_mercator_row_deg(row_deg) : std::clamp(row_deg, -90.0, 90.0));
+  };
+  GeoRect rect{.south = latitude(extent.south), .north = latitude(extent.north)};
   if (extent.east - extent.west >= 360.0 * (1.0 - kRelativeSlack)) return rect;
   const bool plain = extent.west >= -180.0 && extent.west < 180.0;
   rect.west = Angle::degrees(plain ? extent.west : wrapped(extent.west));
@@ -141,11 +165,12 @@ GeoRect rect_of(const Extent& extent) {
 /// A set of matrices being placed.
 struct Placing {
   const WmtsMatrixSet& set;
-  Corner corner;
+  Corner corner;  ///< in the grid's rows
+  double top_deg;
   double root_span;  ///< of the coarsest matrix
   [[nodiscard]] double span(std::size_t i) const { return std::ldexp(root_span, -static_cast<int>(i)); }
   [[nodiscard]] std::optional<TileShift> shift(std::size_t i) const {
-    return shift_of(corner, span(i), set.matrices[i].tile_px);
+    return shift_of(corner, top_deg, span(i), set.matrices[i].tile_px);
   }
 };
 
@@ -164,8 +189,8 @@ Status choose_levels(const Placing& placing, const std::vector<WmtsLimits>& limi
   if (last == 0) return Error{"none of its matrices is in the layer's TileMatrixSetLimits"};
   const std::size_t finest = last - 1;
   if (!placing.shift(finest)) {
-    return Error{fmt::format("its tiles begin at ({}°, {}°), which is no whole number of tiles ({}°) from (-180°, 90°)",
-                             placing.corner.lon, placing.corner.lat, placing.span(finest))};
+    return Error{fmt::format("its tiles begin at ({}°, {}°), which is no whole number of tiles ({}°) from (-180°, {}°)",
+                             placing.corner.lon, placing.corner.lat, placing.span(finest), placing.top_deg)};
   }
   const WmtsLimits* said = limits_of(limits, matrices[finest].name);
   const Extent data = extent_of(placing.corner, placing.span(finest),
@@ -175,13 +200,13 @@ Status choose_levels(const Placing& placing, const std::vector<WmtsLimits>& limi
   while (first > 0 && usable(first - 1) && placing.shift(first - 1)) {
     const Extent coarser = extent_of(placing.corner, placing.span(first - 1), all_of(matrices[first - 1]));
     const double east = std::min(data.east, placing.corner.lon + 360.0);
-    const double south = std::max(data.south, -90.0);
+    const double south = std::max(data.south, -placing.top_deg);
     if (coarser.east < east - slack || coarser.south > south + slack) break;
     --first;
   }
   grid.min_level = static_cast<int>(first);
   grid.max_level = static_cast<int>(finest);
-  grid.bounds = rect_of(data);
+  grid.bounds = rect_of(data, grid.projection);
   if (!(grid.bounds.south < grid.bounds.north)) return Error{"none of its tiles lies on the planet"};
   return Done{};
 }
@@ -200,16 +225,24 @@ void name_levels(const Placing& placing, WmtsGrid& placed) {
 
 Result<WmtsGrid> grid_of(const WmtsMatrixSet& set, const std::vector<WmtsLimits>& limits,
                          const std::optional<std::string>& body) {
-  const Result<GeographicCrs> crs = parse_crs(set.crs);
+  const bool mercator = is_web_mercator(set.crs);
+  const Result<GeographicCrs> crs = mercator ? GeographicCrs{.body = "earth"} : parse_crs(set.crs);
   if (!crs) return crs.error();
   if (const auto fault = fault_among(set.matrices)) return Error{*fault};
   WmtsGrid placed;
   placed.body = body.value_or(crs->body);
   const WmtsMatrix& finest = set.matrices.back();
   const int steps = static_cast<int>(set.matrices.size()) - 1;
+  placed.grid.projection = mercator ? Projection::web_mercator : Projection::equirectangular;
+  const double span = mercator ? mercator_span_deg(finest) : finest_span_deg(finest, placed.body);
   const Placing placing{.set = set,
-                        .corner = corner_of(finest, crs->latitude_first),
-                        .root_span = std::ldexp(finest_span_deg(finest, placed.body), steps)};
+                        .corner = mercator ? mercator_corner_of(finest) : corner_of(finest, crs->latitude_first),
+                        .top_deg = top_row_deg(placed.grid),
+                        .root_span = std::ldexp(span, steps)};
+  if (mercator && !begins_at_square(placing.corner)) {
+    return Error{fmt::format("in Web Mercator its tiles must begin at (-20037508.34, 20037508.34), not at ({}, {})",
+                             finest.corner.first, finest.corner.second)};
+  }
   placed.grid.root_span_deg = placing.root_span;
   placed.grid.tile_px = finest.tile_px;
   placed.grid.latitude = crs->latitude;

@@ -21,8 +21,9 @@ struct WmtsGrid {
 /// Finds the grid of a matrix set. Angles come from the scale denominators: a WMTS pixel is 0.28 mm and a degree
 /// 6378137·π/180 m whatever the body (OGC 07-057r7, 6.1); where the matrices then do not cover the planet but do so
 /// with the radius of the body (of `body`, else of the reference system), that is what the server counts with. Matrices
-/// whose corner is no whole number of tiles from (-180°, 90°) are left out if they are coarser than some whose is. The
-/// error is the reason alone. thread: any
+/// whose corner is no whole number of tiles from (-180°, 90°) are left out if they are coarser than some whose is.
+/// Those of EPSG:3857 make a grid in Web Mercator, if their tiles are the web's. The error is the reason alone. thread:
+/// any
 [[nodiscard]] Result<WmtsGrid> grid_of(const WmtsMatrixSet& set, const std::vector<WmtsLimits>& limits,
                                        const std::optional<std::string>& body);
 

@@ -68,8 +68,10 @@ struct Server {
   }
 };
 
-GridCheck check(Server& server, double believed_span_deg = 180.0, int max_level = 5) {
-  const TileGrid grid{.root_span_deg = believed_span_deg, .tile_px = kTilePx, .max_level = max_level};
+GridCheck check(Server& server, double believed_span_deg = 180.0, int max_level = 5,
+                Projection projection = Projection::equirectangular) {
+  const TileGrid grid{
+      .root_span_deg = believed_span_deg, .tile_px = kTilePx, .max_level = max_level, .projection = projection};
   const auto result = check_grid(std::ref(server), grid);
   EXPECT_TRUE(result);
   EXPECT_LE(server.asked, 9);
@@ -107,6 +109,16 @@ TEST(GridCheck, TellsWebMercator) {
   EXPECT_EQ(check({.mercator = true}, 180.0).verdict, Verdict::web_mercator);
   EXPECT_EQ(check({.mercator = true}, 360.0).verdict, Verdict::web_mercator);
   EXPECT_EQ(check({.mercator = true, .jpeg_quality = 50}, 180.0).verdict, Verdict::web_mercator);
+}
+
+TEST(GridCheck, LooksWhetherWhatIsSaidToBeWebMercatorIs) {
+  const auto check_square = [](Server server) { return check(server, 360.0, 5, Projection::web_mercator); };
+  EXPECT_EQ(check_square({.mercator = true}).verdict, Verdict::fits);
+  EXPECT_EQ(check_square({.mercator = true, .flipped = true}).verdict, Verdict::flipped_rows);
+  const GridCheck two = check_square({.root_span_deg = 180.0});
+  EXPECT_EQ(two.verdict, Verdict::two_roots);
+  EXPECT_NE(two.advice.find("leave out --projection web-mercator"), std::string::npos) << two.advice;
+  EXPECT_EQ(check_square({.root_span_deg = 360.0}).verdict, Verdict::one_root);
 }
 
 TEST(GridCheck, SaysNothingOfFlatSeas) {

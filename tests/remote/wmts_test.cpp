@@ -151,8 +151,8 @@ TEST(Wmts, RefusesSetsThatNoRootSpanDescribes) {
     if (set.sizes.empty()) set.sizes = quads(2, 1, 3);
     return one_set(set);
   };
-  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG::3857"}), "Web Mercator");
-  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG:6.18:3:900913"}), "Web Mercator");
+  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG::3857"}), "must begin at (-20037508.34, 20037508.34)");
+  expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG:6.18:3:900913"}), "not at (-180, 90)");
   expect_wmts_refused(like({.crs = "urn:ogc:def:crs:EPSG::25832"}), "25832");
   expect_wmts_refused(like({.corner = "-170 90"}), "no whole number of tiles");
   expect_wmts_refused(like({.ratio = 2.5}), "do not halve");
@@ -165,14 +165,24 @@ TEST(Wmts, RefusesSetsThatNoRootSpanDescribes) {
 TEST(Wmts, TakesTheFirstSetThatCanBeShown) {
   const MatrixSetText mercator{.name = "GoogleMapsCompatible",
                                .crs = "EPSG:3857",
-                               .denominator = 5.5e8,
-                               .sizes = {{1, 1}},
+                               .denominator = 559082264.0287178,
+                               .sizes = quads(1, 1, 22),
                                .corner = "-20037508.34 20037508.34"};
   const MatrixSetText quad{
       .name = "WorldCRS84Quad", .denominator = test::kCrs84QuadDenominator, .sizes = quads(2, 1, 2)};
   const std::string xml = capabilities({{.matrix_sets = {"GoogleMapsCompatible", "WorldCRS84Quad"}}}, {mercator, quad});
   EXPECT_NE(read(xml).url.find("WorldCRS84Quad"), std::string::npos);
-  expect_wmts_refused(xml, "Web Mercator", {.matrix_set = "GoogleMapsCompatible"});
+  for (const RemoteOptions& options :
+       {RemoteOptions{.matrix_set = "GoogleMapsCompatible"}, RemoteOptions{.projection = Projection::web_mercator}}) {
+    const RemoteTileSet web = read(xml, options);
+    EXPECT_NE(web.url.find("GoogleMapsCompatible"), std::string::npos);
+    EXPECT_EQ(web.info.grid.projection, Projection::web_mercator);
+    EXPECT_EQ(web.info.grid.root_span_deg, 360.0);
+    EXPECT_EQ(web.info.grid.max_level, 21);
+    EXPECT_TRUE(web.shifts.empty());
+  }
+  const std::string geodetic = capabilities({{.matrix_sets = {"WorldCRS84Quad"}}}, {quad});
+  expect_wmts_refused(geodetic, "not in Web Mercator as was given", {.projection = Projection::web_mercator});
   expect_wmts_refused(xml, "GoogleMapsCompatible, WorldCRS84Quad", {.matrix_set = "Nothing"});
 }
 

@@ -226,7 +226,9 @@ TEST(GeoPackage, SetsThatNoGridDescribesAreRefusedWithTheReason) {
                    {.west = -100, .south = -45, .east = 80, .north = 45, .zooms = {{0, 45, 4, 2}}});
   expect_package_refused(folder / "shifted.gpkg", "no whole number of tiles");
   write_geopackage(folder / "mercator.gpkg", {.srs = 3857});
-  expect_package_refused(folder / "mercator.gpkg", "EPSG:3857");
+  expect_package_refused(folder / "mercator.gpkg", "TILING_SCHEME=GoogleMapsCompatible");
+  write_geopackage(folder / "utm.gpkg", {.srs = 32632});
+  expect_package_refused(folder / "utm.gpkg", "EPSG:4326 or EPSG:3857");
 }
 
 /// SQL that makes a good GeoPackage bad, and a word of the message.

@@ -68,8 +68,8 @@ TEST(TmsXml, OtherSpansThatDivideAHalfTurnAreTaken) {
 }
 
 TEST(TmsXml, RefusesWithTheReason) {
-  expect_tms_refused({.srs = "EPSG:3857"}, "Web Mercator");
-  expect_tms_refused({.profile = "mercator"}, "Web Mercator");
+  expect_tms_refused({.srs = "EPSG:3857"}, "360° halved some times");
+  expect_tms_refused({.profile = "mercator"}, "its <SRS> is EPSG:4326 and its profile \"mercator\"");
   expect_tms_refused({.srs = "EPSG:31467"}, "EPSG:31467");
   expect_tms_refused({.format = R"(<TileFormat width="256" height="128" extension="png"/>)"}, "TileFormat");
   expect_tms_refused({.format = R"(<TileFormat width="1e9" height="1e9" extension="png"/>)"}, "TileFormat");

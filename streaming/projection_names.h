@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+
+#include "geo/tile_grid.h"
+
+namespace terrella {
+
+/// What descriptions of tile sets call the projections, in the order of the enumeration.
+inline constexpr std::array kProjectionNames = {"equirectangular", "equal-area", "web-mercator"};
+
+[[nodiscard]] inline const char* projection_name(Projection projection) {
+  return kProjectionNames.at(static_cast<std::size_t>(projection));
+}
+
+}  // namespace terrella
