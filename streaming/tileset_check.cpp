@@ -39,6 +39,9 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
   if (halvings < 0.0 || halvings != std::round(halvings)) {
     return field_error(where, "root_span_deg", grid.root_span_deg, "360 or a half, a quarter … of it in Web Mercator");
   }
+  if (grid.tile_px > kMaxMercatorTilePx) {
+    return field_error(where, "tile_px", grid.tile_px, fmt::format("at most {} in Web Mercator", kMaxMercatorTilePx));
+  }
   if (grid.reduced) return Error{where + ": polar_rows are not squeezed in Web Mercator, which has no poles"};
   return Done{};
 }

@@ -12,6 +12,8 @@ inline constexpr double kMinRootSpanDeg = 1e-3;
 inline constexpr double kMaxRootSpanDeg = 1e4;
 inline constexpr int kMinTilePx = 16;
 inline constexpr int kMaxTilePx = 4096;
+/// A tile at the end of Web Mercator may be made of fourteen stored ones at once: then of 112 MiB.
+inline constexpr int kMaxMercatorTilePx = 1024;
 
 /// Checks the ranges that TileGrid states, for a grid that was read from outside. The error is `where`, the field's
 /// name in tileset.json, its value and what it may be. thread: any

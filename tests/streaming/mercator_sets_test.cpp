@@ -98,6 +98,9 @@ TEST(MercatorSets, AFolderWhoseDescriptionSaysIt) {
       folder / "xyz/tileset.json",
       R"({"projection": "web-mercator", "root_span_deg": 180.5, "tile_px": 32, "max_level": 3, "format": "png"})");
   EXPECT_NE(error_on_opening(folder / "xyz").find("360 or a half"), std::string::npos);
+  test::write_text(folder / "xyz/tileset.json",
+                   R"({"projection": "web-mercator", "tile_px": 2048, "max_level": 3, "format": "png"})");
+  EXPECT_NE(error_on_opening(folder / "xyz").find("at most 1024 in Web Mercator"), std::string::npos);
 }
 
 TEST(MercatorSets, TheFolderOfATms) {

@@ -1,0 +1,136 @@
+"""Tiles of web maps: served, over the carried Earth, preloaded, said to be what they are not."""
+
+import json
+import math
+import shutil
+import subprocess
+import sys
+import unittest
+import zlib
+
+from pictures import png_of
+from program import SOURCE, ProgramTest
+
+sys.path.insert(0, str(SOURCE / "tests/preload"))
+sys.path.insert(0, str(SOURCE / "tests/window"))
+import png  # noqa: E402
+import servers  # noqa: E402
+
+TILE_PX, LEVELS = 64, 3
+SIDE = 256
+POLE = ("--unlit", "--sky", "off", "--camera", "90,0,3000000", "--size", f"{SIDE}x{SIDE}")
+
+
+def square_tile(z, x, y):
+    """No green at all, red throughout, waves of blue by which a server's grid can be told."""
+    rows = bytearray()
+    span = 2 * math.pi / (1 << z)
+    for j in range(TILE_PX):
+        rows.append(0)
+        lat = math.atan(math.sinh(math.pi - (y + (j + 0.5) / TILE_PX) * span))
+        for i in range(TILE_PX):
+            lon = (x + (i + 0.5) / TILE_PX) * span - math.pi
+            rows += bytes((255, 0, round(127.5 + 100 * math.sin(2 * lon + 0.5) * math.cos(3 * lat + 0.4))))
+    return png_of(TILE_PX, TILE_PX, zlib.compress(bytes(rows), 1))
+
+
+def radius_px_of(lat_deg):
+    """Of a parallel around the pole in POLE's pictures, 40° high; formulas of the ellipsoid WGS 84."""
+    a, b = 6378137.0, 6356752.314245
+    e2 = 1 - (b / a) ** 2
+    lat = math.radians(lat_deg)
+    n = a / math.sqrt(1 - e2 * math.sin(lat) ** 2)
+    off_axis, height = n * math.cos(lat), n * (1 - e2) * math.sin(lat)
+    return off_axis / (b + 3e6 - height) * SIDE / 2 / math.tan(math.radians(20))
+
+
+class MercatorTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.pyramid = self.folder / "square"
+        for z in range(LEVELS):
+            for x in range(1 << z):
+                column = self.pyramid / str(z) / str(x)
+                column.mkdir(parents=True)
+                for y in range(1 << z):
+                    (column / f"{y}.png").write_bytes(square_tile(z, x, y))
+
+    def pixels(self, name):
+        _, _, rows = png.read(self.folder / name)
+        return [row[i:i + 3] for row in rows for i in range(0, len(row), 3)]
+
+    @staticmethod
+    def tiles_asked(server):
+        server.cut()
+        return {path: times for path, times in server.counts().items() if path.endswith(".png")}
+
+    def assert_hole_over_the_pole(self, name, below):
+        """Red beyond 85.05°; within, what lies below: by its area a circle of the right radius."""
+        pixels = self.pixels(name)
+        hole = [k for k, pixel in enumerate(pixels) if not (pixel[0] > 200 and pixel[1] < 30)]
+        radius = math.sqrt(len(hole) / math.pi)
+        self.assertAlmostEqual(radius, radius_px_of(85.0511288), delta=0.5)
+        middle = SIDE // 2 * SIDE + SIDE // 2
+        self.assertEqual(pixels[middle], self.pixels(below)[middle])
+
+    def test_over_the_earth_the_pole_shows_what_lies_below(self):
+        self.assert_done("render", "-o", "earth.png", *POLE)
+        with servers.nginx(self.pyramid) as server:
+            template = server.template.replace(".jpg", ".png")
+            source = self.write("web.json", json.dumps({"url": template, "max_level": LEVELS - 1, "tile_px": TILE_PX,
+                                                        "projection": "web-mercator"}).encode())
+            self.assert_done("render", "-o", "web.png", *POLE, "--overlay", source)
+            asked = self.tiles_asked(server)
+            self.assert_done("render", "-o", "again.png", *POLE, "--overlay", source)
+            self.assertEqual(self.tiles_asked(server), asked, "what is in the cache is not asked for again")
+            self.assertEqual(set(asked.values()), {1}, "what many tiles are made of is fetched once")
+        self.assert_hole_over_the_pole("web.png", "earth.png")
+        self.assertEqual(self.pixels("web.png"), self.pixels("again.png"))
+        # Half over the Earth, and from the cache alone.
+        self.assert_done("render", "-o", "half.png", *POLE, "--overlay", f"{source}:0.5", "--cache", "off")
+        half, earth, web = (self.pixels(name)[5] for name in ("half.png", "earth.png", "web.png"))
+        for c in range(3):
+            self.assertAlmostEqual(half[c], (earth[c] + web[c]) / 2, delta=2)
+
+    def test_a_folder_says_it_itself_and_info_tells(self):
+        (self.pyramid / "tileset.json").write_text(json.dumps(
+            {"projection": "web-mercator", "tile_px": TILE_PX, "max_level": LEVELS - 1, "format": "png"}))
+        told = self.assert_done("info", self.pyramid, "--verify").stdout
+        self.assertIn("made of      tiles in Web Mercator (EPSG:3857): 64 px a tile, levels 0 to 2", told)
+        self.assertIn("0 absent, 0 blank, 0 broken", told)
+        self.assert_fails(1, "render", self.pyramid, "--projection", "equal-area", "-o", "x.png", *POLE,
+                          says=["Web Mercator", "--projection"])
+        (self.pyramid / "2/1/1.png").write_bytes(b"no picture")
+        done = self.run_program("info", self.pyramid, "--verify")
+        self.assertIn("Web Mercator tile 2/1/1", done.stdout)
+
+    def test_what_is_preloaded_stays_as_it_is_and_opens_elsewhere(self):
+        with servers.nginx(self.pyramid) as server:
+            template = server.template.replace(".jpg", ".png")
+            self.assert_done("preload", template, "--projection", "web-mercator", "--tile-size", TILE_PX, "--levels",
+                             f"0-{LEVELS - 1}", "-o", "kept.gpkg")
+            self.assert_done("render", template, "--projection", "web-mercator", "--tile-size", TILE_PX, "--max-level",
+                             LEVELS - 1, "-o", "served.png", *POLE)
+        self.assert_done("render", "kept.gpkg", "-o", "kept.png", *POLE)
+        self.assertEqual(self.pixels("kept.png"), self.pixels("served.png"))
+        if shutil.which("gdalinfo"):
+            told = subprocess.run(["gdalinfo", self.folder / "kept.gpkg"], capture_output=True, text=True).stdout
+            self.assertIn('ID["EPSG",3857]', told)
+            self.assertIn("Size is 256, 256", told)
+            self.assertIn("Upper Left  (-20037508.343,20037508.343)", told)
+
+    def test_what_is_said_of_a_server_is_compared_with_its_tiles(self):
+        with servers.nginx(self.pyramid) as server:
+            template = server.template.replace(".jpg", ".png")
+            size = ("--tile-size", TILE_PX, "--max-level", LEVELS - 1, "-o", "x.png", *POLE)
+            self.assert_fails(1, "render", template, *size, says=["--projection web-mercator"])
+        geodetic = self.folder / "geodetic"
+        servers.write_pyramid(geodetic, LEVELS)
+        with servers.nginx(geodetic) as server:
+            self.assert_fails(1, "render", server.template, "--projection", "web-mercator", "--max-level", LEVELS - 1,
+                              "-o", "x.png", *POLE, says=["leave out --projection web-mercator"])
+        self.assert_fails(1, "render", "--projection", "web-mercator", "-o", "x.png", *POLE, says=["not in Web Mercator"])
+
+
+if __name__ == "__main__":
+    unittest.main()
