@@ -50,6 +50,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     wish->job.advance(look_up());
     {
       const std::lock_guard lock(mutex_);
+      settle_what_came(wish->job);
       const std::vector<TileId> missing = wish->job.missing();
       if (!missing.empty()) {
         wishes_.insert_or_assign(id, wish);
@@ -96,6 +97,15 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
   }
 
   // With the lock.
+
+  /// What was on its way when the job looked for it, and nobody waits for any more, may have come.
+  void settle_what_came(MercatorJob& job) const {
+    for (const TileId& stored : job.missing()) {
+      if (!waiting_.contains(stored)) job.settle(stored, stored_.find(stored));
+    }
+    job.advance(look_up());
+  }
+
   [[nodiscard]] double priority_of(const TileId& stored) const {
     double most = -std::numeric_limits<double>::infinity();
     for (const TileId& id : waiting_.at(stored)) most = std::max(most, wishes_.at(id)->priority);
