@@ -157,7 +157,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
   std::shared_ptr<Wish> settle(const TileId& id, const TileId& stored, const MercatorJob::Found& found) {
     const auto place = wishes_.find(id);
     if (place == wishes_.end()) return nullptr;
-    const std::shared_ptr<Wish> wish = place->second;
+    std::shared_ptr<Wish> wish = place->second;
     const std::vector<TileId> before = wish->job.missing();
     wish->job.settle(stored, found);
     wish->job.advance(look_up());

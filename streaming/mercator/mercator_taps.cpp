@@ -53,9 +53,10 @@ Taps cubic_taps(double centre, double length, std::int64_t count) { return taps_
 
 std::vector<Taps> column_taps(double first, double texels, int tile_px) {
   constexpr auto kAnywhere = std::numeric_limits<std::int64_t>::max();
-  std::vector<Taps> columns;
-  for (int i = 0; i < tile_px; ++i)
-    columns.push_back(taps_over(first + (i + 0.5) * texels, 1.0, -kAnywhere, kAnywhere));
+  std::vector<Taps> columns(static_cast<std::size_t>(tile_px));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i] = taps_over(first + (static_cast<double>(i) + 0.5) * texels, 1.0, -kAnywhere, kAnywhere);
+  }
   return columns;
 }
 

@@ -23,7 +23,7 @@ struct RowTaps {
 [[nodiscard]] Taps cubic_taps(double centre, double length, std::int64_t count);
 
 /// Columns of a tile whose texels are `texels` source texels wide, at most 1, from source texel `first` on. Where it is
-/// 1 a column is a source column. `columns_around` source texels go around the planet; columns run on beyond both ends.
+/// 1 a column is a source column. Source columns run on beyond ±180°: who reads them wraps them.
 [[nodiscard]] std::vector<Taps> column_taps(double first, double texels, int tile_px);
 
 /// Rows from a latitude southwards, equal in latitude, over Web Mercator of `source_rows` texels from end to end.

@@ -17,7 +17,7 @@ struct PiecePicture {
 
 /// Makes the picture of a tile: columns and rows summed as the plan says, colours weighed by alpha, in the values as
 /// stored (as mips are). `pictures` in the plan's order of pieces, each tile_px a side. Where there is no piece, and
-/// beyond the end of Web Mercator, it is transparent. 1 ms for 256 × 256 pixels. thread: any
+/// beyond the end of Web Mercator, it is transparent. 1 to 3 ms for 256 × 256 pixels. thread: any
 [[nodiscard]] Image resample(const MercatorPlan& plan, const std::vector<PiecePicture>& pictures);
 
 }  // namespace terrella
