@@ -106,13 +106,14 @@ Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::stri
     if (!*more) break;
     Result<TileTable> table = get_table(reader, *query, where);
     if (!table) return table;
-    const bool mercator = table->projection == Projection::web_mercator;
+    const bool mercator = table->projection == Projection::web_mercator && !table->is_coverage;
     if (any_srs || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
     if (!refused) {
-      refused = Error{fmt::format(
-          "{}: the tiles of \"{}\" are in {}, they must be in EPSG:4326 or EPSG:3857 (gdalwarp -t_srs EPSG:4326 "
-          "makes a picture that `terrella cut` takes)",
-          where, table->name, srs_name(reader, table->srs_id))};
+      refused =
+          Error{fmt::format("{}: the {} of \"{}\" are in {}, they must be in EPSG:4326{} (gdalwarp -t_srs "
+                            "EPSG:4326 makes a picture that `terrella cut` takes)",
+                            where, table->is_coverage ? "heights" : "tiles", table->name,
+                            srs_name(reader, table->srs_id), table->is_coverage ? "" : " or EPSG:3857")};
     }
   }
   if (refused) return *refused;

@@ -74,7 +74,7 @@ TEST_F(RefusedHeights, WholeNumbersThatAreSaidToBeFloats) {
 
 TEST_F(RefusedHeights, Mercator) {
   spoil("UPDATE gpkg_tile_matrix_set SET srs_id = 3857; UPDATE gpkg_contents SET srs_id = 3857");
-  expect_refused({"3857", "EPSG:4326"});
+  expect_refused({"the heights of", "3857, they must be in EPSG:4326 ("});
 }
 
 TEST_F(RefusedHeights, LessThanThePlanet) {
