@@ -7,7 +7,6 @@
 #include "apps/option_checks.h"
 #include "apps/remote_set_options.h"
 #include "apps/scene_overlays.h"
-#include "geo/number.h"
 #include "scene/almanac.h"
 #include "scene/view_limits.h"
 
@@ -102,17 +101,6 @@ void add_overlay_options(CLI::App& command, SceneOptions& options) {
                          "Of overlays that do not say it themselves, as URL templates do not");
 }
 
-// A colon may be part of the name: what follows the last one is an opacity only if it is one.
-void read_clouds(SceneOptions& options, const std::string& text) {
-  options.clouds = text;
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return;
-  const auto opacity = read_number(std::string_view(text).substr(colon + 1));
-  if (!opacity || !(*opacity >= 0.0 && *opacity <= 1.0)) return;
-  options.clouds = text.substr(0, colon);
-  options.clouds_opacity = *opacity;
-}
-
 void add_layer_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--night", options.night,
@@ -120,7 +108,8 @@ void add_layer_options(CLI::App& command, SceneOptions& options) {
       ->type_name("TILESET");
   command
       .add_option_function<std::string>(
-          "--clouds", [&options](const std::string& text) { read_clouds(options, text); },
+          "--clouds",
+          [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
           "Imagery over all other, white on black, where black is clear; an opacity from 0 to 1 may follow")
       ->type_name("TILESET[:OPACITY]");
 }

@@ -42,8 +42,7 @@ struct SceneOptions {
   std::string elevation;      ///< tile set of heights; empty: none
   double exaggeration = 1.0;  ///< of heights
   std::string night;          ///< tile set that shows where it is night; empty: none
-  std::string clouds;         ///< tile set whose brightness is its alpha, over the others; empty: none
-  double clouds_opacity = 1.0;
+  OverlayOption clouds;       ///< whose brightness is its alpha, over the others; empty: none
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none

@@ -40,9 +40,12 @@ class Layers(ProgramTest):
         self.assertIn("out.png: thanks to A Ground; B Lamps\n", done.stdout)
 
     def test_a_layer_that_is_not_there(self):
-        for option in (["--clouds", "nowhere.gpkg"], ["--clouds", "nowhere.gpkg:1.5"],
-                       ["--night", "nowhere.gpkg", *NOON_AT_GREENWICH]):
+        for option in (["--clouds", "nowhere.gpkg"], ["--night", "nowhere.gpkg", *NOON_AT_GREENWICH]):
             self.assert_fails(FAILED, "render", "ground.gpkg", *SMALL, *option, says=["nowhere.gpkg"])
+
+    def test_an_opacity_that_is_none(self):
+        self.assert_fails(WRONG_USAGE, "render", "ground.gpkg", *SMALL, "--clouds", "lamps.gpkg:1.5",
+                          says=["--clouds", "lamps.gpkg:1.5"])
 
 
 if __name__ == "__main__":
