@@ -92,11 +92,21 @@ class ReliefPicks : public GlTest, public testing::WithParamInterface<double> {
     return pixel && glm::distance(*pixel, *raw) < kThereAndBack_px;
   }
 
+  /// Of the ground around a place: before a mountain, on it or behind it.
+  [[nodiscard]] Geodetic place_around(Draw& draw, const Geodetic& place) const {
+    const double aside = 2.0e-6 * distance_m(place) * std::exp(draw.between(-3.0, 3.0));
+    const double lat = std::clamp(place.lat.deg() + aside * draw.between(-5.0, 5.0), -90.0, 90.0);
+    const Angle lon = Angle::degrees(place.lon.deg() + aside * draw.between(-5.0, 5.0));
+    Geodetic other{.lat = Angle::degrees(lat), .lon = lon, .height_m = 0.0};
+    other.height_m = globe_->ground_height_m(other.lat, other.lon);
+    return other;
+  }
+
   std::unique_ptr<Globe> globe_;
 };
 
 TEST_P(ReliefPicks, ProjectionsInvertThemAndMountainsHideWhatIsBehind) {
-  constexpr int kCameras = 6, kPixels = 40;
+  constexpr int kCameras = 6, kPixels = 40, kAround = 4;
   Draw draw(11);
   int found = 0, judged = 0, hidden = 0;
   for (int k = 0; k < kCameras; ++k) {
@@ -105,21 +115,14 @@ TEST_P(ReliefPicks, ProjectionsInvertThemAndMountainsHideWhatIsBehind) {
       const auto place = go_there_and_back({draw.between(0.0, kRugged.width_px), draw.between(0.0, kRugged.height_px)});
       if (!place) continue;
       ++found;
-      // Elsewhere around: before a mountain, on it or behind it.
-      const double aside = 2.0e-6 * distance_m(*place) * std::exp(draw.between(-3.0, 3.0));
-      const double lat = std::clamp(place->lat.deg() + aside * draw.between(-5.0, 5.0), -90.0, 90.0);
-      Geodetic other{.lat = Angle::degrees(lat),
-                     .lon = Angle::degrees(place->lon.deg() + aside * draw.between(-5.0, 5.0)),
-                     .height_m = 0.0};
-      other.height_m = globe_->ground_height_m(other.lat, other.lon);
-      judged += is_shown_or_hidden(other, hidden) ? 1 : 0;
+      for (int n = 0; n < kAround; ++n) judged += is_shown_or_hidden(place_around(draw, *place), hidden) ? 1 : 0;
     }
   }
   RecordProperty("found", found);
   RecordProperty("judged", judged);
   RecordProperty("hidden", hidden);
   EXPECT_GT(found, kCameras * kPixels / 2);
-  EXPECT_GT(judged, found / 10);
+  EXPECT_GT(judged, found / 3);
   EXPECT_GT(hidden, 0);
 }
 

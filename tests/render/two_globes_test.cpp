@@ -80,6 +80,7 @@ TEST_F(TwoGlobes, MadeAndEndedAHundredTimesTheyLeaveNothing) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   RecordProperty("seconds", std::to_string(took.count()));
   EXPECT_EQ(objects_there(), before);
+  // In a process of its own, as CTest runs it: of a context that is gone Mesa keeps what nothing points at.
   EXPECT_FALSE(has_leaked());
 }
 
