@@ -1,8 +1,11 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
@@ -16,12 +19,13 @@ namespace terrella {
 namespace {
 
 constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
+constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // of a size that was kept
 
 constexpr const char* kHelpFooter =
     "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
     "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that, F12 "
-    "saves a picture,\n"
+    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that,\n"
+    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks; files dropped onto the window become layers,\n"
     "F1 or ? lists the keys, Esc leaves.\n"
     "\n"
     "Examples:\n"
@@ -33,7 +37,62 @@ struct ViewOptions {
   SceneOptions scene;
   bool print_camera = false;
   bool full_screen = false;
+  KeptSettings kept, start;
+  bool first_run = false;
+  std::string message;
 };
+
+// The command line goes before what earlier runs have kept.
+void begin_as_kept(ViewOptions& options, const CLI::App& command) {
+  const auto file = settings_file();
+  if (!file) return;
+  LoadedSettings loaded = load_settings(*file);
+  options.first_run = loaded.first_run;
+  options.message = std::move(loaded.complaint);
+  const KeptSettings& kept = options.kept = options.start = loaded.settings;
+  SceneOptions& scene = options.scene;
+  const auto said = [&command](const char* option) { return command.count(option) > 0; };
+  if (!said("--size") && kept.width_px > 0 && kept.height_px > 0) {
+    scene.size = {std::max(kept.width_px, kSmallestWindow.width_px),
+                  std::max(kept.height_px, kSmallestWindow.height_px)};
+  }
+  if (said("--sky")) options.start.sky = scene.sky;
+  if (!said("--surface-alpha")) scene.surface.alpha = kept.opacity;
+  if (!said("--exaggeration")) scene.exaggeration = kept.exaggeration;
+  if (!said("--stereo")) scene.stereo.mode = kept.stereo;
+}
+
+LayerRow image_row(LayerId id, const std::string& tile_set, const ImageLook& look) {
+  const std::string name = std::filesystem::path(tile_set).filename().string();
+  return {.id = id, .name = name.empty() ? tile_set : name, .bounds = {}, .look = look};
+}
+
+/// In the order that add_image_layers() and add_objects() have made them.
+std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
+  std::vector<LayerRow> rows;
+  if (globe.has_relief()) {
+    rows.push_back(
+        {.kind = LayerKind::heights, .name = std::filesystem::path(scene.elevation).filename().string(), .bounds = {}});
+  }
+  std::vector<std::string> names = {scene.tile_set.empty() ? first.name : scene.tile_set};
+  if (!scene.night.empty()) names.push_back(scene.night);
+  if (!scene.clouds.empty()) names.push_back(scene.clouds);
+  const std::vector<LayerId> ids = globe.imagery();
+  for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
+    const auto look = globe.look(ids[i]);
+    rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
+    if (i > 0) continue;
+    rows.back().bounds = if_a_part(first.grid.bounds);
+    rows.back().finest_level = first.grid.max_level;
+  }
+  for (const LayerId id : globe.objects()) {
+    rows.push_back({.id = id,
+                    .kind = LayerKind::objects,
+                    .name = std::filesystem::path(scene.objects).filename().string(),
+                    .bounds = {}});
+  }
+  return rows;
+}
 
 int view(const ViewOptions& options) {
   if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
@@ -49,7 +108,8 @@ int view(const ViewOptions& options) {
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
-  auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *std::move(elevation));
+  const TileSetInfo first = (*imagery)->info();
+  auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
   if (!globe) return fail("view", globe.error().message);
   if (const Status overlaid = add_overlays(**globe, options.scene); !overlaid)
     return fail("view", overlaid.error().message);
@@ -60,7 +120,14 @@ int view(const ViewOptions& options) {
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
   const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
-                                     .print_camera = options.print_camera};
+                                     .print_camera = options.print_camera,
+                                     .layers = layer_rows(**globe, options.scene, first),
+                                     .heights = *elevation,
+                                     .files = options.scene,
+                                     .kept = options.kept,
+                                     .start = options.start,
+                                     .first_run = options.first_run,
+                                     .message = options.message};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;
 }
@@ -77,7 +144,10 @@ void add_view_command(CLI::App& app, int& exit_code) {
                     "Print the camera, as --camera takes it, on standard output each time it comes to rest");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F goes back to a window");
   command->footer(kHelpFooter);
-  command->callback([options, &exit_code] { exit_code = view(*options); });
+  command->callback([options, command, &exit_code] {
+    begin_as_kept(*options, *command);
+    exit_code = view(*options);
+  });
 }
 
 }  // namespace terrella

@@ -76,12 +76,13 @@ class ScratchSource : public TileSource {
   std::unique_ptr<TileSource> tiles_;
 };
 
-Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder) {
+Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
+                                                 const CutProgress& told) {
   CutOptions cut;
   cut.images = {picture};
   cut.name = picture.stem().string();
   Progress progress("cutting " + picture.filename().string());
-  cut.progress = [&progress](std::int64_t done, std::int64_t total) {
+  cut.progress = told ? told : [&progress](std::int64_t done, std::int64_t total) {
     progress.show(done, total);
     return true;
   };
@@ -90,25 +91,26 @@ Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const 
   return open_tile_set(*tiles);
 }
 
-Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const std::string& cache) {
+Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const std::string& cache,
+                                                 const CutProgress& told) {
   if (cache != "off") {
     const auto folder = picture_cache_folder(cache);
     if (!folder) return folder.error();
-    return cut_and_open(picture, *folder);
+    return cut_and_open(picture, *folder, told);
   }
   auto scratch = make_scratch_folder();
   if (!scratch) return scratch.error();
-  auto tiles = cut_and_open(picture, (*scratch)->path());
+  auto tiles = cut_and_open(picture, (*scratch)->path(), told);
   if (!tiles) return tiles.error();
   return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
 }
 
-Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
   const bool said_geodetic = options.projection == Projection::equirectangular;
-  auto tiles = is_picture(path) ? open_picture(path, options.cache) : open_tile_set(path, said_geodetic);
+  auto tiles = is_picture(path) ? open_picture(path, options.cache, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -154,8 +156,8 @@ Status find_imagery(const SceneOptions& options) {
   return Done{};
 }
 
-Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options) {
-  auto tiles = open_named(options);
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
+  auto tiles = open_named(options, progress);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "apps/scene_options.h"
 #include "geo/result.h"
@@ -10,12 +14,16 @@
 
 namespace terrella {
 
+/// Told how many of a picture's rows are cut; false asks to stop.
+using CutProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
 /// Opens what TILESET names, pictures or heights: nothing is the Earth that the program carries; a picture is cut into
 /// the cache, with a progress bar on standard error, unless it was before; anything else is opened as a tile set.
 /// --projection and
 /// --latitude, if given, overrule what the tile set says of itself. The error names the input. Throws
-/// BrokenInstallation. thread: main
-[[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options);
+/// BrokenInstallation. `progress` is told instead of the bar. thread: any, one at a time
+[[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options,
+                                                                 const CutProgress& progress = {});
 
 /// The same for pictures to draw: tiles of heights are refused, with what they are for. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);

@@ -11,6 +11,7 @@ namespace terrella {
 namespace {
 
 constexpr Seconds kDoubleClick(0.4);
+constexpr double kTurnStep_px = 24.0;   // at 96 dots per inch: what an arrow with Shift turns and tilts by
 constexpr double kClickSlack_px = 6.0;  // at 96 dots per inch
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
@@ -25,6 +26,10 @@ std::optional<NavigationKey> navigation_key(int key) {
       return NavigationKey::pan_up;
     case GLFW_KEY_DOWN:
       return NavigationKey::pan_down;
+    case GLFW_KEY_PAGE_UP:
+      return NavigationKey::zoom_in;
+    case GLFW_KEY_PAGE_DOWN:
+      return NavigationKey::zoom_out;
     case GLFW_KEY_HOME:
       return NavigationKey::whole_globe;
     default:
@@ -36,6 +41,8 @@ std::optional<ViewerAction> function_key(int key) {
   switch (key) {
     case GLFW_KEY_F1:
       return ViewerAction::toggle_help;
+    case GLFW_KEY_F6:
+      return ViewerAction::panel_focus;
     case GLFW_KEY_F12:
       return ViewerAction::save_screenshot;
     case GLFW_KEY_ESCAPE:
@@ -95,6 +102,8 @@ std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_,
 
 std::optional<glm::dvec2> Input::take_click() { return std::exchange(click_px_, {}); }
 
+std::vector<std::filesystem::path> Input::take_dropped() { return std::exchange(dropped_, {}); }
+
 std::optional<BookmarkKey> Input::take_bookmark() { return std::exchange(bookmark_, {}); }
 
 bool Input::take_dirty() { return std::exchange(dirty_, false); }
@@ -141,6 +150,14 @@ void Input::listen_to_keys() {
 
 void Input::listen_to_window() {
   glfwSetFramebufferSizeCallback(window_.handle(), [](GLFWwindow* w, int, int) { input_of(w).dirty_ = true; });
+  glfwSetDropCallback(window_.handle(), [](GLFWwindow* w, int count, const char** paths) {
+    for (int i = 0; i < count; ++i) input_of(w).dropped_.emplace_back(paths[i]);
+    input_of(w).dirty_ = true;
+  });
+  glfwSetWindowContentScaleCallback(window_.handle(), [](GLFWwindow* w, float, float) {
+    input_of(w).ui_.rescale(input_of(w).window_);
+    input_of(w).dirty_ = true;
+  });
   glfwSetWindowRefreshCallback(window_.handle(), [](GLFWwindow* w) { input_of(w).dirty_ = true; });
 }
 
@@ -170,7 +187,10 @@ void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
   if (action == GLFW_RELEASE || (taken && !function_key(key))) return;
-  if (const auto moves = navigation_key(key)) {
+  const auto moves = navigation_key(key);
+  if (moves && (modifiers & GLFW_MOD_SHIFT) != 0) {
+    tilt_by_key(*moves);
+  } else if (moves) {
     navigator_.key(*moves, now());
   } else if (const auto asked = function_key(key); asked && !repeating_) {
     actions_.push_back(*asked);
@@ -179,6 +199,22 @@ void Input::on_key(int key, int action, int modifiers, bool taken) {
   } else if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
     bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = (modifiers & GLFW_MOD_CONTROL) != 0};
   }
+}
+
+// As a right drag around the picture's middle would. Nothing while a button is held, or for a key that is no arrow.
+void Input::tilt_by_key(NavigationKey key) {
+  glm::dvec2 by_px(0.0);
+  const double step_px = kTurnStep_px * window_.text_scale();
+  if (key == NavigationKey::pan_left) by_px.x = step_px;
+  if (key == NavigationKey::pan_right) by_px.x = -step_px;
+  if (key == NavigationKey::pan_up) by_px.y = -step_px;
+  if (key == NavigationKey::pan_down) by_px.y = step_px;
+  if (by_px == glm::dvec2(0.0) || pressed_px_) return;
+  const Viewport size = window_.framebuffer();
+  const glm::dvec2 middle = 0.5 * glm::dvec2(size.width_px, size.height_px);
+  navigator_.pointer_down(PointerButton::right, false, middle, now());
+  navigator_.pointer_move(middle + by_px, now());
+  navigator_.pointer_up(PointerButton::right, now());
 }
 
 void Input::on_character(unsigned character) {
@@ -211,6 +247,12 @@ void Input::on_character(unsigned character) {
     case 'x':
     case 'X':
       return actions_.push_back(ViewerAction::toggle_underground);
+    case 'l':
+    case 'L':
+      return actions_.push_back(ViewerAction::toggle_layers);
+    case 'i':
+    case 'I':
+      return actions_.push_back(ViewerAction::picture);
     case 'm':
     case 'M':
       return actions_.push_back(ViewerAction::toggle_measuring);

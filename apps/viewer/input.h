@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
@@ -25,6 +26,9 @@ enum class ViewerAction {
   measure_middle,
   take_back,
   find_place,
+  toggle_layers,
+  picture,
+  panel_focus,
   leave
 };
 
@@ -63,6 +67,8 @@ class Input {
   /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
   [[nodiscard]] std::optional<glm::dvec2> take_click();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< the last one since the last call
+  /// Files and folders that were dropped onto the window since the last call.
+  [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
   /// Whether two clicks are a double click, which flies there.
   void set_double_clicks(bool on) { double_clicks_ = on; }
   /// True if anything happened since the last call that can change the picture.
@@ -76,6 +82,7 @@ class Input {
   void listen_to_pointer();
   void listen_to_keys();
   void listen_to_window();
+  void tilt_by_key(NavigationKey key);
   void on_button(int button, int action, int modifiers);
   void on_key(int key, int action, int modifiers, bool taken);
   void on_character(unsigned character);
@@ -89,6 +96,7 @@ class Input {
   ClickPair clicks_;
   bool double_clicks_ = true;
   std::optional<BookmarkKey> bookmark_;
+  std::vector<std::filesystem::path> dropped_;
   std::optional<glm::dvec2> pressed_px_, click_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;

@@ -23,20 +23,21 @@ std::string MeasureTool::text(const Ellipsoid& ellipsoid) const {
   return text;
 }
 
-ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid) const {
+ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
   ObjectScene scene;
   for (const Geodetic& place : places_) {
-    scene.points.push_back({.place = place, .size_px = kMarker_px, .color = kMeasureInk});
+    scene.points.push_back({.place = place, .size_px = scale * kMarker_px, .color = kMeasureInk});
   }
   if (places_.size() < 2) return scene;
-  scene.lines.push_back({.places = places_, .width_px = kWay_px, .color = kMeasureInk});
+  scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk});
   scene.labels.push_back({.text = length_text(path_m(ellipsoid, places_)),
                           .place = places_.back(),
-                          .size_px = kMarker_px,
+                          .size_px = scale * kMarker_px,
                           .priority = 1.0});
   if (places_.size() < 3) return scene;
   scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}});
-  scene.lines.push_back({.places = {places_.back(), places_.front()}, .width_px = kWayBack_px, .color = kWayBack});
+  scene.lines.push_back(
+      {.places = {places_.back(), places_.front()}, .width_px = scale * kWayBack_px, .color = kWayBack});
   return scene;
 }
 

@@ -19,8 +19,8 @@ class MeasureTool {
   /// What to do, or how long the way is, and from three places on how large the area is that they enclose.
   [[nodiscard]] std::string text(const Ellipsoid& ellipsoid) const;
   /// The places as markers, the way between them, from three places on the way back, thinner, and the area; the length
-  /// at the last place.
-  [[nodiscard]] ObjectScene scene(const Ellipsoid& ellipsoid) const;
+  /// at the last place. `scale`: of markers and lines, 1 at 96 dots per inch.
+  [[nodiscard]] ObjectScene scene(const Ellipsoid& ellipsoid, float scale = 1.0F) const;
 
  private:
   std::vector<Geodetic> places_;

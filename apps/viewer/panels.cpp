@@ -15,8 +15,10 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
 constexpr float kMargin = 0.8F;         // of the text's height, between panels and the window's edge
 constexpr float kFootOfMessage = 3.6F;  // of the text's height: over the status line
+constexpr float kPlainText_px = 15.0F;  // the text's height at 96 dots per inch
 constexpr float kUnderFirstRow = 2.8F;
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
+const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
 const ImU32 kShade = IM_COL32(0, 0, 0, 150);
 
 constexpr const char* kHelp[][2] = {
@@ -24,8 +26,8 @@ constexpr const char* kHelp[][2] = {
     {"Wheel", "zoom to the cursor"},
     {"Right drag, Ctrl + drag", "tilt and turn"},
     {"Double click", "fly there"},
-    {"Arrows", "move"},
-    {"+  -", "zoom"},
+    {"Arrows; with Shift", "move; tilt and turn"},
+    {"+  -  Page up, down", "zoom"},
     {"N", "north up"},
     {"Home", "whole globe"},
     {"G", "graticule"},
@@ -33,14 +35,18 @@ constexpr const char* kHelp[][2] = {
     {"M", "measure: click places, Enter for the middle, Backspace"},
     {"1 ... 9", "fly to a bookmark; with Ctrl set it"},
     {"P", "panel of what can be changed"},
+    {"L", "layers: show, fade, sort, remove"},
+    {"Drop a file", "adds a picture, tile set, GeoJSON or glTF"},
     {"U", "translucent surface"},
     {"X", "eye under the ground, and back"},
     {"B", "sky"},
     {"S", "stereo: anaglyph, side by side, interlaced"},
     {"F", "full screen"},
+    {"I", "save a picture of any size"},
     {"F12", "save a picture of the window"},
+    {"F6", "keyboard to a panel, and back to the globe"},
     {"F1  ?", "this help"},
-    {"Esc", "leave"},
+    {"Esc", "close a panel, leave off, leave"},
 };
 
 ImVec2 to_ui(glm::dvec2 px, double unit_px) {
@@ -55,6 +61,9 @@ void begin_panel(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
   ImGui::SetNextWindowSize({std::ceil(inner.x + 2.0F * padding.x), std::ceil(inner.y + 2.0F * padding.y)});
   ImGui::Begin(name, nullptr, kFixed);
 }
+
+/// How wide a line is drawn that is `width_px` wide at 96 dots per inch, in units of the window.
+float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
 
 float margin() { return kMargin * ImGui::GetFontSize(); }
 
@@ -84,6 +93,19 @@ void draw_row(const char* name, std::vector<Field> fields, ImVec2 at, ImVec2 piv
   ImGui::End();
 }
 
+/// Text of several lines if need be, over all panels, above a place in its middle; nothing if there is no text.
+void draw_paragraph(const std::string& text, ImVec2 at) {
+  if (text.empty()) return;
+  const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 from{std::floor(at.x - 0.5F * size.x), std::floor(at.y - padding.y - size.y)};
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({from.x - padding.x, from.y - padding.y}, {from.x + size.x + padding.x, at.y}, kMessageShade,
+                      ImGui::GetStyle().WindowRounding);
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, kInk, text.c_str(), nullptr, widest);
+}
+
 void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
   const std::string text = length_text(bar.length_m);
   const float width = static_cast<float>(bar.width_px / unit_px);
@@ -98,7 +120,7 @@ void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
   const float left = at.x + 0.5F * (row - width);
   const float base = at.y + height;
   const ImVec2 points[] = {{left, base - tick}, {left, base}, {left + width, base}, {left + width, base - tick}};
-  list->AddPolyline(points, 4, kInk, 0, 1.5F);
+  list->AddPolyline(points, 4, kInk, 0, line_width(1.5F));
   ImGui::End();
 }
 
@@ -124,8 +146,9 @@ void draw_status(const PanelStatus& status, double unit_px) {
   if (status.scale) draw_scale(*status.scale, {size.x - gap, size.y - gap}, unit_px);
   draw_row("##attribution", {{status.attribution, true}}, {size.x - gap, gap}, {1.0F, 0.0F});
   draw_row("##measure", {{status.measure}}, {0.5F * size.x, gap + kUnderFirstRow * ImGui::GetFontSize()}, {0.5F, 0.0F});
-  draw_row("##message", {{status.message}}, {0.5F * size.x, size.y - kFootOfMessage * ImGui::GetFontSize()},
-           {0.5F, 1.0F});
+  std::string told = status.job;
+  if (!told.empty() && !status.message.empty()) told += "\n";
+  draw_paragraph(told + status.message, {0.5F * size.x, size.y - kFootOfMessage * ImGui::GetFontSize()});
 }
 
 void draw_help() {
@@ -164,7 +187,8 @@ void draw_graticule(const Graticule& graticule, const GraticulePart& part, doubl
     for (const glm::dvec2 px : line.points_px) points.push_back(to_ui(corner + px, unit_px));
     const ImU32 colour =
         line.principal ? tinted({255, 226, 150}, part.tint, 190) : tinted(glm::vec3(255.0F), part.tint, 105);
-    list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, line.principal ? 1.6F : 1.0F);
+    list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0,
+                      line_width(line.principal ? 1.6F : 1.0F));
   }
   for (const GraticuleLabel& label : graticule.labels) {
     const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());

@@ -17,6 +17,7 @@ struct PanelStatus {
   std::string tiles;        ///< empty when none is loading
   std::string frame;        ///< frame time
   std::string message;      ///< of the last action, for some seconds; may be empty
+  std::string job;          ///< what is being done and how far it is; may be empty
   std::string measure;      ///< what is being measured; may be empty
   std::string attribution;  ///< of what is on screen; may be empty
   std::optional<ScaleBar> scale;

@@ -33,8 +33,9 @@ void load_font(float scale) {
 }
 
 void set_style(float scale) {
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  ImGui::StyleColorsDark();
   style.WindowRounding = 7.0F;
   style.WindowBorderSize = 0.0F;
   style.WindowPadding = ImVec2(12.0F, 7.0F);
@@ -43,6 +44,14 @@ void set_style(float scale) {
   style.Colors[ImGuiCol_Text] = ImVec4(0.91F, 0.94F, 0.97F, 1.0F);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62F, 0.70F, 0.78F, 1.0F);
   style.ScaleAllSizes(scale);
+}
+
+// Where the window's units are larger than pixels the font is made at pixel size and shown at unit size.
+void fit_to(const Window& window) {
+  const float unit_px = static_cast<float>(window.pixels_per_unit().x);
+  load_font(window.text_scale());
+  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
+  set_style(window.text_scale() / unit_px);
 }
 
 bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
@@ -54,11 +63,7 @@ Ui::Ui(const Window& window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
-  // Where the window's units are larger than pixels the font is made at pixel size and shown at unit size.
-  const float unit_px = static_cast<float>(window.pixels_per_unit().x);
-  load_font(window.text_scale());
-  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
-  set_style(window.text_scale() / unit_px);
+  fit_to(window);
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
@@ -88,6 +93,14 @@ void Ui::take_events(bool on) {
   int& flags = ImGui::GetIO().ConfigFlags;
   flags = on ? ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NavEnableKeyboard
              : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
+}
+
+void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(ImGui::GetIO().NavActive ? nullptr : title); }
+
+void Ui::rescale(const Window& window) {
+  ImGui::GetIO().Fonts->Clear();
+  fit_to(window);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew at the next frame's begin
 }
 
 bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {

@@ -20,6 +20,10 @@ class Ui {
   void end_frame();
   /// Whether mouse and keyboard work in panels.
   void take_events(bool on);
+  /// The keyboard goes from the globe to the panel with this title, or from whichever panel has it to the globe.
+  static void pass_keyboard(const char* title);
+  /// Text and panels for the window's scale, which has changed. Not within a frame.
+  static void rescale(const Window& window);
   /// A field is about to open, or is open: what is written meanwhile is for it, from now on and not only when it has
   /// the keyboard.
   void expect_text(bool on);

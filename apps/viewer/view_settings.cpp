@@ -2,7 +2,6 @@
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -10,38 +9,14 @@
 #include <cstddef>
 #include <ctime>
 
+#include "apps/viewer/panel_items.h"
+
 namespace terrella {
 namespace {
 
-constexpr float kWidth = 23.0F;     // of the text's height
-constexpr float kTipWidth = 26.0F;  // of the text's height
+constexpr float kWidth = 23.0F;  // of the text's height
 constexpr double kDeepest_km = 6000.0, kShallowest_km = 150.0;
 constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours{12}};
-
-/// Shown while the item before is under the cursor, or has the keyboard and a key has moved that on.
-void tip(const char* text) {
-  const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
-  if (!ImGui::IsItemHovered() && !chosen) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
-  ImGui::TextUnformatted(text);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-template <class Choice, std::size_t kCount>
-void choose(const char* name, Choice& choice, const std::array<const char*, kCount>& words) {
-  int index = static_cast<int>(choice);
-  if (ImGui::Combo(name, &index, words.data(), static_cast<int>(kCount))) choice = static_cast<Choice>(index);
-}
-
-void slide(const char* name, double& value, double from, double to, const char* format,
-           ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp) {
-  auto shown = static_cast<float>(value);
-  if (ImGui::SliderFloat(name, &shown, static_cast<float>(from), static_cast<float>(to), format, flags)) {
-    value = static_cast<double>(shown);
-  }
-}
 
 void draw_surface(SurfaceLook& surface) {
   slide("Opacity", surface.alpha, 0.0, 1.0, "%.2f");
@@ -102,7 +77,8 @@ void draw_time(ViewSettings& settings) {
   if (settings.written != settings.time) set_time(settings, settings.time);
   std::array<char, 40> text{};
   settings.time_text.copy(text.data(), text.size() - 1);
-  if (ImGui::InputText("Time", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+  if (ImGui::InputTextWithHint("Time", "as 2026-06-21T12:00Z", text.data(), text.size(),
+                               ImGuiInputTextFlags_EnterReturnsTrue)) {
     settings.time_text = text.data();
     const Result<UtcTime> time = parse_utc(settings.time_text);
     if (time) set_time(settings, *time);
@@ -136,6 +112,20 @@ void draw_stereo(StereoLook& stereo) {
   tip("More makes the relief of the scene deeper, and too much cannot be looked at.");
 }
 
+ViewAsk draw_view_buttons() {
+  ViewAsk ask = ViewAsk::none;
+  const auto button = [&ask](const char* name, ViewAsk what, const char* why) {
+    if (ImGui::Button(name)) ask = what;
+    tip(why);
+    ImGui::SameLine();
+  };
+  button("Layers", ViewAsk::layers, "L: what lies on the globe, to be shown, faded, sorted and removed.");
+  button("Picture", ViewAsk::picture, "I: saves a picture of any size.");
+  button("Keys", ViewAsk::help, "F1: what mouse and keys do.");
+  ImGui::NewLine();
+  return ask;
+}
+
 }  // namespace
 
 std::string time_field(std::optional<UtcTime> time) {
@@ -143,35 +133,36 @@ std::string time_field(std::optional<UtcTime> time) {
   return fmt::format("{:%Y-%m-%dT%H:%MZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(*time)));
 }
 
-void draw_view_settings(ViewSettings& settings, bool just_opened) {
+ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.8F * unit, 0.8F * unit});
-  ImGui::SetNextWindowSize({kWidth * unit, std::min(size.y - 5.0F * unit, 33.0F * unit)});
+  ImGui::SetNextWindowSize({kWidth * unit, 0.0F});
+  ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - 5.0F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin("View", nullptr,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Begin("View", nullptr, kPanelWindow);
   ImGui::PushItemWidth(0.5F * kWidth * unit);
+  const ViewAsk ask = draw_view_buttons();
+  group("Surface");
   draw_surface(settings.surface);
-  ImGui::Separator();
-  draw_from_below(settings);
+  if (settings.has_relief) {
+    slide("Exaggeration", settings.exaggeration, 0.0, 30.0, "%.1f times");
+    tip("How many times as high the ground's heights are drawn.");
+  }
   if (settings.has_sky) {
-    ImGui::Separator();
+    group("Sky and time");
     ImGui::Checkbox("Sky", &settings.sky);
     tip("B: stars, Sun, Moon and the air around the globe.");
     if (settings.sky) draw_time(settings);
   }
-  ImGui::Separator();
+  group("Under the ground");
+  draw_from_below(settings);
+  group("For two eyes");
   draw_stereo(settings.stereo);
-  if (settings.has_relief) {
-    ImGui::Separator();
-    slide("Exaggeration", settings.exaggeration, 0.0, 30.0, "%.1f times");
-    tip("How many times as high the ground's heights are drawn.");
-  }
   ImGui::PopItemWidth();
   ImGui::End();
+  return ask;
 }
 
 }  // namespace terrella

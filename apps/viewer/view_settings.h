@@ -26,8 +26,11 @@ struct ViewSettings {
 /// The time as its field has it; empty without one. thread: any
 [[nodiscard]] std::string time_field(std::optional<UtcTime> time);
 
+/// Another panel that is asked for.
+enum class ViewAsk { none, layers, picture, help };
+
 /// The panel, beside the left edge, with a word on each of its parts; between Ui::begin_frame() and Ui::end_frame().
 /// `just_opened` gives it the keyboard. Changes `settings` as the person does. thread: main
-void draw_view_settings(ViewSettings& settings, bool just_opened);
+ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened);
 
 }  // namespace terrella

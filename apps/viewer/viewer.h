@@ -2,12 +2,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "apps/scene_options.h"
 #include "apps/viewer/bookmarks.h"
+#include "apps/viewer/dropped_files.h"
 #include "apps/viewer/gazetteer.h"
 #include "apps/viewer/input.h"
+#include "apps/viewer/kept_settings.h"
+#include "apps/viewer/layer_panel.h"
 #include "apps/viewer/measure_tool.h"
 #include "apps/viewer/panels.h"
+#include "apps/viewer/picture_job.h"
+#include "apps/viewer/picture_panel.h"
 #include "apps/viewer/place_search.h"
 #include "apps/viewer/ui.h"
 #include "apps/viewer/view_settings.h"
@@ -19,7 +26,14 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;  ///< a line on standard output each time the camera comes to rest
+  bool print_camera = false;                    ///< a line on standard output each time the camera comes to rest
+  std::vector<LayerRow> layers = {};            ///< of the globe: heights, imagery as it lies, objects
+  std::optional<ElevationSource> heights = {};  ///< of the globe
+  SceneOptions files = {};                      ///< how files that are dropped are opened
+  KeptSettings kept = {};                       ///< as in the file
+  KeptSettings start = {};                      ///< with what the command line says instead
+  bool first_run = false;                       ///< a hint is shown
+  std::string message = {};                     ///< to begin with; may be empty
 };
 
 /// The window's life: events in, frames out. Draws only when something changed, moves or is still loading; otherwise it
@@ -35,6 +49,9 @@ class Viewer {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void begin_as_kept();
+  [[nodiscard]] KeptSettings now_kept() const;
+  void keep_settings();
   void wait_for_work();
   [[nodiscard]] bool work() const;
   void act(ViewerAction action);
@@ -42,7 +59,25 @@ class Viewer {
   void next_stereo();
   void toggle_underground();
   [[nodiscard]] double deepest_m() const;
+  bool leave_something();
   void toggle_panel();
+  void show_panels();
+  [[nodiscard]] bool any_panel() const;
+  void toggle_layers();
+  void draw_layer_panel();
+  void take_look(LayerRow& row, const ImageLook& look);
+  Status use_heights(const std::optional<ElevationSource>& heights);
+  void move_layer(std::size_t row, bool up);
+  void remove_layer(std::size_t row);
+  void look_at(const GeoRect& bounds);
+  void take_dropped();
+  void add_layer(OpenedFile file);
+  void insert_row(LayerRow row);
+  void toggle_picture_panel();
+  void draw_picture_panel();
+  void start_picture(Viewport size);
+  void end_picture(std::string message);
+  void draw_picture(Viewport framebuffer);
   void toggle_measuring();
   void measure_at(glm::dvec2 px);
   void draw_measure();
@@ -57,6 +92,8 @@ class Viewer {
   void draw_panels(Viewport framebuffer);
   void save_screenshot(Viewport framebuffer);
   void say(std::string message);
+  void say_too(const std::string& problem);
+  void say(std::string message, Clock::duration time);
   void print_camera_at_rest();
   [[nodiscard]] PanelStatus status(const View& view) const;
 
@@ -81,6 +118,17 @@ class Viewer {
   MeasureTool measure_;
   std::optional<LayerId> measure_layer_;
   Bookmarks bookmarks_;
+  std::vector<LayerRow> layers_;
+  bool layers_shown_ = false;
+  bool layers_opened_ = false;  ///< since the last frame
+  DroppedFiles dropped_;
+  std::string problems_;      ///< of files that were dropped one after the other
+  std::string dropped_text_;  ///< as last drawn
+  bool picture_panel_shown_ = false;
+  PicturePanel picture_panel_;
+  std::unique_ptr<PictureJob> picture_job_;
+  KeptSettings started_;  ///< as the run began
+  KeptSettings saved_;    ///< as in the file
   bool searching_ = false;
   std::optional<Gazetteer> places_;  ///< read when first searched
   PlaceSearch search_;

@@ -83,6 +83,13 @@ void Window::toggle_full_screen() {
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+Viewport Window::windowed() const {
+  if (glfwGetWindowMonitor(window_) != nullptr) return {windowed_.width, windowed_.height};
+  Viewport size{0, 0};
+  glfwGetWindowSize(window_, &size.width_px, &size.height_px);
+  return size;
+}
+
 Viewport Window::framebuffer() const {
   Viewport size{0, 0};
   glfwGetFramebufferSize(window_, &size.width_px, &size.height_px);

@@ -24,6 +24,8 @@ class Window {
 
   void show();
   void toggle_full_screen();
+  /// Its size, in its own coordinates, when it does not fill the screen.
+  [[nodiscard]] Viewport windowed() const;
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
   /// Pixels of the framebuffer; 0 × 0 while the window is minimised.
   [[nodiscard]] Viewport framebuffer() const;

@@ -14,6 +14,7 @@ from pathlib import Path
 from ellipsoid_camera import Camera
 
 PROGRAM = os.environ.get("TERRELLA", "terrella")
+DROP_FILES = os.environ.get("DROP_FILES", "drop_files")
 ARTEFACTS = Path(os.environ.get("WINDOW_ARTEFACTS", "window-artefacts"))
 SIZE = (640, 480)
 PATIENCE_S = 60.0  # software GL on a loaded machine
@@ -32,10 +33,10 @@ def wait_until(what, condition, seconds=PATIENCE_S):
 class Display:
     """An X server on the first free display, without a window manager."""
 
-    def __init__(self):
+    def __init__(self, size="800x600"):
         read_end, write_end = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "800x600x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{size}x24", "-nolisten", "tcp", "-noreset"],
             pass_fds=[write_end],
             stderr=subprocess.DEVNULL,
         )
@@ -54,9 +55,11 @@ class Display:
 class Viewer:
     """The program in a window; what it prints of its camera."""
 
-    def __init__(self, display, folder, *options):
+    def __init__(self, display, folder, *options, size=SIZE):
         self.environment = display.environment
-        command = [PROGRAM, "view", "--size", f"{SIZE[0]}x{SIZE[1]}", "--print-camera", *options]
+        self.size = size or SIZE
+        sized = ["--size", f"{size[0]}x{size[1]}"] if size else []
+        command = [PROGRAM, "view", *sized, "--print-camera", *options]
         self.program = subprocess.Popen(
             command, cwd=folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
@@ -83,10 +86,10 @@ class Viewer:
 
     def next_camera(self):
         """Waits for the camera to come to rest somewhere else, and for good."""
-        self.camera = Camera(self.lines.get(timeout=PATIENCE_S), SIZE)
+        self.camera = Camera(self.lines.get(timeout=PATIENCE_S), self.size)
         while True:
             try:
-                self.camera = Camera(self.lines.get(timeout=0.5), SIZE)
+                self.camera = Camera(self.lines.get(timeout=0.5), self.size)
             except queue.Empty:
                 return self.camera
 
@@ -125,6 +128,13 @@ class Viewer:
     def key(self, name):
         self.xdotool("key", name)
 
+    def drop(self, *files):
+        done = subprocess.run(
+            [DROP_FILES, self.window, *map(str, files)], env=self.environment, capture_output=True, text=True, timeout=90
+        )
+        if done.returncode != 0:
+            raise RuntimeError(f"dropping {files}: {done.stderr}")
+
     def geometry(self):
         text = self.xdotool("getwindowgeometry", "--shell", self.window)
         values = dict(re.findall(r"(\w+)=(-?\d+)", text))
@@ -146,15 +156,23 @@ class WindowTest(unittest.TestCase):
     def setUpClass(cls):
         cls.display = Display()
         cls.addClassCleanup(cls.display.close)
-        settings = tempfile.TemporaryDirectory(prefix="terrella-settings-")
-        cls.addClassCleanup(settings.cleanup)
-        cls.display.environment["XDG_CONFIG_HOME"] = settings.name
 
-    def start(self, *options):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory(prefix="terrella-kept-")
+        self.addCleanup(kept.cleanup)
+        self.kept = Path(kept.name)
+        for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+            self.display.environment[name] = kept.name
+        # No hint over the pictures: what is kept is there, and empty.
+        self.settings = self.kept / "terrella" / "settings.json"
+        self.settings.parent.mkdir()
+        self.settings.write_text("{}", encoding="ascii")
         self.folder = ARTEFACTS / self.id().split(".")[-1]
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
-        viewer = Viewer(self.display, self.folder, *options)
+
+    def start(self, *options, size=SIZE):
+        viewer = Viewer(self.display, self.folder, *options, size=size)
         self.addCleanup(viewer.close)
         return viewer
 

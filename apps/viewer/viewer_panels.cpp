@@ -1,0 +1,130 @@
+#include "apps/viewer/viewer.h"
+
+#include <epoxy/gl.h>
+// epoxy before GLFW, which otherwise brings its own gl.h
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "apps/viewer/screenshot.h"
+#include "scene/stereo.h"
+
+namespace terrella {
+namespace {
+
+constexpr int kPanelFrames = 3;  // a panel shows an event one frame later
+constexpr double kFoot = 3.4;    // of the text's height, that the panels below take
+
+bool same(const SurfaceLook& a, const SurfaceLook& b) {
+  return a.alpha == b.alpha && a.blend == b.blend && a.inner_sphere_below_m == b.inner_sphere_below_m &&
+         a.from_below == b.from_below && a.horizon_culling == b.horizon_culling;
+}
+
+bool same(const StereoLook& a, const StereoLook& b) {
+  return a.mode == b.mode && a.eye_separation_m == b.eye_separation_m;
+}
+
+}  // namespace
+
+void Viewer::toggle_panel() {
+  panel_ = !panel_;
+  show_panels();
+  panel_opened_ = panel_;
+  const GlobeOptions& options = globe_.options();
+  settings_.has_sky = options.sky;
+  settings_.has_relief = globe_.has_relief();
+  settings_.exaggeration = options.exaggeration;
+}
+
+// What keys have changed since is in the globe.
+void Viewer::draw_settings() {
+  const GlobeOptions& options = globe_.options();
+  settings_.surface = options.surface;
+  settings_.stereo = options.stereo;
+  settings_.sky = sky_;
+  settings_.under_ground = above_.has_value();
+  const std::optional<UtcTime> time = settings_.time = options.time;
+  const ViewAsk ask = draw_view_settings(settings_, std::exchange(panel_opened_, false));
+  if (ask == ViewAsk::layers) toggle_layers();
+  if (ask == ViewAsk::picture) toggle_picture_panel();
+  if (ask == ViewAsk::help) help_ = !help_;
+  // What is set makes another frame, changed or not.
+  if (!same(settings_.surface, options.surface)) globe_.set_surface(settings_.surface);
+  if (!same(settings_.stereo, options.stereo)) globe_.set_stereo(settings_.stereo);
+  if (settings_.sky != sky_) globe_.set_sky(sky_ = settings_.sky);
+  if (settings_.under_ground != above_.has_value()) toggle_underground();
+  if (settings_.exaggeration != options.exaggeration) globe_.set_exaggeration(settings_.exaggeration);
+  if (settings_.time == time) return;
+  const Status set = globe_.set_time(settings_.time);
+  settings_.time_problem = set ? "" : set.error().message;
+}
+
+void Viewer::show_panels() {
+  ui_.take_events(any_panel());
+  panel_frames_ = kPanelFrames;
+}
+
+bool Viewer::any_panel() const { return panel_ || searching_ || layers_shown_ || picture_panel_shown_; }
+
+void Viewer::toggle_picture_panel() {
+  picture_panel_shown_ = !picture_panel_shown_;
+  picture_panel_.just_opened = picture_panel_shown_;
+  show_panels();
+}
+
+void Viewer::draw_picture_panel() {
+  const PictureAsk ask = terrella::draw_picture_panel(picture_panel_, window_.framebuffer(), largest_picture_side_px());
+  if (ask == PictureAsk::none) return;
+  toggle_picture_panel();
+  if (ask == PictureAsk::save) start_picture({picture_panel_.width_px, picture_panel_.height_px});
+}
+
+void Viewer::start_picture(Viewport size) {
+  std::error_code unknown;
+  const auto file = screenshot_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
+  auto job = PictureJob::start(globe_, file, size);
+  if (!job) return say(job.error().message);
+  picture_job_ = *std::move(job);
+}
+
+// The globe was drawn at another size since.
+void Viewer::end_picture(std::string message) {
+  picture_job_.reset();
+  picture_.reset();
+  say(std::move(message));
+}
+
+void Viewer::draw_picture(Viewport framebuffer) {
+  globe_.set_camera(navigator_.camera());
+  picture_job_->draw(globe_, framebuffer);
+  const auto result = picture_job_->result();
+  if (!result) return;
+  const std::string name = picture_job_->file().filename().string();
+  end_picture(*result ? "Saved " + name : result->error().message);
+}
+
+// Each eye's own lines; the rows of interlaced pictures are too few for two.
+void Viewer::draw_graticules(const View& view) {
+  const Ellipsoid& body = globe_.options().body.ellipsoid;
+  const double unit_px = window_.pixels_per_unit().x, text_px = Ui::text_height() * unit_px;
+  const LabelSize label{.character_px = 0.62 * text_px, .line_px = 1.2 * text_px, .foot_px = kFoot * text_px};
+  const StereoLook& stereo = globe_.options().stereo;
+  if (stereo.mode == Stereo::off || stereo.mode == Stereo::interlaced) {
+    return draw_graticule(make_graticule(view, body, label), {.size = view.viewport}, unit_px);
+  }
+  const bool halves = stereo.mode == Stereo::side_by_side;
+  Viewport size = view.viewport;
+  if (halves) size.width_px = std::max(1, size.width_px / 2);
+  const EyePair eyes = stereo_eyes(globe_.view(size), body, stereo);
+  GraticulePart left{.size = size}, right{.left_px = halves ? size.width_px : 0, .size = size};
+  if (!halves) left.tint = {1.0F, 0.0F, 0.0F};
+  if (!halves) right.tint = {0.0F, 1.0F, 1.0F};
+  draw_graticule(make_graticule(eyes.left, body, label), left, unit_px);
+  draw_graticule(make_graticule(eyes.right, body, label), right, unit_px);
+}
+
+}  // namespace terrella

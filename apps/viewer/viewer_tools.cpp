@@ -1,0 +1,102 @@
+#include "apps/viewer/viewer.h"
+
+#include <epoxy/gl.h>
+// epoxy before GLFW, which otherwise brings its own gl.h
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "apps/data_dir.h"
+
+namespace terrella {
+namespace {
+
+constexpr double kPlaceHeight = 0.05;  // in radii, over a place that was found
+
+// Without the list of places the globe is there all the same.
+Gazetteer load_places() {
+  try {
+    Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
+    if (places) return *std::move(places);
+  } catch (const BrokenInstallation&) {
+  }
+  return {};
+}
+
+}  // namespace
+
+// What was measured goes when measuring ends.
+void Viewer::toggle_measuring() {
+  measuring_ = !measuring_;
+  input_.set_double_clicks(!measuring_);
+  measure_.clear();
+  draw_measure();
+}
+
+void Viewer::measure_at(glm::dvec2 px) {
+  auto place = pick(globe_.view(window_.framebuffer()), globe_.ground(), px);
+  if (!place) return say("There is no ground to measure from");
+  if (!globe_.has_relief()) place->height_m = 0.0;  // what rounding leaves would be under the ground
+  measure_.add(*place);
+  draw_measure();
+}
+
+void Viewer::draw_measure() {
+  ObjectScene scene = measure_.scene(globe_.options().body.ellipsoid, window_.text_scale());
+  Status drawn = Done{};
+  if (measure_layer_) {
+    drawn = globe_.set_objects(*measure_layer_, std::move(scene));
+  } else if (!scene.empty()) {
+    const Result<LayerId> layer = globe_.add_objects(std::move(scene));
+    if (layer) measure_layer_ = *layer;
+    if (!layer) drawn = layer.error();
+  }
+  if (!drawn) say(drawn.error().message);
+}
+
+// The file is read anew each time: another window may have set one. A damaged one is left as it is.
+void Viewer::use(const BookmarkKey& key) {
+  const auto file = bookmarks_file();
+  if (file) {
+    Result<Bookmarks> kept = Bookmarks::load(*file);
+    if (!kept) return say(kept.error().message);
+    bookmarks_ = *std::move(kept);
+  }
+  const std::optional<Camera>& there = bookmarks_.at(key.number);
+  if (!key.set && !there) return say(fmt::format("No bookmark {0} yet; Ctrl + {0} sets it", key.number));
+  if (!key.set) return navigator_.fly_to(*there, Input::now());
+  bookmarks_.set(key.number, navigator_.camera());
+  const Status saved = file ? bookmarks_.save(*file) : Status(Error{"Kept until the window closes: HOME is not set"});
+  say(saved ? fmt::format("Bookmark {}", key.number) : saved.error().message);
+}
+
+const Gazetteer& Viewer::places() {
+  if (!places_) places_ = load_places();
+  return *places_;
+}
+
+void Viewer::toggle_search() {
+  searching_ = !searching_ && places().size() > 0;
+  if (places().size() == 0) say("The program was installed without its list of places");
+  if (!searching_) ui_.expect_text(false);
+  search_ = {.text = {}, .just_opened = searching_};
+  show_panels();
+}
+
+void Viewer::draw_search() {
+  const auto chosen = draw_place_search(search_, places());
+  if (!chosen) return;
+  toggle_search();
+  Camera camera = navigator_.camera();
+  camera.eye = chosen->place;
+  camera.eye.height_m = kPlaceHeight * globe_.options().body.ellipsoid.a_m();
+  camera.heading = Angle{};
+  camera.pitch = Angle::degrees(-90.0);
+  navigator_.fly_to(camera, Input::now());
+  say(chosen->country.empty() ? chosen->name : chosen->name + ", " + chosen->country);
+}
+
+}  // namespace terrella

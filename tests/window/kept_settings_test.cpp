@@ -1,0 +1,83 @@
+#include "apps/viewer/kept_settings.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace terrella {
+namespace {
+
+class KeptSettingsFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "terrella-settings-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+    file = folder / "terrella" / "settings.json";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+  void write(const std::string& text) const {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+  static std::string text_of(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::filesystem::path folder, file;
+};
+
+TEST_F(KeptSettingsFile, WhatWasSavedIsLoaded) {
+  EXPECT_TRUE(load_settings(file).first_run);
+  const KeptSettings settings{.width_px = 900,
+                              .height_px = 700,
+                              .panel = true,
+                              .layers = true,
+                              .graticule = true,
+                              .sky = false,
+                              .opacity = 0.4,
+                              .exaggeration = 12.5,
+                              .stereo = Stereo::anaglyph};
+  ASSERT_TRUE(save_settings(file, settings));
+  const LoadedSettings loaded = load_settings(file);
+  EXPECT_EQ(loaded.settings, settings);
+  EXPECT_FALSE(loaded.first_run);
+  EXPECT_EQ(loaded.complaint, "");
+}
+
+TEST_F(KeptSettingsFile, WhatOthersHaveWrittenThereStays) {
+  write(R"({"graticule": true, "of_a_later_version": [1, 2]})");
+  ASSERT_TRUE(save_settings(file, load_settings(file).settings));
+  EXPECT_NE(text_of(file).find("of_a_later_version"), std::string::npos);
+  EXPECT_TRUE(load_settings(file).settings.graticule);
+}
+
+TEST_F(KeptSettingsFile, ADamagedFileIsToldOfAndKeptBesideIt) {
+  for (const std::string text :
+       {"{\"sky\": fal", "[1]", R"({"exaggeration": -3, "panel": true})", R"({"stereo": 7})"}) {
+    SCOPED_TRACE(text);
+    write(text);
+    const LoadedSettings loaded = load_settings(file);
+    EXPECT_NE(loaded.complaint.find(file.string()), std::string::npos) << loaded.complaint;
+    EXPECT_EQ(loaded.settings.exaggeration, 1.0);
+    EXPECT_EQ(text_of(file.string() + ".damaged"), text);
+  }
+}
+
+TEST_F(KeptSettingsFile, ValuesOfTheCommandLineAreForOneRun) {
+  const KeptSettings kept{.opacity = 0.5, .exaggeration = 3.0};
+  KeptSettings start = kept;
+  start.opacity = 1.0;  // as the command line says
+  KeptSettings now = start;
+  now.exaggeration = 7.0;  // as the person has set it
+  const KeptSettings after = changed_since(kept, start, now);
+  EXPECT_EQ(after.opacity, 0.5);
+  EXPECT_EQ(after.exaggeration, 7.0);
+}
+
+}  // namespace
+}  // namespace terrella

@@ -1,0 +1,183 @@
+"""Panels by real mouse and keyboard: layers, what is dropped, pictures of any size, what is kept."""
+
+import json
+import struct
+import subprocess
+import time
+import unittest
+import zlib
+
+import png
+from real_window import PROGRAM, SIZE, Display, Viewer, WindowTest, wait_until
+
+PLACES = {
+    "type": "FeatureCollection",
+    "features": [
+        {
+            "type": "Feature",
+            "properties": {"marker-color": "#ff00ff", "marker-size": "large"},
+            "geometry": {"type": "Point", "coordinates": [lon, 46]},
+        }
+        for lon in (6, 8, 10)
+    ],
+}
+
+
+def write_png(path, width, height, pixel, depth=8, kind=2):
+    """A picture of one colour, or of one grey (kind 0)."""
+
+    def chunk(name, body):
+        return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
+
+    rows = zlib.compress((b"\0" + bytes(pixel) * width) * height)
+    header = struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b""))
+
+
+class Panels(WindowTest):
+    def test_the_exaggeration_slider_and_the_time_by_mouse_and_keyboard(self):
+        heights = self.kept / "heights.png"
+        viewer = self.start("--camera", "20,10,12000000", "--elevation", str(self.relief(heights)))
+        viewer.key("p")
+        plain = png.read(self.screenshot(viewer, "panel"))
+        viewer.drag((40, 210), (150, 210))
+        kept = wait_until("the slider", lambda: self.kept_value("exaggeration") != 1.0 and self.kept_value("exaggeration"))
+        self.assertGreater(kept, 3.0)
+        self.screenshot(viewer, "slid")
+        self.assertTrue(viewer.camera_stays(0.5), "the drag was the panel's")
+        viewer.click(100, 292)
+        viewer.xdotool("type", "--delay", "40", "2026-06-21T00:00Z")
+        viewer.key("Return")
+        night = png.read(self.screenshot(viewer, "midnight"))
+        ground = (SIZE[0] - 120, SIZE[1] // 2)
+        self.assertLess(sum(png.pixel(night, *ground)), 0.5 * sum(png.pixel(plain, *ground)), "10° E sleeps at midnight")
+
+    def relief(self, picture):
+        """Heights of the whole planet, all 3000 m."""
+        write_png(picture, 512, 256, struct.pack(">H", 3000), depth=16, kind=0)
+        tiles = picture.with_suffix(".gpkg")
+        subprocess.run([PROGRAM, "cut", str(picture), "-o", str(tiles), "--elevation"], check=True, capture_output=True)
+        return tiles
+
+    def kept_value(self, name):
+        return json.loads(self.settings.read_text(encoding="utf-8")).get(name)
+
+    def test_a_dropped_picture_is_a_layer_that_fades_and_goes(self):
+        picture = self.folder / "red.png"
+        write_png(picture, 512, 256, (255, 0, 0))
+        viewer = self.start("--camera", "20,10,12000000", "--unlit")
+        ground = (SIZE[0] // 2 - 100, SIZE[1] // 2)
+        before = png.pixel(png.read(self.screenshot(viewer, "before")), *ground)
+        viewer.drop(picture)
+        wait_until("the picture", lambda: png.pixel(png.read(self.screenshot(viewer, "dropped")), *ground)[0] > 240)
+        viewer.key("l")
+        time.sleep(1.0)
+        viewer.click(385, 118)  # what is in the row opens
+        time.sleep(1.0)
+        self.screenshot(viewer, "row")
+        viewer.drag((480, 144), (380, 144))
+        faded = png.pixel(png.read(self.screenshot(viewer, "faded")), *ground)
+        self.assertLess(faded[0], 240)
+        self.assertTrue(viewer.camera_stays(0.3), "the drag was the panel's")
+        viewer.click(335, 118)  # the row's check mark
+        hidden = png.pixel(png.read(self.screenshot(viewer, "hidden")), *ground)
+        self.assertLess(max(abs(a - b) for a, b in zip(hidden, before)), 8)
+
+    def test_dropped_places_are_flown_to(self):
+        places = self.folder / "places.geojson"
+        places.write_text(json.dumps(PLACES), encoding="ascii")
+        viewer = self.start("--camera", "-40,170,9000000")
+        viewer.drop(places)
+        there = viewer.next_camera()
+        self.assertAlmostEqual(there.lat, 46.0, delta=0.1)
+        self.assertAlmostEqual(there.lon, 8.0, delta=0.1)
+        red, green, blue = png.pixel(png.read(self.screenshot(viewer, "places")), SIZE[0] // 2, SIZE[1] // 2)
+        self.assertGreater(min(red, blue) - green, 100, "the marker in the middle")
+
+    def test_bad_files_are_told_of_and_lose_nothing(self):
+        bad = self.folder / "bad.png"
+        bad.write_bytes(b"no picture")
+        half = self.folder / "half.geojson"
+        half.write_text('{"type": "FeatureCo', encoding="ascii")
+        viewer = self.start("--camera", "20,10,12000000")
+        plain = png.read(self.screenshot(viewer, "plain"))
+        viewer.drop(bad, half, self.folder / "missing.gpkg")
+        time.sleep(2.0)
+        told = png.read(self.screenshot(viewer, "told"))
+        self.assertGreater(png.changed(plain, told), 3000, "the message")
+        self.assertIsNone(viewer.program.poll())
+        self.assertTrue(viewer.camera_stays(0.3))
+
+    def test_a_picture_larger_than_the_window(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        viewer.key("i")
+        time.sleep(1.0)
+        self.screenshot(viewer, "panel")
+        viewer.xdotool("key", "ctrl+a")
+        viewer.xdotool("type", "--delay", "60", "1500")
+        viewer.key("Tab")
+        viewer.xdotool("key", "ctrl+a")
+        viewer.xdotool("type", "--delay", "60", "1000")
+        viewer.key("Return")
+        time.sleep(0.5)
+        self.screenshot(viewer, "written")
+        viewer.click(192, 272)  # Save
+
+        def whole():
+            files = list(self.folder.glob("terrella-*.png"))
+            return files[0] if files and files[0].read_bytes().endswith(b"IEND\xaeB`\x82") else None
+
+        file = wait_until("the picture", whole)
+        self.assertEqual(struct.unpack(">II", file.read_bytes()[16:24]), (1500, 1000))
+        file.rename(self.folder / "large.png")
+        self.screenshot(viewer, "after")
+
+    def test_keys_go_to_the_globe_or_to_a_panel(self):
+        viewer = self.start("--camera", "20,10,3000000")
+        viewer.key("p")
+        time.sleep(0.5)
+        viewer.key("Up")
+        self.assertTrue(viewer.camera_stays(), "the panel has the keyboard")
+        viewer.key("F6")
+        time.sleep(0.5)
+        viewer.key("Up")
+        self.assertGreater(viewer.next_camera().lat, 20.5)
+        before = viewer.camera
+        viewer.key("shift+Right")
+        turned = viewer.next_camera()
+        self.assertGreater(abs(turned.heading - before.heading), 2.0)
+        viewer.key("Prior")
+        self.assertLess(viewer.next_camera().height_m, 2.5e6)
+
+    def test_text_is_twice_as_large_on_a_screen_of_192_dots_per_inch(self):
+        display = Display()
+        self.addCleanup(display.close)
+        display.environment.update(self.display.environment | {"DISPLAY": display.environment["DISPLAY"]})
+        subprocess.run(
+            ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"],
+            env=display.environment,
+            check=True,
+        )
+        viewer = Viewer(display, self.folder, "--camera", "20,10,12000000")
+        self.addCleanup(viewer.close)
+        viewer.key("F1")
+        self.screenshot(viewer, "large_help")
+        viewer.key("F1")
+        viewer.key("p")
+        large = png.read(self.screenshot(viewer, "large_panel"))
+        ordinary = self.start("--camera", "20,10,12000000")
+        ordinary.key("p")
+        small = png.read(self.screenshot(ordinary, "panel"))
+
+        def panel_width(picture):
+            """From the left edge to where the title's blue ends."""
+            row = picture[2][small_title if picture is small else 2 * small_title]
+            blue = [x for x in range(SIZE[0]) if row[3 * x + 2] > row[3 * x] + 40]
+            return blue[-1]
+
+        small_title = 22
+        self.assertGreater(panel_width(large), 1.5 * panel_width(small))
+
+
+if __name__ == "__main__":
+    unittest.main()
