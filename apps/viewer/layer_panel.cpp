@@ -65,7 +65,7 @@ LayerAsk draw_row(LayerRow& row) {
   tip("Shows or hides the layer.");
   ImGui::SameLine();
   const bool open = ImGui::TreeNodeEx(row.name.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
-  tip((row.name + " (" + word_of(row.kind) + "): opens what can be done with it.").c_str());
+  if (!open) tip((row.name + " (" + word_of(row.kind) + "): opens what can be done with it.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind == LayerKind::imagery) draw_look(row);
   const LayerAsk ask = draw_buttons(row);

@@ -3,13 +3,18 @@
 namespace terrella {
 namespace {
 
-constexpr float kTipWidth = 26.0F;  // of the text's height
+constexpr float kTipWidth = 18.0F;  // of the text's height
 
 }  // namespace
 
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
+  // Beside the panel: over it, it would hide what comes next.
+  const ImVec2 panel = ImGui::GetWindowPos();
+  const bool left = panel.x + 0.5F * ImGui::GetWindowWidth() < 0.5F * ImGui::GetIO().DisplaySize.x;
+  const float side = left ? panel.x + ImGui::GetWindowWidth() : panel.x;
+  ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::TextUnformatted(text);

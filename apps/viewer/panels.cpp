@@ -152,20 +152,25 @@ void draw_status(const PanelStatus& status, double unit_px) {
 }
 
 void draw_help() {
-  ImVec2 size = ImGui::GetIO().DisplaySize;
-  size.y -= (kFootOfMessage + 2.2F) * ImGui::GetFontSize();  // the message keeps its place
-  const float room = (size.y - 3.0F * ImGui::GetStyle().WindowPadding.y) / float(std::size(kHelp));
-  const float line = std::clamp(room, ImGui::GetFontSize(), 1.45F * ImGui::GetFontSize());
+  constexpr float kAiry = 1.45F, kRoomForHelp = 0.94F;
+  const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
+  const float rows = float(std::size(kHelp));
   float keys = 0.0F, whats = 0.0F;
   for (const auto& [key, what] : kHelp) {
     keys = std::max(keys, ImGui::CalcTextSize(key).x);
     whats = std::max(whats, ImGui::CalcTextSize(what).x);
   }
-  const float second = keys + 1.8F * ImGui::GetFontSize();
+  const float gap = 1.8F * ImGui::GetFontSize();
+  const ImVec2 room{kRoomForHelp * size.x - 2.0F * padding.x, kRoomForHelp * size.y - 2.0F * padding.y};
+  // In a small window all of it, in small letters.
+  const float scale = std::min({1.0F, room.x / (keys + gap + whats), room.y / (rows * ImGui::GetFontSize())});
+  const float text = scale * ImGui::GetFontSize(), second = scale * (keys + gap);
+  const float line = std::clamp(room.y / rows, text, kAiry * text);
   ImGui::SetNextWindowBgAlpha(0.9F);
-  begin_panel("##help", {0.5F * size.x, 0.5F * size.y}, {0.5F, 0.5F}, {second + whats, line * float(std::size(kHelp))});
+  begin_panel("##help", {0.5F * size.x, 0.5F * size.y}, {0.5F, 0.5F}, {second + scale * whats, line * rows});
+  ImGui::SetWindowFontScale(scale);
   ImVec2 at = ImGui::GetCursorPos();
-  at.y += 0.5F * (line - ImGui::GetFontSize());
+  at.y += 0.5F * (line - text);
   for (const auto& [key, what] : kHelp) {
     ImGui::SetCursorPos(at);
     draw_text({key});

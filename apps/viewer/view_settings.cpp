@@ -20,7 +20,6 @@ constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 /
 
 void draw_surface(SurfaceLook& surface) {
   slide("Opacity", surface.alpha, 0.0, 1.0, "%.2f");
-  ImGui::SetItemDefaultFocus();
   tip("How opaque the ground is; U goes through 1, 0.7 and 0.4. At 1 it is drawn once, below it twice, so that nothing "
       "of it shows through itself.");
   choose("Blend", surface.blend, std::array{"normal", "additive"});

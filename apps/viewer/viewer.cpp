@@ -141,7 +141,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
   dropped_text_ = dropped_.text();
   ui_.begin_frame();
   if (graticule_ && !picture_job_) draw_graticules(view);
-  draw_status(status(view), unit_px);
+  if (!help_) draw_status(status(view), unit_px);
   if (panel_) draw_settings();
   if (searching_) draw_search();
   if (layers_shown_) draw_layer_panel();

@@ -7,7 +7,7 @@ import unittest
 import png
 from real_window import WindowTest, wait_until
 
-WIDTH, HEIGHT = 900, 560
+WIDTH, HEIGHT = 780, 560
 ROUTE = {
     "type": "Feature",
     "properties": {"title": "From Rome", "stroke": "#ffff00", "stroke-width": 4},

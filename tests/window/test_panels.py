@@ -158,25 +158,25 @@ class Panels(WindowTest):
             env=display.environment,
             check=True,
         )
-        viewer = Viewer(display, self.folder, "--camera", "20,10,12000000")
+        viewer = Viewer(display, self.folder, "--camera", "20,10,90000000", size=(800, 600))
         self.addCleanup(viewer.close)
         viewer.key("F1")
+        time.sleep(0.5)
         self.screenshot(viewer, "large_help")
         viewer.key("F1")
         viewer.key("p")
         large = png.read(self.screenshot(viewer, "large_panel"))
-        ordinary = self.start("--camera", "20,10,12000000")
+        ordinary = self.start("--camera", "20,10,90000000", size=(800, 600))
         ordinary.key("p")
         small = png.read(self.screenshot(ordinary, "panel"))
 
-        def panel_width(picture):
-            """From the left edge to where the title's blue ends."""
-            row = picture[2][small_title if picture is small else 2 * small_title]
-            blue = [x for x in range(SIZE[0]) if row[3 * x + 2] > row[3 * x] + 40]
-            return blue[-1]
+        def title_end(picture, y):
+            """Where the blue of the panel's title ends, pixels from the left."""
+            row = picture[2][y]
+            return max(x for x in range(picture[0]) if row[3 * x + 2] > row[3 * x] + 40)
 
-        small_title = 22
-        self.assertGreater(panel_width(large), 1.5 * panel_width(small))
+        self.assertAlmostEqual(title_end(large, 44) / title_end(small, 22), 2.0, delta=0.1)
+
 
 
 if __name__ == "__main__":
