@@ -119,7 +119,8 @@ void Viewer::draw_frame(Viewport framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
   draw_panels(framebuffer);
-  if (std::exchange(screenshot_wanted_, false)) save_screenshot(framebuffer);
+  // A panel that has just been opened is not there yet.
+  if (panel_frames_ == 0 && std::exchange(screenshot_wanted_, false)) save_screenshot(framebuffer);
   glfwSwapBuffers(window_.handle());
   frame_time_ = Clock::now() - start;
 }
