@@ -67,7 +67,7 @@ LayerRow image_row(LayerId id, const std::string& tile_set, const ImageLook& loo
   return {.id = id, .name = name.empty() ? tile_set : name, .bounds = {}, .look = look};
 }
 
-/// In the order that add_image_layers() and add_objects() have made them.
+/// In the order that add_overlays(), add_image_layers() and add_objects() have made them.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
@@ -75,6 +75,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
         {.kind = LayerKind::heights, .name = std::filesystem::path(scene.elevation).filename().string(), .bounds = {}});
   }
   std::vector<std::string> names = {scene.tile_set.empty() ? first.name : scene.tile_set};
+  for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
   if (!scene.night.empty()) names.push_back(scene.night);
   if (!scene.clouds.empty()) names.push_back(scene.clouds);
   const std::vector<LayerId> ids = globe.imagery();

@@ -173,7 +173,7 @@ class Panels(WindowTest):
         def title_end(picture, y):
             """Where the blue of the panel's title ends, pixels from the left."""
             row = picture[2][y]
-            return max(x for x in range(picture[0]) if row[3 * x + 2] > row[3 * x] + 40)
+            return max(x for x in range(picture[0]) if row[3 * x + 2] > row[3 * x] + 60)
 
         self.assertAlmostEqual(title_end(large, 44) / title_end(small, 22), 2.0, delta=0.1)
 
