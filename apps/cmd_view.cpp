@@ -77,7 +77,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
   std::vector<std::string> names = {scene.tile_set.empty() ? first.name : scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
   if (!scene.night.empty()) names.push_back(scene.night);
-  if (!scene.clouds.empty()) names.push_back(scene.clouds);
+  if (!scene.clouds.tile_set.empty()) names.push_back(scene.clouds.tile_set);
   const std::vector<LayerId> ids = globe.imagery();
   for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
     const auto look = globe.look(ids[i]);

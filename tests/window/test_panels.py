@@ -166,8 +166,7 @@ class Panels(WindowTest):
         viewer.key("F1")
         viewer.key("p")
         large = png.read(self.screenshot(viewer, "large_panel"))
-        ordinary = self.start("--camera", "20,10,90000000", size=(800, 600))
-        ordinary.key("p")
+        ordinary = self.start("--camera", "20,10,90000000", size=(800, 600))  # the panel is open: it was left so
         small = png.read(self.screenshot(ordinary, "panel"))
 
         def title_end(picture, y):
