@@ -100,7 +100,7 @@ void Input::listen(std::optional<double> wait_s) {
 
 std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_, {}); }
 
-std::optional<glm::dvec2> Input::take_click() { return std::exchange(click_px_, {}); }
+std::vector<glm::dvec2> Input::take_clicks() { return std::exchange(clicks_px_, {}); }
 
 std::vector<std::filesystem::path> Input::take_dropped() { return std::exchange(dropped_, {}); }
 
@@ -170,7 +170,7 @@ void Input::on_button(int button, int action, int modifiers) {
   if (action == GLFW_RELEASE) {
     navigator_.pointer_up(which, now(), late_);
     const auto pressed = std::exchange(pressed_px_, {});
-    if (pressed && glm::distance(*pressed, at) <= slack_px) click_px_ = at;
+    if (pressed && glm::distance(*pressed, at) <= slack_px) clicks_px_.push_back(at);
     return;
   }
   const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;

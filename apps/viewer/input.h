@@ -65,7 +65,7 @@ class Input {
   /// What was asked for since the last call, in order.
   [[nodiscard]] std::vector<ViewerAction> take_actions();
   /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
-  [[nodiscard]] std::optional<glm::dvec2> take_click();
+  [[nodiscard]] std::vector<glm::dvec2> take_clicks();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< the last one since the last call
   /// Files and folders that were dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
@@ -97,7 +97,8 @@ class Input {
   bool double_clicks_ = true;
   std::optional<BookmarkKey> bookmark_;
   std::vector<std::filesystem::path> dropped_;
-  std::optional<glm::dvec2> pressed_px_, click_px_;
+  std::optional<glm::dvec2> pressed_px_;
+  std::vector<glm::dvec2> clicks_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;
   Seconds heard_until_;     ///< when the window's events were last heard

@@ -79,7 +79,9 @@ void Viewer::run() {
   while (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
     wait_for_work();
     for (const ViewerAction action : input_.take_actions()) act(action);
-    if (const auto click = input_.take_click(); click && measuring_) measure_at(*click);
+    for (const glm::dvec2 click : input_.take_clicks()) {
+      if (measuring_) measure_at(click);
+    }
     if (const auto bookmark = input_.take_bookmark()) use(*bookmark);
     take_dropped();
     const Viewport framebuffer = window_.framebuffer();
