@@ -57,8 +57,8 @@ struct GlobeOptions {
   bool sky = false;               ///< stars, Sun, Moon and atmosphere; never with `unlit`
   std::optional<UtcTime> time{};  ///< of Sun and sky; none: the Sun stands over the viewer's shoulder, is not drawn,
                                   ///< and it is day everywhere (ImageLook::daylight)
-  std::vector<Star> stars{};               ///< of the sky
-  GreyPicture night_lights{};              ///< of the Earth's night side, with a sky and a time; may be empty
+  std::vector<Star> stars{};      ///< of the sky
+  GreyPicture night_lights{};     ///< of the Earth's night side, with a sky and a time; may be empty
   std::vector<std::byte> label_font{};     ///< a font file for the labels of objects; empty: no labels
   std::size_t gpu_bytes = 512UL << 20;     ///< tile texture slots, of all image layers together
   std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; room for 64 tiles at least
