@@ -130,7 +130,7 @@ void Viewer::add_layer(OpenedFile file) {
   if (auto* tiles = std::get_if<std::shared_ptr<TileSource>>(&file.what)) {
     row.bounds = if_a_part((*tiles)->info().grid.bounds);
     row.finest_level = (*tiles)->info().grid.max_level;
-    const auto id = globe_.add_imagery(*std::move(tiles));
+    const auto id = globe_.add_imagery(std::move(*tiles));
     id ? void(row.id = *id) : void(added = id.error());
   } else if (auto* heights = std::get_if<ElevationSource>(&file.what)) {
     row.kind = LayerKind::heights;
