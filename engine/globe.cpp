@@ -139,9 +139,10 @@ Result<ImageLook> Globe::look(LayerId imagery) const {
   return impl_->look(imagery);
 }
 
-Status Globe::move(LayerId imagery, std::size_t position) {
-  if (!impl_->may_call("Globe::move")) return refused("Globe::move");
-  return impl_->move(imagery, position);
+Status Globe::move(LayerId layer, std::size_t position) {
+  if (!impl_->may_draw("Globe::move")) return refused("Globe::move");
+  const GlState state;
+  return impl_->move(layer, position);
 }
 
 std::vector<LayerId> Globe::imagery() const {
@@ -167,6 +168,12 @@ Status Globe::show_objects(LayerId layer, bool shown) {
   if (!impl_->may_draw("Globe::show_objects")) return refused("Globe::show_objects");
   const GlState state;
   return impl_->show_objects(layer, shown);
+}
+
+Status Globe::fade_objects(LayerId layer, double opacity) {
+  if (!impl_->may_draw("Globe::fade_objects")) return refused("Globe::fade_objects");
+  const GlState state;
+  return impl_->fade_objects(layer, opacity);
 }
 
 std::vector<LayerId> Globe::objects() const {

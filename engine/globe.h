@@ -142,14 +142,18 @@ class Globe {
   /// In place of those before of the layer. Fails if it is no image layer of this globe.
   Status set_look(LayerId imagery, const ImageLook& look);
   [[nodiscard]] Result<ImageLook> look(LayerId imagery) const;
-  /// So that `position` others lie under it; over all others if there are no more.
-  Status move(LayerId imagery, std::size_t position);
+  /// So that `position` others of its kind, imagery or objects, lie under it; over all others if there are no more.
+  /// Objects of one kind that lie at the same place are drawn in the order of their layers.
+  Status move(LayerId layer, std::size_t position);
   [[nodiscard]] std::vector<LayerId> imagery() const;  ///< the lowest first
   /// Over the object layers that are there. Fails if their programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
   /// In place of those before of the layer.
   Status set_objects(LayerId layer, ObjectScene objects);
   Status show_objects(LayerId layer, bool shown);
+  /// Alpha of its objects times `opacity`, [0, 1]; at 0 they are neither drawn nor picked. What is opaque costs a
+  /// little less than what is not.
+  Status fade_objects(LayerId layer, double opacity);
   [[nodiscard]] std::vector<LayerId> objects() const;  ///< the lowest first
   /// An image layer or an object layer. Fails if it is not there, or not any more.
   Status remove(LayerId layer);

@@ -19,7 +19,9 @@ struct ObjectLayer {
   LayerId id = LayerId::none;
   ObjectScene scene;
   bool shown = true;
+  double opacity = 1.0;
   std::string attribution = {};
+  [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0; }
 };
 
 /// What is behind the façade. Calls are those of Globe, which has checked thread and context.
@@ -35,6 +37,7 @@ struct Globe::Impl {
   Result<LayerId> add_objects(ObjectScene scene, bool shown);
   Status set_objects(LayerId id, ObjectScene scene);
   Status show_objects(LayerId id, bool shown);
+  Status fade_objects(LayerId id, double opacity);
   Status set_attribution(LayerId id, std::string text);
   [[nodiscard]] std::vector<std::string> attributions() const;
   Status set_elevation(const std::optional<ElevationSource>& elevation);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/globe_impl.h"
+#include "scene/faded_scene.h"
 
 // What a globe is made of at run time: image layers, object layers, heights.
 namespace terrella {
@@ -28,9 +29,16 @@ Status check_grid(const TileGrid& grid) {
   return Done{};
 }
 
-Status check_look(const char* call, const ImageLook& look) {
-  if (look.opacity >= 0.0 && look.opacity <= 1.0) return Done{};
-  return Error{fmt::format("{}: an opacity of {}; give one from 0 to 1", call, look.opacity)};
+Status check_opacity(const char* call, double opacity) {
+  if (opacity >= 0.0 && opacity <= 1.0) return Done{};
+  return Error{fmt::format("{}: an opacity of {}; give one from 0 to 1", call, opacity)};
+}
+
+/// The element at `from` moves so that `position` others are before it, or to the end.
+template <class T>
+void move_to(std::vector<T>& all, typename std::vector<T>::iterator from, std::size_t position) {
+  const auto to = all.begin() + static_cast<std::ptrdiff_t>(std::min(position, all.size() - 1));
+  from < to ? std::rotate(from, from + 1, to + 1) : std::rotate(to, from, from + 1);
 }
 
 template <class T>
@@ -43,7 +51,7 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
   if (!source) return Error{"Globe::add_imagery: there is no source; open one first (open_tile_set())"};
   if (Status good = check_grid(source->info().grid); !good) return good.error();
-  if (Status good = check_look("Globe::add_imagery", look); !good) return good.error();
+  if (Status good = check_opacity("Globe::add_imagery", look.opacity); !good) return good.error();
   const LayerId id = next_id();
   const std::size_t share = options.gpu_bytes / (images.size() + 1);
   for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new one takes its part
@@ -65,7 +73,7 @@ ObjectLayer* Globe::Impl::object(LayerId id) {
 Status Globe::Impl::set_look(LayerId id, const ImageLook& look) {
   ImageLayer* layer = image(id);
   if (layer == nullptr) return no_layer("Globe::set_look", "image layer", id);
-  if (Status good = check_look("Globe::set_look", look); !good) return good;
+  if (Status good = check_opacity("Globe::set_look", look.opacity); !good) return good;
   layer->set_look(look);
   changed = true;
   return Done{};
@@ -78,11 +86,13 @@ Result<ImageLook> Globe::Impl::look(LayerId id) const {
 }
 
 Status Globe::Impl::move(LayerId id, std::size_t position) {
+  if (const auto from = std::ranges::find(objects, id, &ObjectLayer::id); from != objects.end()) {
+    move_to(objects, from, position);
+    return show_objects();
+  }
   const auto from = std::ranges::find_if(images, [id](const auto& layer) { return layer->id() == id; });
-  if (from == images.end()) return no_layer("Globe::move", "image layer", id);
-  std::unique_ptr<ImageLayer> layer = std::move(*from);
-  images.erase(from);
-  images.insert(images.begin() + static_cast<std::ptrdiff_t>(std::min(position, images.size())), std::move(layer));
+  if (from == images.end()) return no_layer("Globe::move", "layer", id);
+  move_to(images, from, position);
   changed = true;
   return Done{};
 }
@@ -119,7 +129,7 @@ Status Globe::Impl::set_objects(LayerId id, ObjectScene scene) {
   ObjectLayer* layer = object(id);
   if (layer == nullptr) return no_layer("Globe::set_objects", "object layer", id);
   layer->scene = std::move(scene);
-  return layer->shown ? show_objects() : Status(Done{});
+  return layer->is_drawn() ? show_objects() : Status(Done{});
 }
 
 Status Globe::Impl::show_objects(LayerId id, bool shown) {
@@ -129,21 +139,30 @@ Status Globe::Impl::show_objects(LayerId id, bool shown) {
   return show_objects();
 }
 
+Status Globe::Impl::fade_objects(LayerId id, double opacity) {
+  ObjectLayer* layer = object(id);
+  if (layer == nullptr) return no_layer("Globe::fade_objects", "object layer", id);
+  if (Status good = check_opacity("Globe::fade_objects", opacity); !good) return good;
+  if (std::exchange(layer->opacity, opacity) == opacity) return Done{};
+  return show_objects();
+}
+
 // The renderer has one scene: what is drawn in one go lies together, whatever layer it is of.
 Status Globe::Impl::show_objects() {
   changed = true;
-  std::vector<const ObjectScene*> shown;
+  std::vector<const ObjectLayer*> seen;
   for (const ObjectLayer& layer : objects) {
-    if (layer.shown && !layer.scene.empty()) shown.push_back(&layer.scene);
+    if (layer.is_drawn() && !layer.scene.empty()) seen.push_back(&layer);
   }
-  if (shown.size() == 1) return renderer->set_objects(*shown.front());
+  if (seen.size() == 1 && seen.front()->opacity == 1.0) return renderer->set_objects(seen.front()->scene);
   ObjectScene all;
-  for (const ObjectScene* scene : shown) {
-    append(all.points, scene->points);
-    append(all.lines, scene->lines);
-    append(all.polygons, scene->polygons);
-    append(all.labels, scene->labels);
-    append(all.meshes, scene->meshes);
+  for (const ObjectLayer* layer : seen) {
+    const ObjectScene scene = faded(layer->scene, layer->opacity);
+    append(all.points, scene.points);
+    append(all.lines, scene.lines);
+    append(all.polygons, scene.polygons);
+    append(all.labels, scene.labels);
+    append(all.meshes, scene.meshes);
   }
   return renderer->set_objects(all);
 }
@@ -170,7 +189,7 @@ std::vector<std::string> Globe::Impl::attributions() const {
   if (stack.empty() || stack.front()->patches().empty()) return texts;
   if (relief && relief->field().size() > 0) add(heights_attribution);
   for (const ObjectLayer& layer : objects) {
-    if (layer.shown && !layer.scene.empty()) add(layer.attribution);
+    if (layer.is_drawn() && !layer.scene.empty()) add(layer.attribution);
   }
   return texts;
 }

@@ -33,7 +33,7 @@ GlobePick Globe::Impl::pick(const View& eye, glm::dvec2 pixel_px) const {
   }
   const PickOptions how{.through_ground = options.surface.alpha < 1.0};
   for (const ObjectLayer& layer : objects) {
-    if (!layer.shown) continue;
+    if (!layer.is_drawn()) continue;
     const auto object = pick_object(eye, ground(), layer.scene, pixel_px, how);
     if (!object || (found.object && found.object->distance_m < object->distance_m)) continue;
     found.object = object;

@@ -32,9 +32,12 @@ void draw_levels(LayerRow& row) {
   row.look.max_level = levels[1] == row.finest_level ? kMaxTileLevel : std::max(levels[0], levels[1]);
 }
 
-void draw_look(LayerRow& row) {
+void draw_opacity(LayerRow& row) {
   slide("Opacity", row.look.opacity, 0.0, 1.0, "%.2f");
   tip("How much of what lies under this layer it covers.");
+}
+
+void draw_look(LayerRow& row) {
   choose("Shows", row.look.daylight, std::array{"by day and night", "by day", "by night"});
   tip("By day or by night: on that side of the terminator only, once a time is set (P).");
   bool clouds = row.look.alpha == AlphaFrom::brightness;
@@ -50,9 +53,9 @@ LayerAsk draw_buttons(const LayerRow& row) {
     tip(why);
     ImGui::SameLine();
   };
-  if (row.kind == LayerKind::imagery) {
-    button("Up", LayerAsk::raise, "Over the next layer of pictures.");
-    button("Down", LayerAsk::lower, "Under the next layer of pictures.");
+  if (row.kind != LayerKind::heights) {
+    button("Up", LayerAsk::raise, "Over the next layer of its kind.");
+    button("Down", LayerAsk::lower, "Under the next layer of its kind.");
   }
   if (row.bounds) button("Go there", LayerAsk::look_at, "Flies to where the layer is.");
   button("Remove", LayerAsk::remove, "Takes it off the globe; the file stays as it is.");
@@ -67,6 +70,7 @@ LayerAsk draw_row(LayerRow& row) {
   const bool open = ImGui::TreeNodeEx(row.name.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): opens what can be done with it.").c_str());
   if (!open) return LayerAsk::none;
+  if (row.kind != LayerKind::heights) draw_opacity(row);
   if (row.kind == LayerKind::imagery) draw_look(row);
   const LayerAsk ask = draw_buttons(row);
   ImGui::TreePop();

@@ -19,7 +19,7 @@ struct LayerRow {
   std::string name = {};
   std::optional<GeoRect> bounds = {};  ///< not of the whole planet, and known
   int finest_level = 0;                ///< of imagery
-  ImageLook look = {};                 ///< of objects and heights `shown` alone counts
+  ImageLook look = {};                 ///< of objects `shown` and opacity count, of heights `shown`
 };
 
 enum class LayerAsk { none, raise, lower, remove, look_at };

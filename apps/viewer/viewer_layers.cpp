@@ -59,6 +59,7 @@ void Viewer::take_look(LayerRow& row, const ImageLook& look) {
   Status set = Done{};
   if (row.kind == LayerKind::imagery) set = globe_.set_look(row.id, look);
   if (row.kind == LayerKind::objects) set = globe_.show_objects(row.id, look.shown);
+  if (row.kind == LayerKind::objects && set) set = globe_.fade_objects(row.id, look.opacity);
   if (row.kind == LayerKind::heights) set = use_heights(look.shown ? options_.heights : std::nullopt);
   if (!set) return say(set.error().message);
   row.look = look;
@@ -72,13 +73,14 @@ Status Viewer::use_heights(const std::optional<ElevationSource>& heights) {
   return Done{};
 }
 
-// Rows of imagery lie in the list as the globe has them.
+// Rows of a kind lie in the list as the globe has them.
 void Viewer::move_layer(std::size_t row, bool up) {
-  const auto ids = globe_.imagery();
+  const auto ids = layers_[row].kind == LayerKind::objects ? globe_.objects() : globe_.imagery();
   const auto place = std::size_t(std::ranges::find(ids, layers_[row].id) - ids.begin());
   if (up ? place + 1 >= ids.size() : place == 0) return;
   const LayerId neighbour = ids[up ? place + 1 : place - 1];
   const auto other = std::ranges::find(layers_, neighbour, &LayerRow::id);
+  if (other == layers_.end()) return;  // what is measured has no row, and stays over all
   const Status moved = globe_.move(layers_[row].id, up ? place + 1 : place - 1);
   if (!moved) return say(moved.error().message);
   std::swap(layers_[row], *other);

@@ -179,8 +179,9 @@ double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
 void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) {
   if (!objects_ || !objects_->has(part)) return;
   stencil(pass.eye, 0, mark);
-  depth_test(GL_GREATER);
+  depth_test(DepthTest::nearer_or_equal);  // of objects at the same place the last is seen
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, choice, hiding_radius_m(pass));
+  depth_test(DepthTest::nearer);
   glEnable(GL_CULL_FACE);
   stencil(pass.eye, 0, 0);
 }
@@ -193,7 +194,7 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
   glDisable(GL_CULL_FACE);
   pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky);
   glEnable(GL_CULL_FACE);
-  depth_test(GL_GREATER);
+  depth_test(DepthTest::nearer);
   stencil(pass.eye, 0, 0);
 }
 
@@ -238,7 +239,7 @@ void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const 
     stencil(pass.eye, 0, kSurfaceBit);
   }
   draw_layers(pass, look);
-  depth_test(GL_GREATER);
+  depth_test(DepthTest::nearer);
   stencil(pass.eye, 0, 0);
 }
 
@@ -268,7 +269,7 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
                       : limb_->draw(view, ellipsoid_, picture);
   }
   glEnable(GL_CULL_FACE);
-  depth_test(GL_GREATER);
+  depth_test(DepthTest::nearer);
 }
 
 std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {
@@ -322,7 +323,7 @@ void GlobeRenderer::begin_picture(const Pass& pass) const {
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CULL_FACE);
-  depth_test(GL_GREATER);
+  depth_test(DepthTest::nearer);
   stencil(eye, 0, 0);
 }
 
@@ -343,12 +344,15 @@ void GlobeRenderer::stencil(const EyePicture& eye, GLuint must_be_clear, GLuint 
   glStencilMask(set);
 }
 
-// The test in terms of reversed depth: GL_GREATER is nearer.
-void GlobeRenderer::depth_test(GLenum test) const {
+void GlobeRenderer::depth_test(DepthTest test) const {
   const bool reversed = options_.depth == DepthMode::reversed;
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
-  glDepthFunc(test == GL_GREATER && !reversed ? GL_LESS : test);
+  if (test == DepthTest::nearer) {
+    glDepthFunc(reversed ? GL_GREATER : GL_LESS);
+  } else {
+    glDepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);
+  }
 }
 
 double GlobeRenderer::inner_radius_m(const FrameInput& input) const {

@@ -131,7 +131,8 @@ class GlobeRenderer {
   void begin_picture(const Pass& pass) const;
   void color_mask(const EyePicture& eye, bool on) const;
   void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
-  void depth_test(GLenum test) const;
+  enum class DepthTest { nearer, nearer_or_equal };
+  void depth_test(DepthTest test) const;
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;

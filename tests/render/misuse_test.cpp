@@ -143,6 +143,7 @@ TEST_F(Misuse, ALayerThatIsNotThereIsAnErrorThatNamesTheCall) {
     EXPECT_NE(message_of(globe->look(gone)).find("Globe::look"), std::string::npos);
     EXPECT_NE(message_of(globe->set_objects(gone, {})).find("Globe::set_objects"), std::string::npos);
     EXPECT_NE(message_of(globe->show_objects(gone, true)).find("Globe::show_objects"), std::string::npos);
+    EXPECT_NE(message_of(globe->fade_objects(gone, 0.5)).find("Globe::fade_objects"), std::string::npos);
   }
   draw(*globe, kMisused);
 }
