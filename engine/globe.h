@@ -162,7 +162,7 @@ class Globe {
   /// What the sources of the last frame want to be said, each text once: of the image layers, the lowest first, that
   /// had a tile in view (under an opaque layer too), of the elevation, of the object layers that were shown.
   [[nodiscard]] std::vector<std::string> attributions() const;
-  /// In place of those before; none: the ellipsoid. What ground() gave before must not be used any more.
+  /// Replaces the elevation; none: the ellipsoid. A Ground from before keeps the heights that it had.
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< has elevation
 
@@ -211,7 +211,7 @@ class Globe {
   /// View of the camera at a picture size: picks and projections (geo/camera.h on the ellipsoid, scene/ground.h on the
   /// ground) take it.
   [[nodiscard]] View view(Viewport viewport) const;
-  /// The ground as it is drawn, with the heights that are there; it must not outlive the globe or its elevation.
+  /// The ground as it is drawn. The value stays valid when the globe or its elevation is gone.
   [[nodiscard]] Ground ground() const;
   /// Height of the drawn ground over the ellipsoid, exaggerated, where the heights that are there say it; 0 without
   /// any.

@@ -62,7 +62,7 @@ struct Globe::Impl {
   [[nodiscard]] std::optional<SkyInput> sky() const;
   [[nodiscard]] glm::dvec3 sun() const;
   [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
-  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief.get()}; }
+  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief}; }
   [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
   [[nodiscard]] GlobePick pick(const View& eye, glm::dvec2 pixel_px) const;
   [[nodiscard]] bool shows(const ImageLayer& layer, const Geodetic& place) const;
@@ -78,7 +78,7 @@ struct Globe::Impl {
   const std::thread::id thread = std::this_thread::get_id();
   GlobeOptions options;
   Camera camera;
-  std::unique_ptr<Relief> relief;         ///< none: the ellipsoid
+  std::shared_ptr<Relief> relief;         ///< shared with each Ground; none: the ellipsoid
   std::unique_ptr<HeightLoader> heights;  ///< there if relief is
   std::string heights_attribution;
   std::uint64_t last_id = 0;

@@ -196,7 +196,7 @@ std::vector<std::string> Globe::Impl::attributions() const {
 
 void Globe::Impl::make_relief(const ElevationSource& elevation) {
   relief =
-      std::make_unique<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration, options.height_bytes);
+      std::make_shared<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration, options.height_bytes);
   heights = std::make_unique<HeightLoader>(elevation);
   heights_attribution = elevation.tiles()->info().attribution;
 }
@@ -207,7 +207,7 @@ Status Globe::Impl::set_elevation(const std::optional<ElevationSource>& elevatio
   if (elevation.has_value() != (relief != nullptr)) {
     if (Status made = renderer->set_relief(elevation.has_value()); !made) return made;
   }
-  const std::unique_ptr<Relief> before = std::move(relief);  // patches refer to it until they are made anew
+  const std::shared_ptr<Relief> before = std::move(relief);  // patches refer to it until they are made anew
   heights.reset();
   if (elevation) make_relief(*elevation);
   for (const auto& layer : images) layer->set_relief(relief.get());

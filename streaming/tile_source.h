@@ -35,7 +35,7 @@ struct TileSetInfo {
   std::optional<TileGrid> made_of = {};         ///< the tiles are made of those of this grid (streaming/mercator)
 };
 
-/// Why a tile is not there (DESIGN 11). Each kind has its own lifetime.
+/// Why a tile is not there (engine/DESIGN.md, 11). Each kind has its own lifetime.
 enum class Absence {
   absent,  ///< the source does not have it (404, 204, no row, outside the bounds): for good, ancestors stand in
   blank,   ///< it is there and says "nothing here"

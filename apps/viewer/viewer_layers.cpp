@@ -65,10 +65,9 @@ void Viewer::take_look(LayerRow& row, const ImageLook& look) {
   row.look = look;
 }
 
-// The ground that the navigation holds is another one from then on.
 Status Viewer::use_heights(const std::optional<ElevationSource>& heights) {
   if (Status set = globe_.set_elevation(heights); !set) return set;
-  navigator_ = Navigator(navigator_.camera(), globe_.ground(), window_.framebuffer());
+  navigator_.set_ground(globe_.ground());
   settings_.has_relief = globe_.has_relief();
   return Done{};
 }

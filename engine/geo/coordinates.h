@@ -11,8 +11,8 @@
 /// geodetic   latitude of the surface normal (planetographic), north positive, [-90°, 90°]; longitude east
 ///            positive, [-180°, 180°]; height along that normal over the ellipsoid, metres.
 /// normal     the unit geodetic surface normal n in ECEF axes: latitude = atan2(n.z, hypot(n.x, n.y)), longitude =
-///            atan2(n.y, n.x). The cube sphere is a tessellation of the sphere of normals (DESIGN, decision 1).
-/// local      float offsets from an origin (the eye, a patch's centre), ECEF axes, metres.
+///            atan2(n.y, n.x). The cube sphere is a tessellation of the sphere of normals (engine/DESIGN.md, 1).
+/// split      ECEF positions as two floats, high + low (geo/split_position.h): how the GPU gets them.
 /// view       right-handed, metres, origin at the eye: +x right, +y up, -z forward.
 /// clip       reversed depth by default: 1 at the near plane, 0 infinitely far; zero-to-one (GL clip control).
 /// pixel      origin at the top left corner of the picture, +x right, +y down; pixel centres at halves.
@@ -35,16 +35,6 @@ struct Ecef {
 struct EcefDir {
   glm::dvec3 xyz{0.0, 0.0, 1.0};
 };
-
-/// A position relative to an origin that the caller knows, ECEF axes, float. Made only by local_to().
-struct Local {
-  glm::vec3 xyz_m{0.0F};
-};
-
-/// The one door from double on the planet to float near the eye: subtracts in double, then narrows.
-[[nodiscard]] inline Local local_to(const Ecef& origin, const Ecef& p) {
-  return Local{glm::vec3(p.xyz_m - origin.xyz_m)};
-}
 
 /// A latitude-longitude rectangle. May cross the antimeridian: then east < west.
 struct GeoRect {

@@ -22,7 +22,7 @@ class Ellipsoid {
   [[nodiscard]] double prime_vertical_radius_m(double n_z) const;
 
   /// The position at `height_m` over the surface point whose geodetic normal is n:
-  /// (N n_x, N n_y, N(1-e²) n_z) + h n (DESIGN, decision 1).
+  /// (N n_x, N n_y, N(1-e²) n_z) + h n (engine/DESIGN.md, 1).
   [[nodiscard]] Ecef position(const EcefDir& normal, double height_m = 0.0) const;
 
   [[nodiscard]] Ecef to_ecef(const Geodetic& place) const;

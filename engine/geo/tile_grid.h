@@ -41,8 +41,8 @@ struct TileIdHash {
 };
 inline constexpr int kMaxTileLevel = 24;
 
-/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (DESIGN 4; shared
-/// GRIDS). Degrees of "row latitude": for equal_area grids one degree is 1/180 of the picture's height, for
+/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (engine/DESIGN.md,
+/// 4). Degrees of "row latitude": for equal_area grids one degree is 1/180 of the picture's height, for
 /// web_mercator 1/360: its rows run from +180 to -180, and so the origin is (-180°, +180).
 struct TileGrid {
   double root_span_deg = 180.0;  ///< what a level-0 tile spans, degrees, both ways; (0, 1e4]
@@ -76,8 +76,8 @@ struct RowLatitudes {
 [[nodiscard]] std::int64_t squeezed_columns(const TileGrid& grid, int level, int squeeze);
 [[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);  ///< tiles that reach over [90°, -90°], ≥ 1
 /// Of a reduced grid, as weather models have: the largest k for which texels 2^k times as wide are at most a fifth
-/// longer along the parallel than along the meridian, at the row's edge nearest to the equator (shared DESIGN, "Which
-/// tiles at the pole?"). 0 for other rows, and for grids that are not reduced or have equal-area rows.
+/// longer along the parallel than along the meridian, at the row's edge nearest to the equator (engine/DESIGN.md,
+/// 12). 0 for other rows, and for grids that are not reduced or have equal-area rows.
 [[nodiscard]] int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y);
 /// The tile to use for a place in the full grid: the squeezed one over it where the row is reduced, else itself.
 [[nodiscard]] TileId reduced_tile(const TileGrid& grid, const TileId& full);

@@ -2,7 +2,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "scene/patch_mesh.h"
+#include "geo/split_position.h"
 
 namespace terrella {
 

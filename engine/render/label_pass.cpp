@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "geo/split_position.h"
 #include "render/shader_library.h"
 #include "render/vertex_attribute.h"
 #include "scene/label_layout.h"
-#include "scene/patch_mesh.h"
 
 namespace terrella {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <map>
 
+#include "geo/split_position.h"
 #include "render/shader_library.h"
 #include "render/vertex_attribute.h"
-#include "scene/patch_mesh.h"
 
 namespace terrella {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// An OpenGL 4.5 core context without a window, a display or a GPU: EGL, surfaceless or device platform (DESIGN 13).
+/// An OpenGL 4.5 core context without a window, a display or a GPU: EGL, surfaceless or device platform (engine/DESIGN.md, 14).
 /// The context is current on the calling thread from creation to destruction. thread: main
 class HeadlessContext {
  public:

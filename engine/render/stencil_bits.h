@@ -4,7 +4,7 @@
 
 namespace terrella {
 
-/// What the stencil buffer's bits say (DESIGN 7).
+/// Bits of the stencil buffer (engine/DESIGN.md, 7).
 inline constexpr GLuint kSurfaceBit = 1;   ///< the surface is here: no sky
 inline constexpr GLuint kRightEyeBit = 2;  ///< interlaced stereo: this row is the right eye's
 inline constexpr GLuint kThroughBit = 4;   ///< an object is here that asks to be seen through the surface

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "geo/camera.h"
 #include "geo/coordinates.h"
@@ -8,17 +10,28 @@
 
 namespace terrella {
 
-class Relief;
+/// Heights over an ellipsoid as they are drawn: exaggerated, from the tiles that are loaded at the call. Relief
+/// implements this interface. thread: main
+class GroundHeights {
+ public:
+  virtual ~GroundHeights() = default;
+  /// Height over the ellipsoid, metres.
+  [[nodiscard]] virtual double height_m(Angle lat, Angle lon) const = 0;
+  /// Distance along a ray to the ground, metres, as Ground::intersect_m() promises.
+  [[nodiscard]] virtual std::optional<double> intersect_m(const Ecef& origin, const EcefDir& direction,
+                                                          double radians_per_px) const = 0;
+};
 
-/// What one stands on, looks at and holds: the surface of a body as it is drawn, an ellipsoid, raised by relief where
-/// there is one (exaggerated, from the heights that are there at the call). ECEF metres, double. Does not own the
-/// relief, which must outlive it. thread: main with relief, any without
+/// The surface of a body as it is drawn: an ellipsoid, raised by heights if there are any. ECEF metres, double. A value
+/// that shares the heights: it stays valid when the globe changes or drops its elevation, and then keeps the heights
+/// that it had. thread: main with heights, any without
 class Ground {
  public:
-  Ground(const Ellipsoid& ellipsoid, const Relief* relief = nullptr) : ellipsoid_(ellipsoid), relief_(relief) {}
+  Ground(const Ellipsoid& ellipsoid, std::shared_ptr<const GroundHeights> heights = {})
+      : ellipsoid_(ellipsoid), heights_(std::move(heights)) {}
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
-  [[nodiscard]] bool has_relief() const { return relief_ != nullptr; }
+  [[nodiscard]] bool has_relief() const { return heights_ != nullptr; }
   /// Over the ellipsoid, metres; 0 without relief.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const;
   /// Of the eye over the ground under it, metres; negative under the ground.
@@ -36,7 +49,7 @@ class Ground {
 
  private:
   Ellipsoid ellipsoid_;
-  const Relief* relief_;
+  std::shared_ptr<const GroundHeights> heights_;
 };
 
 /// The place that a pixel shows (frame and centres as in geo/coordinates.h): latitude and longitude and the height at

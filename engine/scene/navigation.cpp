@@ -57,6 +57,11 @@ void Navigator::set_camera(const Camera& camera) {
   motion_ = Rest{};
 }
 
+void Navigator::set_ground(const Ground& ground) {
+  ground_ = ground;
+  stay_over_ground();
+}
+
 bool Navigator::animating() const {
   return !std::holds_alternative<Rest>(motion_) && !std::holds_alternative<Drag>(motion_) &&
          !std::holds_alternative<Turn>(motion_);

@@ -35,6 +35,7 @@ class Navigator {
 
   void set_viewport(Viewport viewport);   ///< sides below 1 count as 1
   void set_camera(const Camera& camera);  ///< stops every motion
+  void set_ground(const Ground& ground);  ///< goes on with the motion over another ground
   /// How deep under the ellipsoid the eye may go, a negative height in metres; none: it stays over the ground.
   void set_deepest(std::optional<double> deepest_m) { deepest_m_ = deepest_m; }
 

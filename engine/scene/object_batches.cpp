@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geo/split_position.h"
 #include "scene/object_shapes.h"
-#include "scene/patch_mesh.h"
 
 namespace terrella {
 namespace {

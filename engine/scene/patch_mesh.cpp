@@ -53,14 +53,6 @@ class IndexWriter {
 
 }  // namespace
 
-SplitPosition split_position(const glm::dvec3& p_m) {
-  // volatile: GCC 12 at -O2 takes float and back for no change where it does two components at a time, and then all
-  // lows are 0.
-  volatile float x = static_cast<float>(p_m.x), y = static_cast<float>(p_m.y), z = static_cast<float>(p_m.z);
-  const glm::vec3 high(x, y, z);
-  return {high, glm::vec3(p_m - glm::dvec3(high))};
-}
-
 std::vector<PatchVertex> patch_vertices(const PatchTree& tree, const PatchNode& node) {
   const int n = tree.segments();
   const double row0 = node.row_center_deg;

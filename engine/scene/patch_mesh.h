@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "geo/split_position.h"
 #include "scene/patch_tree.h"
 
 namespace terrella {
@@ -19,13 +20,6 @@ struct PatchVertex {
   glm::vec2 offset_deg;  ///< longitude and row latitude (TileGrid) relative to the patch's centre
 };
 static_assert(sizeof(PatchVertex) == 44);
-
-/// Splits a double position in high and low floats; the door to the GPU for what is not relative to a near origin.
-struct SplitPosition {
-  glm::vec3 high;
-  glm::vec3 low;
-};
-[[nodiscard]] SplitPosition split_position(const glm::dvec3& p_m);
 
 /// The (segments + 1)² vertices of a patch, row-major in (i, j). Longitude unwraps around the patch's centre; a vertex
 /// on the antimeridian belongs to the patch's side; one on a pole takes the centre's longitude. Raised by

@@ -35,8 +35,8 @@ struct CellExtent {
 };
 
 /// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
-/// each cell of the window names one tile (DESIGN 5). Where all rows are reduced the columns are wide ones, as those of
-/// the row that is squeezed least.
+/// each cell of the window names one tile (engine/DESIGN.md, 5). Where all rows are reduced the columns are wide ones,
+/// as those of the row that is squeezed least.
 struct TileWindow {
   int level = -1;
   int squeeze = 0;  ///< a cell spans 2^squeeze columns of the full grid

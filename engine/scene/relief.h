@@ -8,6 +8,7 @@
 
 #include "geo/camera.h"
 #include "geo/height_tile.h"
+#include "scene/ground.h"
 #include "scene/height_field.h"
 #include "scene/patch_selection.h"
 #include "scene/patch_tree.h"
@@ -18,7 +19,7 @@ namespace terrella {
 /// The ground of a body: which heights a view asks for, and what the heights that are there make of patches. A height
 /// raises a point along its geodetic normal, and is a function of the point alone, so patches that share a vertex raise
 /// it alike and texture coordinates stay what they were. thread: main
-class Relief {
+class Relief : public GroundHeights {
  public:
   /// `exaggeration` is applied to what is drawn, picked and collided with.
   Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggeration, std::size_t budget_bytes = 256UL << 20);
@@ -35,8 +36,12 @@ class Relief {
   void set_lacking(const TileId& id) { lacking_.insert(id); }
   [[nodiscard]] int lacking() const { return static_cast<int>(lacking_.size()); }
   /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
-  [[nodiscard]] double height_m(Angle lat, Angle lon) const { return field_.height_m(lat, lon, exaggeration_); }
-  /// Of all that was ever drawn from.
+  [[nodiscard]] double height_m(Angle lat, Angle lon) const override {
+    return field_.height_m(lat, lon, exaggeration_);
+  }
+  [[nodiscard]] std::optional<double> intersect_m(const Ecef& origin, const EcefDir& direction,
+                                                  double radians_per_px) const override;
+  /// Lowest and highest height in any tile loaded so far, exaggerated.
   [[nodiscard]] GroundRange range_m() const {
     return {.min_m = exaggeration_ * range_.min_m, .max_m = exaggeration_ * range_.max_m};
   }

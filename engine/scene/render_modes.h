@@ -7,7 +7,7 @@ namespace terrella {
 /// How patches are textured: shaders/README.md. `automatic` is the command line's `auto`.
 enum class Texturing { vertex, paper, exact, automatic };
 
-/// How depth is stored (DESIGN 6).
+/// Depth format (engine/DESIGN.md, 6).
 enum class DepthMode { reversed, logarithmic, standard };
 
 /// How a translucent surface goes over what lies under it; paper 2, formulas (2.7) and (2.9).

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "scene/patch_mesh.h"
+#include "geo/split_position.h"
 
 namespace terrella {
 namespace {

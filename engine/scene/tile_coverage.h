@@ -56,7 +56,7 @@ void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<Selec
                       TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel = 1.0,
                       OutOfBounds out_of_bounds = OutOfBounds::ancestor);
 
-/// The tiles of the coarsest level: always wanted, never evicted (DESIGN 10).
+/// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).
 [[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);
 
 }  // namespace terrella

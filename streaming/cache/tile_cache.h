@@ -13,7 +13,7 @@
 
 namespace terrella {
 
-/// What the cache knows of a tile: its bytes, or why there are none (DESIGN 11), and what HTTP needs to ask again.
+/// What the cache knows of a tile: its bytes, or why there are none (engine/DESIGN.md, 11), and what HTTP needs to ask again.
 struct CacheRecord {
   std::optional<Absence> absence;  ///< none: `bytes` is the tile
   std::vector<std::byte> bytes;
@@ -40,7 +40,7 @@ struct CacheCounts {
   std::uint64_t evicted = 0;
 };
 
-/// One source's tiles in a GeoPackage that GDAL and QGIS open while it is in use (DESIGN 8): tiles as in any
+/// One source's tiles in a GeoPackage that GDAL and QGIS open while it is in use (engine/DESIGN.md, 8): tiles as in any
 /// GeoPackage, absences, validators, expiry and last use in side tables. Several processes may use one file. All
 /// writing is done by one thread, in batches; root tiles (level grid.min_level) are never evicted.
 class TileCache {

@@ -69,7 +69,7 @@ TEST(ReducedGrid, AFewTilesGoRoundAPoleAtEveryLevel) {
     SCOPED_TRACE(level);
     const std::int64_t last = rows(grid, level) - 1;
     const auto around = [&](std::int64_t y) { return columns(grid, level) >> squeeze_of_row(grid, level, y); };
-    // DESIGN: 8 tiles in the first row and 16 in the second at every level.
+    // engine/DESIGN.md, 12: 8 tiles in the first row and 16 in the second at every level.
     EXPECT_EQ(around(0), 8);
     EXPECT_EQ(around(last), 8);
     EXPECT_EQ(around(1), 16);
@@ -116,7 +116,7 @@ TEST(ReducedGrid, BothTilesOfAPlaceExist) {
 TEST(TileGrid, PictureOf21600Pixels) {
   // 21600 / 256 = 84.375 and 10800 / 256 = 42.19 tiles at level 6, then halves.
   const TileGrid grid = grid_of(256.0 * 360.0 / 21600.0 * 64.0, 6);
-  EXPECT_NEAR(grid.root_span_deg, 273.07, 0.005);  // the name that DESIGN gives it
+  EXPECT_NEAR(grid.root_span_deg, 273.07, 0.005);  // the value for 21600 pixels and level 6
   expect_matrices(grid, {{2, 1}, {3, 2}, {6, 3}, {11, 6}, {22, 11}, {43, 22}, {85, 43}});
 }
 
@@ -346,7 +346,7 @@ TEST(TileGrid, MarsLatitudesDifferByAThirdOfADegree) {
   const Body mars = *parse_body("mars");
   const TileGrid grid = rows_by(Projection::equirectangular, LatitudeKind::centric);
   const double row = row_latitude_deg(grid, mars.ellipsoid, Ellipsoid::normal(Angle::degrees(45.0), {}));
-  EXPECT_NEAR(45.0 - row, 0.34, 0.005);  // GRIDS prints two digits
+  EXPECT_NEAR(45.0 - row, 0.34, 0.005);  // the known value has two digits
 }
 
 TEST(TileGrid, NaNStaysNaN) {

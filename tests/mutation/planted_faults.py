@@ -27,7 +27,7 @@ class Fault(typing.NamedTuple):
 
 
 FAULTS = [
-    Fault("float where double belongs: a vertex's low part is lost", "engine/scene/patch_mesh.cpp",
+    Fault("float where double belongs: a vertex's low part is lost", "engine/geo/split_position.cpp",
           "return {high, glm::vec3(p_m - glm::dvec3(high))};", "return {high, glm::vec3(0.0F)};",
           "stability_tests", "Stability.NoVertexJitters*"),
     Fault("float where double belongs: the eye's low part is lost", "engine/render/frame_camera.cpp",

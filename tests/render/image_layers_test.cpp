@@ -235,8 +235,11 @@ TEST_F(ImageLayers, HeightsComeAndGoUnderLayersOfDifferentRows) {
   EXPECT_GT(std::abs(globe->ground_height_m(Angle::degrees(31.5), Angle::degrees(9.0))), 1000.0);
   EXPECT_GT(differing(both, flat), 20);
   EXPECT_LE(worst(both, lower, upper, [](double x, double y) { return 0.5 * x + 0.5 * y; }), kRounding + 1);
+  const Ground before = globe->ground();
+  const double height_m = before.height_m(Angle::degrees(31.5), Angle::degrees(9.0));
   ASSERT_TRUE(globe->set_elevation({}));
   EXPECT_EQ(globe->ground_height_m(Angle::degrees(31.5), Angle::degrees(9.0)), 0.0);
+  EXPECT_EQ(before.height_m(Angle::degrees(31.5), Angle::degrees(9.0)), height_m) << "a Ground outlives the elevation";
   EXPECT_EQ(differing(settled(*globe), flat), 0);
 }
 

@@ -65,6 +65,17 @@ TEST(ReliefNavigation, PanningOverMountainsTheEyeNeverGoesUnderThemAndRisesWithT
   EXPECT_GT(way_m, 5.0);
 }
 
+TEST(ReliefNavigation, AnotherGroundNeitherStopsTheMotionNorForgetsHowDeepTheEyeMayGo) {
+  Walker walker(camera_at(0.2, 3.0, 2e5), high_mountains());
+  walker.navigator.set_deepest(-5e5);
+  walker.navigator.fly_to(camera_at(0.2, 3.0, -3e5), walker.now);
+  walker.frame();
+  walker.navigator.set_ground(Ground(earth().ellipsoid));
+  EXPECT_TRUE(walker.navigator.animating());
+  for (int k = 0; k < 6000 && walker.navigator.animating(); ++k) walker.frame();
+  EXPECT_NEAR(walker.navigator.camera().eye.height_m, -3e5, 1.0);
+}
+
 TEST(ReliefNavigation, ZoomingInEndsAMetreOverTheGroundUnderTheCursorAndHoldsIt) {
   const WavyGround wavy = high_mountains();
   Walker walker(camera_at(3.0, 1.0, 8.0e5), wavy);

@@ -17,7 +17,7 @@ class WavyGround {
  public:
   /// Up to `most_m` high and as deep, not exaggerated; `waves` from pole to pole, half as many round the planet.
   WavyGround(double most_m, double exaggeration, int waves = 9, const Ellipsoid& body = earth().ellipsoid)
-      : body_(body), exaggeration_(exaggeration), relief_(std::make_unique<Relief>(body, grid(), exaggeration)) {
+      : body_(body), exaggeration_(exaggeration), relief_(std::make_shared<Relief>(body, grid(), exaggeration)) {
     for (int y = 0; y < kRows; ++y) {
       for (int x = 0; x < kColumns; ++x) {
         const double lat = (90.0 - (y + 0.5) * kPixel_deg) * kRad, lon = (-180.0 + (x + 0.5) * kPixel_deg) * kRad;
@@ -51,7 +51,7 @@ class WavyGround {
   }
 
   [[nodiscard]] Relief& relief() { return *relief_; }
-  [[nodiscard]] Ground ground() const { return {body_, relief_.get()}; }
+  [[nodiscard]] Ground ground() const { return {body_, relief_}; }
   [[nodiscard]] const Ellipsoid& body() const { return body_; }
 
   /// Exaggerated, bilinear between the table's numbers, which go on round the planet and end at the poles.
@@ -74,7 +74,7 @@ class WavyGround {
  private:
   Ellipsoid body_;
   double exaggeration_;
-  std::unique_ptr<Relief> relief_;
+  std::shared_ptr<Relief> relief_;
   std::vector<float> table_m_;
 };
 

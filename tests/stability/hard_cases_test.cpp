@@ -1,4 +1,4 @@
-// DESIGN's hard cases, each pixel by pixel: what is drawn there is what a ray in double finds there.
+// Hard cases: each pixel shows what a ray in double finds there.
 #include <cmath>
 
 #include "apps/bench/stability/place_errors.h"
