@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t kBatch = 1024;
 
 void add(const LoadedTile& tile, VerifyReport& report) {
-  if (tile.pixels) {
+  if (tile.tile) {
     ++report.good;
     return;
   }
-  switch (tile.pixels.error().kind) {
+  switch (tile.tile.error().kind) {
     case Absence::absent:
       ++report.absent;
       return;
@@ -33,7 +33,7 @@ void add(const LoadedTile& tile, VerifyReport& report) {
       break;
   }
   ++report.bad;
-  if (report.first_bad.size() < kMaxBadTilesListed) report.first_bad.push_back({tile.id, tile.pixels.error().why});
+  if (report.first_bad.size() < kMaxBadTilesListed) report.first_bad.push_back({tile.id, tile.tile.error().why});
 }
 
 /// Loads a batch and waits for all of it.

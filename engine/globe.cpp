@@ -18,7 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 // Any day will do for stars without a time: noon of an equinox.
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
-constexpr std::chrono::milliseconds kPoll{20};
+// Longest wait for a tile before a look at what is due by the clock: retries.
+constexpr std::chrono::milliseconds kLook{100};
 
 bool same(const Camera& a, const Camera& b) {
   return a.eye.lat == b.eye.lat && a.eye.lon == b.eye.lon && a.eye.height_m == b.eye.height_m &&
@@ -49,6 +50,9 @@ Status check_ranges(const GlobeOptions& o) {
   }
   if (o.gutter_px < 0 || o.gutter_px > 64) {
     return Error{"a globe's gutter_px is from 0 to 64, not " + std::to_string(o.gutter_px)};
+  }
+  if (o.retry_after.count() <= 0) {
+    return Error{"a globe's retry_after is positive, not " + std::to_string(o.retry_after.count()) + " ms"};
   }
   return Done{};
 }
@@ -295,11 +299,8 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
   for (;;) {
     render(framebuffer, viewport);
     if (settled()) return true;
-    const auto now = Clock::now();
-    if (now >= deadline) return false;
-    for (const auto& layer : impl_->images) {
-      if (!layer->settled() && layer->wait(std::min(deadline, now + kPoll))) break;
-    }
+    while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
+    if (Clock::now() >= deadline) return false;
   }
 }
 

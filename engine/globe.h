@@ -68,6 +68,9 @@ struct GlobeOptions {
   /// tiles of heights wait, and mountains become finer, frame by frame.
   int relief_meshes_per_frame = 24;
   int workers = 2;  ///< decoder threads
+  /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
+  /// still wanted. Positive.
+  std::chrono::milliseconds retry_after{30'000};
 };
 
 /// What one frame did.
@@ -82,7 +85,7 @@ struct FrameStats {
   int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
   int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
-  int heights_lacked = 0;        ///< elevation tiles that finally failed, of those that views wanted lately
+  int heights_lacked = 0;        ///< elevation tiles that failed, of those that views wanted lately
   bool heights_arrived = false;  ///< since it was drawn: another frame will show the ground as it is now
   int relief_meshes = 0;         ///< patches whose relief was made anew
   int relief_put_off = 0;        ///< patches drawn coarser than their relief asks for, for now
@@ -198,7 +201,7 @@ class Globe {
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< of all image layers
   /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)
-  /// are asked for again after half a minute, if they are still wanted.
+  /// are requested again after GlobeOptions::retry_after, if they are still wanted.
   [[nodiscard]] const std::deque<LackingTile>& lacking() const;
   /// The same of elevation: coarser heights stand for these tiles, or the ellipsoid.
   [[nodiscard]] const std::deque<LackingTile>& lacking_heights() const;

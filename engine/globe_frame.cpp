@@ -104,30 +104,24 @@ void Globe::Impl::take_heights() {
   if (!heights) return;
   const ImageLayer& first = *stack.front();
   for (int meshes = 0; meshes < options.relief_meshes_per_frame;) {
-    std::vector<LoadedHeights> batch = heights->poll(1);
-    if (batch.empty()) return;
-    for (LoadedHeights& tile : batch) {
-      if (!tile.heights) {
-        relief->set_lacking(tile.id);
-        note(lacking_heights, {tile.id, tile.heights.error()});
-        continue;
-      }
-      meshes += relief->touched(stack.front()->tree(), tile.id, first.patches());
-      relief->add(std::move(*tile.heights));
-      stats.heights_arrived = true;
-    }
+    std::optional<LoadedHeights> loaded = heights->take(lacking_heights);
+    if (!loaded) return;
+    meshes += relief->touched(stack.front()->tree(), loaded->id, first.patches());
+    relief->add(std::move(*loaded->tile));
+    stats.heights_arrived = true;
   }
 }
 
 void Globe::Impl::ask_heights() {
   if (!heights) return;
+  heights->retry();
   const std::vector<WantedTile> wanted = relief->want(stack.front()->patches());
   std::vector<TileRequest> requests;
   requests.reserve(wanted.size());
   for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
   heights->request(requests);
   stats.heights_missing = static_cast<int>(wanted.size());
-  stats.heights_lacked = relief->lacking();
+  stats.heights_lacked = relief->missing();
   stats.relief_put_off = relief->put_off();
 }
 
@@ -213,10 +207,7 @@ bool Globe::Impl::settled() const {
 
 bool Globe::Impl::needs_frame() const {
   if (changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
-  if (heights) {
-    const LoaderCounts counts = heights->counts();
-    if (counts.finished > 0) return true;
-  }
+  if (heights && heights->has_news()) return true;
   return std::ranges::any_of(images, [](const auto& layer) { return layer->has_news(); });
 }
 

@@ -8,8 +8,10 @@
 
 #include "engine/globe.h"
 #include "engine/image_layer.h"
+#include "engine/tile_stream.h"
 #include "render/globe_renderer.h"
 #include "scene/relief.h"
+#include "streaming/arrival_bell.h"
 #include "streaming/elevation/height_loader.h"
 
 namespace terrella {
@@ -78,8 +80,9 @@ struct Globe::Impl {
   const std::thread::id thread = std::this_thread::get_id();
   GlobeOptions options;
   Camera camera;
-  std::shared_ptr<Relief> relief;         ///< shared with each Ground; none: the ellipsoid
-  std::unique_ptr<HeightLoader> heights;  ///< there if relief is
+  std::shared_ptr<Relief> relief;  ///< shared with each Ground; none: the ellipsoid
+  std::shared_ptr<ArrivalBell> bell = std::make_shared<ArrivalBell>();  ///< rung when a tile of any kind has come
+  std::optional<TileStream<HeightTile>> heights;                        ///< there if relief is
   std::string heights_attribution;
   std::uint64_t last_id = 0;
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< the lowest first

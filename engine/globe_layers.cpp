@@ -55,7 +55,7 @@ Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, con
   const LayerId id = next_id();
   const std::size_t share = options.gpu_bytes / (images.size() + 1);
   for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new one takes its part
-  images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, relief.get()));
+  images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, relief.get(), bell));
   restore_detail();
   return id;
 }
@@ -197,7 +197,7 @@ std::vector<std::string> Globe::Impl::attributions() const {
 void Globe::Impl::make_relief(const ElevationSource& elevation) {
   relief =
       std::make_shared<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration, options.height_bytes);
-  heights = std::make_unique<HeightLoader>(elevation);
+  heights.emplace(HeightLoader(elevation, {.bell = bell}), relief->tiles(), LayerId::none, options.retry_after);
   heights_attribution = elevation.tiles()->info().attribution;
 }
 

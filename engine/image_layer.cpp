@@ -8,7 +8,6 @@ namespace terrella {
 namespace {
 
 constexpr int kMips = 4;
-constexpr std::chrono::seconds kRetryFailed{30};
 constexpr TileGrid kPlainGrid{.tile_px = 16};
 constexpr int kAnyLevel = -1000;
 
@@ -21,14 +20,8 @@ TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
 
 }  // namespace
 
-void note(std::deque<LackingTile>& lacking, LackingTile tile) {
-  constexpr std::size_t kMostLacking = 64;
-  lacking.push_back(std::move(tile));
-  if (lacking.size() > kMostLacking) lacking.pop_front();
-}
-
 ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
-                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief)
+                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell)
     : id_(id),
       ellipsoid_(options.body.ellipsoid),
       segments_(options.segments),
@@ -41,15 +34,16 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
       tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
   set_relief(relief);
   if (!source) return;
-  LoaderOptions loading{.workers = options.workers, .gutter = options.gutter_px, .mips = kMips};
+  LoaderOptions loading{
+      .workers = options.workers, .gutter = options.gutter_px, .mips = kMips, .bell = std::move(bell)};
   // What waits for slots is no more than all slots hold.
   loading.max_finished_bytes =
       std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
-  loader_ = std::make_unique<TileLoader>(std::move(source), loading);
+  stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, options.retry_after);
 }
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
-  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief);
+  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief, nullptr);
   // Its tiles are all there, and empty.
   for (const TileId& id : plain->roots_) {
     TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
@@ -86,7 +80,7 @@ bool ImageLayer::is_special(bool has_night) const {
 // Slot 0 and those of the root tiles are never given up.
 bool ImageLayer::coarsen() {
   const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
-  if (!loader_ || coverage_.tiles <= room * 9 / 10) return false;
+  if (!stream_ || coverage_.tiles <= room * 9 / 10) return false;
   detail_ *= 0.75;
   return true;
 }
@@ -102,18 +96,14 @@ FurtherImagery ImageLayer::as_further() {
 std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
                                       std::deque<LackingTile>& lacking) {
   std::size_t bytes = 0;
-  if (!loader_) return bytes;
-  retry_failed();
+  if (!stream_) return bytes;
+  stream_->retry();
   while (allowance.bytes > 0) {
-    std::vector<LoadedTile> batch = loader_->poll(1);
-    if (batch.empty()) break;
-    for (LoadedTile& tile : batch) {
-      if (!tile.pixels) {
-        note_lacking(tile.id, tile.pixels.error(), lacking);
-        continue;
-      }
-      has_transparency_ = has_transparency_ || !tile.pixels->opaque;
-      if (!tiles_.upload(tile.id, tile.pixels->mips, frame)) continue;
+    const std::optional<LoadedTile> loaded = stream_->take(lacking);
+    if (!loaded) break;
+    const TileTexels& texels = *loaded->tile;
+    has_transparency_ = has_transparency_ || !texels.opaque;
+    if (tiles_.upload(loaded->id, texels.mips, frame)) {
       bytes += tiles_.slot_bytes();
       allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
     }
@@ -136,14 +126,13 @@ void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
 
 // Root tiles come first: an ancestor for everything.
 void ImageLayer::ask() {
-  if (!loader_) return;
-  asking_ = true;
+  if (!stream_) return;
   std::vector<TileRequest> requests;
   for (const TileId& id : roots_) {
     if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
   }
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
-  loader_->request(requests);
+  stream_->request(requests);
 }
 
 void ImageLayer::end_frame(std::uint64_t frame) {
@@ -152,9 +141,7 @@ void ImageLayer::end_frame(std::uint64_t frame) {
 }
 
 void ImageLayer::stop_asking() {
-  if (!asking_) return;
-  asking_ = false;
-  loader_->request({});
+  if (stream_) stream_->stop();
 }
 
 LayerFrame ImageLayer::frame(bool first, bool has_night) {
@@ -170,33 +157,11 @@ LayerFrame ImageLayer::frame(bool first, bool has_night) {
 
 // Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
 bool ImageLayer::settled() {
-  if (!loader_) return true;
+  if (!stream_) return true;
   if (!coverage_.wanted.empty()) return false;
   if (coverage_.uncovered == 0) return true;
   return std::ranges::none_of(
       roots_, [this](const TileId& id) { return tiles_.residency().entry(id).state == TileState::unknown; });
-}
-
-bool ImageLayer::has_news() const {
-  if (!loader_) return false;
-  if (!failed_.empty() && failed_.front().first <= std::chrono::steady_clock::now()) return true;
-  const LoaderCounts counts = loader_->counts();
-  if (counts.finished > 0) return true;
-  return asking_ && !coverage_.wanted.empty() && counts.waiting + counts.running + counts.fetching == 0;
-}
-
-void ImageLayer::note_lacking(const TileId& id, const TileFailure& failure, std::deque<LackingTile>& lacking) {
-  tiles_.set_state(id, TileState::lacking);
-  if (failure.kind == Absence::failed) failed_.emplace_back(std::chrono::steady_clock::now() + kRetryFailed, id);
-  note(lacking, {id, failure, id_});
-}
-
-void ImageLayer::retry_failed() {
-  for (const auto now = std::chrono::steady_clock::now(); !failed_.empty() && failed_.front().first <= now;
-       failed_.pop_front()) {
-    TileResidency::Entry* entry = tiles_.residency().find(failed_.front().second);
-    if (entry != nullptr && entry->state == TileState::lacking) entry->state = TileState::unknown;
-  }
 }
 
 }  // namespace terrella

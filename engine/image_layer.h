@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/globe.h"
+#include "engine/tile_stream.h"
 #include "render/globe_renderer.h"
 #include "scene/layers.h"
 #include "scene/tile_coverage.h"
@@ -22,16 +23,13 @@ struct UploadAllowance {
   std::chrono::steady_clock::time_point deadline;
 };
 
-/// Keeps the tiles that failed last, the latest at the end, as Globe::lacking() gives them.
-void note(std::deque<LackingTile>& lacking, LackingTile tile);
-
 /// One image layer of a globe: its tiles on their way from the source to the GPU, and what a frame draws of them.
 /// thread: main (of the context)
 class ImageLayer {
  public:
-  /// `gpu_bytes`: this layer's share. `relief` as the globe's, none: the ellipsoid.
+  /// `gpu_bytes`: this layer's share. `relief` as the globe's, none: the ellipsoid. `bell` rings when a tile has come.
   ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
-             std::size_t gpu_bytes, Relief* relief);
+             std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
   /// The plain colour that stands where no layer is opaque.
   [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
 
@@ -77,15 +75,11 @@ class ImageLayer {
   [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
   [[nodiscard]] bool settled();
-  [[nodiscard]] LoaderCounts loading() const { return loader_ ? loader_->counts() : LoaderCounts{}; }
-  bool wait(std::chrono::steady_clock::time_point deadline) { return loader_ && loader_->wait(deadline); }
-  /// A frame would have something to do: tiles have arrived, or are to be asked for again.
-  [[nodiscard]] bool has_news() const;
+  [[nodiscard]] LoaderCounts loading() const { return stream_ ? stream_->counts() : LoaderCounts{}; }
+  /// TileStream::has_news().
+  [[nodiscard]] bool has_news() const { return stream_ && stream_->has_news(); }
 
  private:
-  void note_lacking(const TileId& id, const TileFailure& failure, std::deque<LackingTile>& lacking);
-  void retry_failed();
-
   LayerId id_;
   Ellipsoid ellipsoid_;
   int segments_;
@@ -97,14 +91,12 @@ class ImageLayer {
   std::string attribution_;
   std::unique_ptr<PatchTree> tree_;
   TileTextures tiles_;
-  std::unique_ptr<TileLoader> loader_;  ///< none: plain
+  std::optional<TileStream<TileTexels>> stream_;  ///< none: plain
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
   double detail_ = 1.0;
   bool has_transparency_ = false;  ///< a tile came that has some
-  bool asking_ = false;
-  std::deque<std::pair<std::chrono::steady_clock::time_point, TileId>> failed_;  ///< to be asked for again
 };
 
 }  // namespace terrella

@@ -32,34 +32,15 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
 
 }  // namespace
 
-struct TileLoader::Impl : TileScheduler<TileTexels> {
-  using TileScheduler::TileScheduler;
-};
+template class Loader<TileTexels>;
 
-TileLoader::TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options) {
-  assert(source != nullptr);
-  assert(options.workers >= 1 && options.workers <= 64);
+TileLoader::TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options)
+    : Loader(start_scheduler<TileTexels>(
+          source, options.workers, options.max_finished_bytes, options.bell,
+          [tile_px = source->info().grid.tile_px, options](const TileId&, const EncodedTile& tile) {
+            return texels_of(tile, tile_px, options);
+          })) {
   assert(options.mips >= 1 && options.mips <= kMaxMips && options.gutter >= 0);
-  const int tile_px = source->info().grid.tile_px;
-  impl_ = std::make_shared<Impl>(
-      std::move(source),
-      [tile_px, options](const TileId&, const EncodedTile& tile) { return texels_of(tile, tile_px, options); },
-      options.max_finished_bytes);
-  impl_->start(options.workers);
 }
-
-TileLoader::~TileLoader() { impl_->stop(); }
-
-void TileLoader::request(std::span<const TileRequest> wanted) { impl_->request(wanted); }
-
-std::vector<LoadedTile> TileLoader::poll(std::size_t max_bytes) {
-  std::vector<LoadedTile> loaded;
-  for (auto& finished : impl_->poll(max_bytes)) loaded.push_back({finished.id, std::move(finished.tile)});
-  return loaded;
-}
-
-bool TileLoader::wait(std::chrono::steady_clock::time_point deadline) { return impl_->wait(deadline); }
-
-LoaderCounts TileLoader::counts() const { return impl_->counts(); }
 
 }  // namespace terrella

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "streaming/tile_source.h"
@@ -15,10 +16,15 @@ struct TileRequest {
   double priority = 0.0;  ///< larger first
 };
 
-/// One finished request: texels ready for upload, premultiplied, or why there are none.
-struct LoadedTile {
+class ArrivalBell;
+template <class Decoded>
+class TileScheduler;
+
+/// One finished request: the decoded tile, or why there is none.
+template <class Decoded>
+struct Loaded {
   TileId id;
-  Result<TileTexels, TileFailure> pixels;
+  Result<Decoded, TileFailure> tile;
 };
 
 struct LoaderOptions {
@@ -26,6 +32,7 @@ struct LoaderOptions {
   std::size_t max_finished_bytes = 64UL << 20;  ///< decoded tiles waiting to be polled; workers pause over it
   int gutter = 4;                               ///< texels of border on each side of mip 0 (TileTexels)
   int mips = 3;                                 ///< mip levels with the finest, [1, kMaxMips]
+  std::shared_ptr<ArrivalBell> bell = {};       ///< rung when a tile is finished; may be none
 };
 
 struct LoaderCounts {
@@ -45,27 +52,38 @@ struct LoaderCounts {
 ///   arrived   the network has answered, and no worker has decoded it yet;
 ///   finished  its texels, or the reason why there are none, wait to be polled.
 /// From waiting, fetching and arrived it is dropped when it is no longer wanted.
-class TileLoader {
+/// A kind of tile is what `Decoded` is: TileLoader is for imagery, HeightLoader for heights.
+template <class Decoded>
+class Loader {
  public:
-  TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});
-  ~TileLoader();  ///< joins the workers; what was not started is dropped
-  TileLoader(const TileLoader&) = delete;
-  TileLoader& operator=(const TileLoader&) = delete;
+  ~Loader();  ///< joins the workers; what was not started is dropped
+  Loader(Loader&&) = default;
+  Loader& operator=(Loader&&) = delete;
 
   /// The whole list of what is wanted now. Replaces the list of the last call: what is no longer in it and has not
   /// started is cancelled; what is running or finished is not started twice; priority is read when a worker
   /// becomes free. A finished tile that was polled and is requested again is read again. thread: main
   void request(std::span<const TileRequest> wanted);
-  /// Finished tiles, at most `max_bytes` of pixels but at least one if there is one. thread: main
-  [[nodiscard]] std::vector<LoadedTile> poll(std::size_t max_bytes);
+  /// Finished tiles, at most `max_bytes` decoded but at least one if there is one. thread: main
+  [[nodiscard]] std::vector<Loaded<Decoded>> poll(std::size_t max_bytes);
   /// Waits until something is finished, nothing is under way, or the deadline; true if something is finished. thread:
   /// main
   bool wait(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts counts() const;  ///< thread: main
 
+ protected:
+  explicit Loader(std::shared_ptr<TileScheduler<Decoded>> scheduler) : scheduler_(std::move(scheduler)) {}
+
  private:
-  struct Impl;
-  std::shared_ptr<Impl> impl_;
+  std::shared_ptr<TileScheduler<Decoded>> scheduler_;
 };
+extern template class Loader<TileTexels>;
+
+/// Loads imagery: texels ready for upload, premultiplied.
+class TileLoader : public Loader<TileTexels> {
+ public:
+  TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});
+};
+using LoadedTile = Loaded<TileTexels>;
 
 }  // namespace terrella

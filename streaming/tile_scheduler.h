@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -18,25 +19,27 @@
 #include <utility>
 #include <vector>
 
+#include "streaming/arrival_bell.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
 
-/// What TileLoader says of requests, for tiles that decode to any value; it and HeightLoader are made of this.
-/// `Decoded` has a size_bytes(). Made by std::make_shared: an answer of the network may come after its owner is gone.
+/// What is behind a Loader. `Decoded` has a size_bytes(). start_scheduler() makes it: an answer of the network may come
+/// after its owner is gone.
 template <class Decoded>
 class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>> {
  public:
   using Decode = std::function<Result<Decoded, TileFailure>(const TileId& id, const EncodedTile& tile)>;
-  struct Finished {
-    TileId id;
-    Result<Decoded, TileFailure> tile;
-  };
+  using Finished = Loaded<Decoded>;
 
   /// `decode` runs in several workers at once; what it throws makes the tile a failed one.
-  TileScheduler(std::shared_ptr<TileSource> source, Decode decode, std::size_t max_finished_bytes)
-      : source_(std::move(source)), decode_(std::move(decode)), max_finished_bytes_(max_finished_bytes) {}
+  TileScheduler(std::shared_ptr<TileSource> source, Decode decode, std::size_t max_finished_bytes,
+                std::shared_ptr<ArrivalBell> bell)
+      : source_(std::move(source)),
+        decode_(std::move(decode)),
+        max_finished_bytes_(max_finished_bytes),
+        bell_(std::move(bell)) {}
 
   // thread: main
   void start(int workers) {
@@ -83,6 +86,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   const Decode decode_;
   RemoteTiles* const remote_ = source_->remote();
   const std::size_t max_finished_bytes_;
+  const std::shared_ptr<ArrivalBell> bell_;  ///< may be none
 
   mutable std::mutex mutex_;  ///< guards all below but `workers_`
   std::condition_variable work_changed_;
@@ -270,6 +274,7 @@ void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Ar
   finished_ids_.insert(tile.id);
   finished_.push_back(std::move(finished));
   finished_changed_.notify_all();
+  if (bell_) bell_->ring();
 }
 
 /// What leaves a thread as an exception ends the program; memory that ran out for one tile is no reason for that.
@@ -293,6 +298,46 @@ void TileScheduler<Decoded>::arrive(const TileId& id, Encoded encoded) {
     arrived_.push_back({id, std::move(encoded)});
   }
   work_changed_.notify_one();
+}
+
+// ---- Loader
+
+template <class Decoded>
+std::shared_ptr<TileScheduler<Decoded>> start_scheduler(std::shared_ptr<TileSource> source, int workers,
+                                                        std::size_t max_finished_bytes,
+                                                        std::shared_ptr<ArrivalBell> bell,
+                                                        typename TileScheduler<Decoded>::Decode decode) {
+  assert(source != nullptr);
+  assert(workers >= 1 && workers <= 64);
+  auto scheduler = std::make_shared<TileScheduler<Decoded>>(std::move(source), std::move(decode), max_finished_bytes,
+                                                            std::move(bell));
+  scheduler->start(workers);
+  return scheduler;
+}
+
+template <class Decoded>
+Loader<Decoded>::~Loader() {
+  if (scheduler_) scheduler_->stop();
+}
+
+template <class Decoded>
+void Loader<Decoded>::request(std::span<const TileRequest> wanted) {
+  scheduler_->request(wanted);
+}
+
+template <class Decoded>
+std::vector<Loaded<Decoded>> Loader<Decoded>::poll(std::size_t max_bytes) {
+  return scheduler_->poll(max_bytes);
+}
+
+template <class Decoded>
+bool Loader<Decoded>::wait(std::chrono::steady_clock::time_point deadline) {
+  return scheduler_->wait(deadline);
+}
+
+template <class Decoded>
+LoaderCounts Loader<Decoded>::counts() const {
+  return scheduler_->counts();
 }
 
 }  // namespace terrella

@@ -126,18 +126,10 @@ int TileTextures::take_slot(std::uint64_t frame) {
     return slot;
   }
   if (used_ < slots_ || grow()) return used_++;
-  const std::pair<const TileId, TileResidency::Entry>* oldest = nullptr;
-  for (const auto& item : residency_.entries()) {
-    const TileResidency::Entry& entry = item.second;
-    if (entry.state != TileState::resident || item.first.level == grid_.min_level || entry.last_drawn >= frame)
-      continue;
-    // What the last frame's view needs would be asked for again at once; an ancestor that only stands in goes first.
-    if (entry.last_needed + 1 >= frame) continue;
-    if (oldest == nullptr || item.second.last_drawn < oldest->second.last_drawn) oldest = &item;
-  }
-  if (oldest == nullptr) return -1;
-  const int slot = oldest->second.slot;
-  residency_.erase(TileId(oldest->first));
+  const std::optional<TileId> oldest = residency_.to_evict(frame, grid_.min_level);
+  if (!oldest) return -1;
+  const int slot = residency_.entry(*oldest).slot;
+  residency_.erase(*oldest);
   return slot;
 }
 

@@ -37,7 +37,6 @@ class TileTextures {
   /// tile drawn longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do.
   /// False: no room.
   bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
-  void set_state(const TileId& id, TileState state) { residency_.entry(id).state = state; }
 
   [[nodiscard]] TileResidency& residency() { return residency_; }
   [[nodiscard]] GLuint texture() const { return texture_.name(); }

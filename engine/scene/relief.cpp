@@ -16,9 +16,6 @@ constexpr std::int64_t kMostColumns = 6;
 constexpr double kLatitudeKinds_deg = 7.0;
 // Changes that are remembered one by one. What has not been looked at for longer counts as changed.
 constexpr std::size_t kMostChanges = 1024;
-// Tiles of which it is known when they were wanted: so many at least, and for so many selections.
-constexpr std::size_t kManyWishes = 4096;
-constexpr std::uint64_t kLong = 300;
 
 double span_m(const Ellipsoid& e, const TileGrid& grid) {
   return e.a_m() * (std::numbers::pi / 180.0) * grid.root_span_deg / grid.tile_px;
@@ -41,7 +38,9 @@ void Relief::set_exaggeration(double exaggeration) {
 void Relief::add(HeightTile tile) {
   range_ = {.min_m = std::min(range_.min_m, double(tile.min_m)), .max_m = std::max(range_.max_m, double(tile.max_m))};
   note_change(change_of(tile.id));
-  last_wanted_[tile.id] = round_;
+  TileResidency::Entry& entry = tiles_.entry(tile.id);
+  entry.state = TileState::resident;
+  stamp(entry);
   field_.add(std::move(tile));
   keep_to_budget();
 }
@@ -181,7 +180,7 @@ void Relief::measure_error(const PatchTree& tree, PatchNode& node) const {
 
 std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) {
   ++round_;
-  forget_wishes();
+  tiles_.end_frame(round_, grid().min_level);
   std::vector<WantedTile> wanted;
   for (const TileId& id : root_tiles(grid())) want_tile(id, 1e9, wanted);
   const double texel_m = span_m(ellipsoid_, grid());
@@ -206,37 +205,23 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
 
 void Relief::want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted) {
   if (!exists(grid(), id)) return;
-  std::uint64_t& last = last_wanted_[id];
-  const bool first = last != round_;
-  last = round_;
-  if (first && !field_.has(id) && !lacking_.contains(id)) wanted.push_back({id, priority});
+  TileResidency::Entry& entry = tiles_.entry(id);
+  if (entry.last_wanted == round_) return;
+  stamp(entry);
+  if (entry.state == TileState::unknown) wanted.push_back({id, priority});
 }
 
-// Of tiles that are not there, and have not been wanted for long. What was lacking is asked for again.
-void Relief::forget_wishes() {
-  if (last_wanted_.size() <= std::max(kManyWishes, most_wishes_)) return;
-  const auto is_old = [&](const auto& item) {
-    return item.second + kLong < round_ && item.first.level > grid().min_level && !field_.has(item.first);
-  };
-  for (const auto& item : last_wanted_) {
-    if (is_old(item)) lacking_.erase(item.first);
-  }
-  std::erase_if(last_wanted_, is_old);
-  most_wishes_ = 2 * last_wanted_.size();
+void Relief::stamp(TileResidency::Entry& entry) const {
+  entry.last_wanted = entry.last_needed = entry.last_drawn = round_;
 }
 
 void Relief::keep_to_budget() {
-  if (field_.size() <= most_tiles_) return;
-  std::vector<std::pair<std::uint64_t, TileId>> old;
-  for (const auto& [id, round] : last_wanted_) {
-    if (round + 1 < round_ && id.level > grid().min_level && field_.has(id)) old.emplace_back(round, id);
-  }
-  std::sort(old.begin(), old.end());
-  for (const auto& [round, id] : old) {
-    if (field_.size() <= most_tiles_ * 7 / 8) return;
-    field_.remove(id);
-    last_wanted_.erase(id);
-    note_change(change_of(id));
+  while (field_.size() > most_tiles_) {
+    const std::optional<TileId> oldest = tiles_.to_evict(round_, grid().min_level);
+    if (!oldest) return;
+    field_.remove(*oldest);
+    tiles_.erase(*oldest);
+    note_change(change_of(*oldest));
   }
 }
 

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "geo/camera.h"
@@ -13,6 +11,7 @@
 #include "scene/patch_selection.h"
 #include "scene/patch_tree.h"
 #include "scene/tile_coverage.h"
+#include "scene/tile_residency.h"
 
 namespace terrella {
 
@@ -32,9 +31,9 @@ class Relief : public GroundHeights {
   void set_exaggeration(double exaggeration);
   /// A tile has come; what lies under it is raised anew.
   void add(HeightTile tile);
-  /// The source lacks it for good: its ancestors serve.
-  void set_lacking(const TileId& id) { lacking_.insert(id); }
-  [[nodiscard]] int lacking() const { return static_cast<int>(lacking_.size()); }
+  /// States of the tiles. A missing tile's ancestors serve instead.
+  [[nodiscard]] TileResidency& tiles() { return tiles_; }
+  [[nodiscard]] int missing() const { return static_cast<int>(tiles_.count(TileState::missing)); }
   /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const override {
     return field_.height_m(lat, lon, exaggeration_);
@@ -67,8 +66,8 @@ class Relief : public GroundHeights {
   /// The heights of its vertices, the slopes there and how far the ground lies from the mesh between them.
   void refresh_mesh(const PatchTree& tree, PatchNode& node);
 
-  /// The tiles that the patches of a view want and that are neither there nor lacking; the coarsest level always. Tiles
-  /// that no view has wanted for long give way to the budget.
+  /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
+  /// that no view has wanted for long are evicted when the budget is used up.
   [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
 
  private:
@@ -85,8 +84,8 @@ class Relief : public GroundHeights {
   void measure_error(const PatchTree& tree, PatchNode& node) const;
   [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
   void want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted);
+  void stamp(TileResidency::Entry& entry) const;
   void keep_to_budget();
-  void forget_wishes();
 
   Ellipsoid ellipsoid_;
   HeightField field_;
@@ -99,10 +98,8 @@ class Relief : public GroundHeights {
   int put_off_ = 0;
   std::uint64_t meshes_made_ = 0;
   GroundRange range_;  ///< as the tiles have it
-  std::unordered_set<TileId, TileIdHash> lacking_;
-  std::unordered_map<TileId, std::uint64_t, TileIdHash> last_wanted_;
-  std::uint64_t round_ = 0;
-  std::size_t most_wishes_ = 0;  ///< in last_wanted_, before it is looked through the next time
+  TileResidency tiles_;
+  std::uint64_t round_ = 0;  ///< counts calls of want()
 };
 
 }  // namespace terrella

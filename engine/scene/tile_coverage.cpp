@@ -339,7 +339,7 @@ class Coverer {
     entry.last_counted = frame_;
     ++out_.tiles;
     if (entry.state == TileState::unknown) ++out_.missing;
-    if (entry.state == TileState::lacking) ++out_.lacking;
+    if (entry.state == TileState::missing) ++out_.lacking;
   }
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {

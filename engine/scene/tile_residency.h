@@ -1,29 +1,38 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <unordered_map>
-#include <vector>
+#include <utility>
 
 #include "geo/tile_grid.h"
 
 namespace terrella {
 
-/// The life of a tile as the scene sees it, in order.
+/// The life of a tile as the scene sees it, in order. Imagery and heights have the same life:
+///   unknown -> resident   the tile was decoded and is in its place;
+///   unknown -> missing    the tile failed; an ancestor is shown instead;
+///   missing -> unknown    the tile failed for now, and it is time to retry (TileResidency::retry());
+///   unknown -> outside    the grid or its bounds do not have the tile;
+///   any     -> unknown    the tile was evicted or forgotten.
 enum class TileState : std::uint8_t {
-  unknown,   ///< never asked for, or dropped since
-  resident,  ///< its texels are in a texture slot and can be drawn
-  lacking,   ///< it finally failed: an ancestor stands in for good
-  outside,   ///< the grid or its bounds do not have it: an ancestor stands in, and nobody asks
+  unknown,   ///< never requested, or dropped since; a frame that wants it requests it
+  resident,  ///< decoded and in its place: texels in a texture slot, heights in the height field
+  missing,   ///< it failed: an ancestor is shown, and nobody requests it until a retry
+  outside,   ///< not in the grid or its bounds: an ancestor is shown, and nobody requests it
 };
 
-/// Which tiles can be drawn, and from which slot. Plain data: the renderer fills it, selection reads it.
-/// thread: main
+/// The states of all tiles of one kind, with the rules for retry, eviction and forgetting. Plain data: what loads tiles
+/// fills it, selection reads it. "Frame" is any number that grows from frame to frame. thread: main
 class TileResidency {
  public:
+  using Clock = std::chrono::steady_clock;
   struct Entry {
     TileState state = TileState::unknown;
-    int slot = -1;                   ///< if resident
+    int slot = -1;                   ///< texture slot, if resident
     std::uint64_t last_drawn = 0;    ///< frame number, for eviction
     std::uint64_t last_needed = 0;   ///< frame number: drawn where nothing finer can still come, so not to be evicted
     std::uint64_t last_wanted = 0;   ///< frame number, so that a frame lists a tile once
@@ -44,8 +53,44 @@ class TileResidency {
     return it == entries_.end() ? nullptr : &it->second;
   }
   void erase(const TileId& id) { entries_.erase(id); }
-  /// Where there are many entries, those go that are not resident and that no frame has had to do with for long; never
-  /// one of the coarsest level. What was lacking is asked for again where it is wanted again.
+  [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
+  [[nodiscard]] std::size_t count(TileState state) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(entries_, [state](const auto& item) { return item.second.state == state; }));
+  }
+
+  /// The tile failed. `retry_at`: when it may be requested again; none: never. Times must come in ascending order.
+  void set_missing(const TileId& id, std::optional<Clock::time_point> retry_at) {
+    entries_[id].state = TileState::missing;
+    if (retry_at) retries_.emplace_back(*retry_at, id);
+  }
+  [[nodiscard]] bool has_retry(Clock::time_point now) const {
+    return !retries_.empty() && retries_.front().first <= now;
+  }
+  /// Missing tiles whose time has come are unknown again.
+  void retry(Clock::time_point now) {
+    for (; has_retry(now); retries_.pop_front()) {
+      Entry* entry = find(retries_.front().second);
+      if (entry != nullptr && entry->state == TileState::missing) entry->state = TileState::unknown;
+    }
+  }
+
+  /// The resident tile to evict: of those that the last frame did not need, the one drawn longest ago. None if every
+  /// tile is in use. Tiles of the coarsest level are never evicted.
+  [[nodiscard]] std::optional<TileId> to_evict(std::uint64_t frame, int coarsest_level) const {
+    const std::pair<const TileId, Entry>* oldest = nullptr;
+    for (const auto& item : entries_) {
+      const Entry& entry = item.second;
+      if (entry.state != TileState::resident || item.first.level == coarsest_level) continue;
+      // What the last frame's view needs would be requested again at once.
+      if (entry.last_drawn >= frame || entry.last_needed + 1 >= frame) continue;
+      if (oldest == nullptr || entry.last_drawn < oldest->second.last_drawn) oldest = &item;
+    }
+    return oldest == nullptr ? std::nullopt : std::optional(oldest->first);
+  }
+
+  /// Forgets tiles once there are many: those that are not resident and that no frame has used for long, except the
+  /// coarsest level. A missing tile that was forgotten is requested again if it is wanted again.
   void end_frame(std::uint64_t frame, int coarsest_level, std::size_t many = kManyEntries) {
     if (entries_.size() <= std::max(many, most_)) return;
     std::erase_if(entries_, [&](const auto& item) {
@@ -54,14 +99,14 @@ class TileResidency {
     });
     most_ = 2 * entries_.size();
   }
-  [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
 
  private:
   static constexpr std::size_t kManyEntries = 4096;
   static constexpr std::uint64_t kLong = 300;  ///< frames
 
   std::unordered_map<TileId, Entry, TileIdHash> entries_;
-  std::size_t most_ = 0;  ///< entries to look through the next time
+  std::deque<std::pair<Clock::time_point, TileId>> retries_;  ///< the next one first
+  std::size_t most_ = 0;                                      ///< entries to look through the next time
 };
 
 }  // namespace terrella

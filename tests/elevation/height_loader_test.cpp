@@ -64,11 +64,11 @@ TEST_F(HeightLoaderTest, GivesTheHeightsOfWhatIsAskedForOnce) {
   const auto tiles = drain(loader, 1);
   ASSERT_EQ(tiles.size(), 8U);
   for (const auto& [id, loaded] : tiles) {
-    ASSERT_TRUE(loaded.heights) << loaded.heights.error().why;
-    EXPECT_EQ(loaded.heights->id, id);
+    ASSERT_TRUE(loaded.tile) << loaded.tile.error().why;
+    EXPECT_EQ(loaded.tile->id, id);
     for (int i = 0; i < 16 * 16; ++i) {
       const double number = raster_.at(id.x * 16 + i % 16, id.y * 16 + i / 16);
-      EXPECT_EQ(loaded.heights->heights_m[static_cast<std::size_t>(i)], static_cast<float>(number * 0.5 - 8.0));
+      EXPECT_EQ(loaded.tile->heights_m[static_cast<std::size_t>(i)], static_cast<float>(number * 0.5 - 8.0));
     }
   }
   EXPECT_EQ(loader.counts().read, 8U);
@@ -89,8 +89,8 @@ TEST_F(HeightLoaderTest, FailuresAreTypedAsThoseOfPictures) {
   const std::map<std::int64_t, Absence> expected = {{1, Absence::broken}, {2, Absence::blank}, {3, Absence::absent}};
   for (const auto& [x, kind] : expected) {
     const auto& tile = tiles.at({.level = 1, .x = x, .y = 0});
-    ASSERT_FALSE(tile.heights);
-    EXPECT_EQ(tile.heights.error().kind, kind) << x;
+    ASSERT_FALSE(tile.tile);
+    EXPECT_EQ(tile.tile.error().kind, kind) << x;
   }
   EXPECT_EQ(loader.counts().lacked, 3U);
 }

@@ -267,25 +267,25 @@ TEST(PatchSelection, ACliffBetweenHeightsThatCameAndThatDidNotIsNoRunaway) {
   }
 }
 
-TEST(Relief, WhatIsLackingIsForgottenWhereNoViewHasWantedItForLong) {
+TEST(Relief, MissingTilesAreForgottenWhereNoViewHasWantedThemForLong) {
   constexpr int kViews = 900, kMost = 2 * 4096 + 1000;
   Draw draw(15);
   Relief relief(earth().ellipsoid, {.tile_px = 32, .max_level = 12}, 1.0);
   PatchTree tree(earth().ellipsoid, deep_grid(), 8);
   tree.set_relief(relief);
   std::vector<SelectedPatch> patches;
-  int lacked = 0;
+  int missing = 0;
   for (int k = 0; k < kViews; ++k) {
     select_patches(tree, make_view(random_camera(draw, 1.0e3, 1.0e6), earth().ellipsoid, {64, 48}), {}, patches);
     for (const WantedTile& tile : relief.want(patches)) {
-      relief.set_lacking(tile.id);
-      ++lacked;
+      relief.tiles().set_missing(tile.id, std::nullopt);
+      ++missing;
     }
-    for (const WantedTile& tile : relief.want(patches)) ADD_FAILURE() << "wants what is lacking: " << tile.id.level;
-    EXPECT_LT(relief.lacking(), kMost);
+    for (const WantedTile& tile : relief.want(patches)) ADD_FAILURE() << "wants what is missing: " << tile.id.level;
+    EXPECT_LT(relief.missing(), kMost);
     tree.end_frame();
   }
-  EXPECT_GT(lacked, 3 * kMost / 2);
+  EXPECT_GT(missing, 3 * kMost / 2);
 }
 
 TEST(PatchSelection, SpheresHoldTheirPatches) {

@@ -216,7 +216,7 @@ void serve(const TileCoverage& coverage, TileResidency& residency, int one_in_la
   for (const WantedTile& wanted : coverage.wanted) {
     TileResidency::Entry& entry = residency.entry(wanted.id);
     const bool lacking = one_in_lacking > 0 && draw.whole(1, one_in_lacking) == 1;
-    entry.state = lacking ? TileState::lacking : TileState::resident;
+    entry.state = lacking ? TileState::missing : TileState::resident;
     if (!lacking) entry.slot = slot++;
   }
 }
@@ -259,13 +259,13 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
 TEST(TileResidency, WhatNoFrameHasHadToDoWithForLongIsForgotten) {
   constexpr std::uint64_t kFrames = 5000;
   TileResidency residency;
-  residency.entry({0, 0, 0}).state = TileState::lacking;
+  residency.entry({0, 0, 0}).state = TileState::missing;
   residency.entry({9, 0, 1}).state = TileState::resident;
   for (std::uint64_t frame = 1; frame <= kFrames; ++frame) {
     for (std::int64_t x = 0; x < 10; ++x) {
       TileResidency::Entry& entry = residency.entry({9, static_cast<std::int64_t>(10 * frame) + x, 0});
       entry.last_wanted = frame;
-      if (x < 5) entry.state = TileState::lacking;
+      if (x < 5) entry.state = TileState::missing;
     }
     residency.end_frame(frame, 0);
   }

@@ -392,7 +392,7 @@ TEST_F(FarMercator, TheLoaderTakesThemAsItTakesAnyTiles) {
     network->answer_all();
     loader.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(5));
     for (const LoadedTile& tile : loader.poll(1 << 20)) {
-      EXPECT_TRUE(tile.pixels) << tile.pixels.error().why;
+      EXPECT_TRUE(tile.tile) << tile.tile.error().why;
       ++come;
     }
   }

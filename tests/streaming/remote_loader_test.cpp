@@ -89,7 +89,7 @@ std::vector<TileRequest> wishes(int first, int last) {
 std::size_t poll_all(TileLoader& loader) {
   std::size_t tiles = 0;
   while (loader.wait(std::chrono::steady_clock::now() + kRemotePatience)) {
-    for (const LoadedTile& tile : loader.poll(1)) tiles += tile.pixels ? 1 : 0;
+    for (const LoadedTile& tile : loader.poll(1)) tiles += tile.tile ? 1 : 0;
   }
   return tiles;
 }

@@ -92,9 +92,9 @@ TEST(TileLoader, LoadsWhatIsAskedFor) {
   std::set<TileId> ids;
   for (const LoadedTile& tile : tiles) {
     ids.insert(tile.id);
-    ASSERT_TRUE(tile.pixels) << tile.pixels.error().why;
-    EXPECT_EQ(tile.pixels->mips.size(), 2U);
-    EXPECT_EQ(tile.pixels->gutter, 2);
+    ASSERT_TRUE(tile.tile) << tile.tile.error().why;
+    EXPECT_EQ(tile.tile->mips.size(), 2U);
+    EXPECT_EQ(tile.tile->gutter, 2);
   }
   EXPECT_EQ(ids, (std::set<TileId>{{5, 1, 0}, {5, 2, 0}, {5, 3, 0}}));
   EXPECT_EQ(loader.counts().read, 3U);
@@ -152,9 +152,9 @@ TEST(TileLoader, SaysWhyThereAreNoPixels) {
   loader.request(bad);
   std::map<int, Absence> kinds;
   for (const LoadedTile& tile : drain(loader)) {
-    ASSERT_FALSE(tile.pixels);
-    EXPECT_FALSE(tile.pixels.error().why.empty());
-    kinds[tile.id.level] = tile.pixels.error().kind;
+    ASSERT_FALSE(tile.tile);
+    EXPECT_FALSE(tile.tile.error().why.empty());
+    kinds[tile.id.level] = tile.tile.error().kind;
   }
   EXPECT_EQ(kinds, (std::map<int, Absence>{{8, Absence::broken}, {9, Absence::failed}, {10, Absence::absent}}));
   EXPECT_EQ(loader.counts().lacked, 3U);

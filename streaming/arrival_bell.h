@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+namespace terrella {
+
+/// Wakes one waiting thread when any of several loaders has finished a tile.
+class ArrivalBell {
+ public:
+  void ring() {  ///< thread: any
+    {
+      const std::lock_guard lock(mutex_);
+      rung_ = true;
+    }
+    rang_.notify_one();
+  }
+  /// Waits until somebody has rung since the last wait, or until the deadline. thread: one
+  void wait_until(std::chrono::steady_clock::time_point deadline) {
+    std::unique_lock lock(mutex_);
+    rang_.wait_until(lock, deadline, [this] { return rung_; });
+    rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable rang_;
+  bool rung_ = false;  ///< guarded by mutex_
+};
+
+}  // namespace terrella
