@@ -6,13 +6,9 @@ set(data_dir ${CMAKE_INSTALL_DATADIR}/terrella)
 
 # A component is a set of libraries that is found as a whole: Terrella::terrella, Terrella::streaming, Terrella::cut.
 function(terrella_component component)
-  foreach(library IN LISTS ARGN)
-    string(REPLACE "terrella_" "" name ${library})
-    set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
-    add_library(Terrella::${name} ALIAS ${library})
-  endforeach()
   install(TARGETS ${ARGN} EXPORT Terrella_${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/terrella)
   install(EXPORT Terrella_${component} NAMESPACE Terrella:: DESTINATION ${package_dir} COMPONENT development)
 endfunction()
 terrella_component(streaming terrella_geo terrella_streaming)

@@ -49,3 +49,24 @@ function(terrella_public_headers source out)
   endwhile()
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
+
+# The name under include/terrella: globe.h for engine/globe.h, streaming/image.h for streaming/image.h.
+function(terrella_installed_header header out)
+  string(REGEX REPLACE "^engine/" "" installed ${header})
+  set(${out} ${installed} PARENT_SCOPE)
+endfunction()
+
+# Fills `folder` with links to the public headers, as they lie when installed. An edited header may include another one, so
+# that CMake then runs again.
+function(terrella_link_headers source folder)
+  terrella_public_headers(${source} headers)
+  file(REMOVE_RECURSE ${folder})
+  foreach(header IN LISTS headers)
+    terrella_installed_header(${header} installed)
+    cmake_path(GET installed PARENT_PATH parent)
+    file(MAKE_DIRECTORY ${folder}/${parent})
+    file(CREATE_LINK ${source}/${header} ${folder}/${installed} SYMBOLIC)
+  endforeach()
+  list(TRANSFORM headers PREPEND ${source}/)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
+endfunction()

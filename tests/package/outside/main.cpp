@@ -33,4 +33,5 @@ int main(int, char** argv) {
     return 3;
   const auto png = encode_png({size.width_px, size.height_px, target.read()});
   std::ofstream(argv[4], std::ios::binary).write(reinterpret_cast<const char*>(png->data()), std::ssize(*png));
+  return 0;
 }

@@ -11,25 +11,7 @@ import sys
 import tempfile
 import unittest
 
-HERE = pathlib.Path(__file__).resolve().parent
-SOURCE = HERE.parent.parent
-BUILD = pathlib.Path(os.environ["TERRELLA_BUILD"])
-CMAKE = os.environ["CMAKE_COMMAND"]
-COMPILER = os.environ["CXX"]
-
-sys.path[:0] = [str(HERE.parent / "window"), str(HERE.parent / "cli")]
-import pictures  # noqa: E402
-import png  # noqa: E402
-
-# The eye of outside/main.cpp looks straight down on the first: it is in the middle of the picture, the other is behind the limb.
-QUAKES = """{"type": "FeatureCollection", "features": [
-  {"type": "Feature", "geometry": {"type": "Point", "coordinates": [170, -20]}, "properties": {"marker-color": "#ff00ff"}},
-  {"type": "Feature", "geometry": {"type": "Point", "coordinates": [-10, 20]}, "properties": {"marker-color": "#00ffff"}}
-]}"""
-
-# A yellow square that the eye sees 8° south of the middle, 31 pixels under it.
-YELLOW, SQUARE, SQUARE_PX = (255, 220, 0), "168,-30,172,-26", (128, 159)
-CAMERA = "-20,170,10000000"
+from projects import BUILD, CAMERA, CMAKE, COMPILER, QUAKES, SOURCE, YELLOW, assert_picture, cut_square, run, write_project
 
 CUTTER_CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(Cutter LANGUAGES CXX)
@@ -38,7 +20,6 @@ if(TARGET Terrella::terrella)
   message(FATAL_ERROR "nobody asked for the globe")
 endif()
 add_executable(cutter main.cpp)
-target_compile_features(cutter PRIVATE cxx_std_20)
 target_link_libraries(cutter PRIVATE Terrella::cut)
 """
 CUTTER = """#include <terrella/streaming/cut.h>
@@ -53,22 +34,30 @@ int main() {
 }
 """
 
+# The sources of the document's project as a shared object, whose one function is main() by another name.
+PLUG_IN_CMAKE = """
+add_library(plug_in MODULE plug_in.cpp)
+target_link_options(plug_in PRIVATE -Wl,--no-undefined)
+target_link_libraries(plug_in PRIVATE Terrella::terrella)
+"""
+PLUG_IN = """#define main draw_globe
+extern "C" int draw_globe(int, char**);
+#include "main.cpp"
+"""
+DRAW_BY_PLUG_IN = """import ctypes, sys
+words = [word.encode() for word in sys.argv[1:]]
+sys.exit(ctypes.CDLL(sys.argv[1]).draw_globe(len(words), (ctypes.c_char_p * len(words))(*words)))
+"""
 
-# Options by name, one of many.
+# What applications write: options by name, one of many; conversions that GLM allows by default.
 BY_NAME = {
+    "terrella/geo/coordinates.h": "inline glm::vec3 narrow(const terrella::Ecef& p) { return p.xyz_m; }",
     "terrella/globe.h": "terrella::GlobeOptions a{.unlit = true}; terrella::GlobePick b{.objects = terrella::LayerId::none};"
                         "terrella::ImageLook c{.opacity = 0.5};",
     "terrella/geo/objects.h": "terrella::PointObject a{.place = {}}; terrella::LineObject b{.places = {}};",
     "terrella/streaming/cut.h": 'terrella::CutOptions a{.output = "o.gpkg"};',
     "terrella/streaming/cache/tile_cache.h": "terrella::CacheOptions a{};",
 }
-
-
-def run(*command, **options):
-    done = subprocess.run([*map(str, command)], capture_output=True, text=True, **options)
-    if done.returncode != 0:
-        raise AssertionError(f"{shlex.join(map(str, command))}: exit {done.returncode}\n{done.stdout}{done.stderr}")
-    return done.stdout
 
 
 def hiding_source():
@@ -93,42 +82,52 @@ class PackageTest(unittest.TestCase):
         cls.quakes = cls.scratch / "quakes.geojson"
         cls.quakes.write_text(QUAKES)
         cls.hiding = hiding_source()
-        picture = cls.scratch / "square.png"
-        picture.write_bytes(pictures.png(64, 64, YELLOW))
-        cls.square = cls.scratch / "square.gpkg"
-        run(cls.prefix / "bin/terrella", "cut", picture, "-o", cls.square, f"--bounds={SQUARE}", "--format", "png")
+        cls.square = cut_square(cls.prefix / "bin/terrella", cls.scratch)
 
     def run_outside(self, *command, **options):
         return run(*self.hiding, *command, cwd=options.pop("cwd", "/"), **options)
-
-    def copy_project(self, name):
-        folder = self.scratch / name
-        shutil.copytree(HERE / "outside", folder)
-        return folder
 
     def configure(self, folder, *options):
         return self.run_outside(CMAKE, "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
                                 *options)
 
-    def assert_picture(self, path, square):
-        width, height, rows = png.read(path)
-        self.assertEqual((width, height), (256, 256))
-        pixels = [tuple(row[3 * x : 3 * x + 3]) for row in rows for x in range(width)]
-        self.assertEqual(pixels[128 * width + 128], (255, 0, 255), "the earthquake under the eye")
-        self.assertEqual(pixels[SQUARE_PX[1] * width + SQUARE_PX[0]] == YELLOW, square, "the second layer")
-        self.assertNotIn((0, 255, 255), pixels, "the earthquake on the far side")
-        self.assertEqual(pixels[0], (0, 0, 0), "the sky")
-        self.assertGreater(len(set(pixels)), 1000, "colours of the Earth")
+    def build(self, name, *options):
+        """The folder of the document's first project, built with -Wall -Wextra -Werror and else with the compiler's defaults."""
+        folder = write_project(self.scratch / name, 0)
+        self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *options)
+        self.run_outside(CMAKE, "--build", folder / "build")
+        return folder
+
+    def data(self):
+        return [self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes]
 
     def test_find_package(self):
-        """A project outside the tree draws a picture of two layers and objects."""
-        folder = self.copy_project("with-cmake")
-        self.configure(folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
-        self.run_outside(CMAKE, "--build", folder / "build")
-        self.assertNotIn(str(SOURCE), (folder / "build/compile_commands.json").read_text())
-        picture = folder / "earth.png"
-        self.run_outside(folder / "build/outside", self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes, picture)
-        self.assert_picture(picture, square=True)
+        """A project outside the tree, the document's own, draws a picture of two layers and objects."""
+        folder = self.build("with-cmake")
+        commands = (folder / "build/compile_commands.json").read_text()
+        self.assertNotIn(str(SOURCE), commands)
+        self.assertNotIn("-D", commands, "settings of Terrella's in the application")
+        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
+        assert_picture(self, folder / "earth.png")
+
+    @unittest.skipUnless(shutil.which("clang++"), "needs clang++")
+    def test_find_package_with_another_compiler(self):
+        self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
+
+    def test_plug_in(self):
+        """The archives fit into a shared object; a process that knows nothing of C++ opens it and draws."""
+        folder = write_project(self.scratch / "plug-in", 0)
+        with open(folder / "CMakeLists.txt", "a") as cmake:
+            cmake.write(PLUG_IN_CMAKE)
+        (folder / "plug_in.cpp").write_text(PLUG_IN)
+        self.configure(folder)
+        self.run_outside(CMAKE, "--build", folder / "build", "--target", "plug_in")
+        plug_in = folder / "build/libplug_in.so"
+        self.run_outside(sys.executable, "-c", DRAW_BY_PLUG_IN, plug_in, *self.data(), folder / "earth.png")
+        assert_picture(self, folder / "earth.png")
+        symbols = run("nm", "--dynamic", "--demangle", "--defined-only", plug_in)
+        self.assertIn("draw_globe", symbols)
+        self.assertNotIn("terrella::Globe::", symbols, "the library's symbols are its own affair")
 
     def test_components(self):
         """The cutter without the globe: nothing of OpenGL is looked for."""
@@ -142,11 +141,11 @@ class PackageTest(unittest.TestCase):
 
     def test_pkg_config(self):
         """The same sources by the flags of pkg-config."""
-        folder = self.copy_project("with-pkg-config")
+        folder = write_project(self.scratch / "with-pkg-config", 0)
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
         self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
-        self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "outside", *flags, cwd=folder)
+        self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "application", *flags, cwd=folder)
 
     def test_every_header_by_itself(self):
         """What an application includes brings what it needs, and options are given by name without a warning."""
@@ -193,7 +192,7 @@ class PackageTest(unittest.TestCase):
         picture = self.scratch / "earth.png"
         self.run_outside(self.scratch / "root/usr/bin/terrella", "render", "--unlit", "--size", "256x256", f"--camera={CAMERA}",
                          "--objects", self.quakes, "-o", picture, env={**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache")})
-        self.assert_picture(picture, square=False)
+        assert_picture(self, picture, square=False)
 
 
 if __name__ == "__main__":
