@@ -47,6 +47,9 @@ std::string name_of(const LackingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, tile.failure.why);
 }
 
+/// Tiles of heights that failed, or that had not come when time was up.
+int heights_without(const FrameStats& stats) { return stats.heights_lacked + stats.heights_missing; }
+
 void report(const RenderCommand& command, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
   const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
@@ -61,7 +64,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
                              {"triangles", stats.triangles},
                              {"attributions", rendered.attributions}};
     for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
-    if (!command.scene.elevation.empty()) result["heights_lacked"] = stats.heights_lacked;
+    if (!command.scene.elevation.empty()) result["heights_lacked"] = heights_without(stats);
     for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
     fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
@@ -71,7 +74,9 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   if (!rendered.attributions.empty()) {
     fmt::print("{}: thanks to {}\n", command.output, fmt::join(rendered.attributions, "; "));
   }
-  if (stats.heights_lacked > 0) fmt::print("{}: {} tiles of heights lacked\n", command.output, stats.heights_lacked);
+  if (heights_without(stats) > 0) {
+    fmt::print("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
+  }
 }
 
 Result<Rendered> render_picture(const RenderCommand& command) {
@@ -117,7 +122,7 @@ int run(const RenderCommand& command) {
   }
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
-  if (stats.tiles_lacked + stats.tiles_missing + stats.heights_lacked == 0) {
+  if (stats.tiles_lacked + stats.tiles_missing + heights_without(stats) == 0) {
     return rendered->all_objects ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {

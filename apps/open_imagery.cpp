@@ -15,6 +15,7 @@
 #include "apps/user_folder.h"
 #include "streaming/cut.h"
 #include "streaming/remote/describe_remote.h"
+#include "streaming/remote/web_address.h"
 
 namespace terrella {
 namespace {
@@ -115,6 +116,31 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
+/// Options to open the heights with. What is said of TILESET, its rows and its server, is not said of them. A cache
+/// holds one source's tiles: theirs stands beside a --cache that is given.
+SceneOptions heights_options(const SceneOptions& options) {
+  SceneOptions heights = options;
+  heights.tile_set = options.elevation;
+  heights.projection.reset();
+  heights.latitude.reset();
+  heights.remote = {};
+  if (!options.cache.empty() && options.cache != "off") {
+    const fs::path cache = options.cache;
+    heights.cache = (cache.parent_path() / (cache.stem().string() + "-heights.gpkg")).string();
+  }
+  return heights;
+}
+
+/// `field`: the field of a description that the address goes into.
+Error no_meaning(const std::string& address, const char* field) {
+  return Error{fmt::format(
+      "{}: nothing says what the numbers in its tiles mean in metres; write a description that does, for example "
+      "heights.json with {{\"{}\": \"…\", \"max_level\": 8, \"elevation\": {{\"scale\": 1, \"offset\": -32768}}}}, and "
+      "give "
+      "--elevation heights.json (streaming/remote/README.md)",
+      for_people(address), field)};
+}
+
 bool starts_like_a_picture(const fs::path& path) {
   std::array<char, 8> head{};
   std::ifstream file(path, std::ios::binary);
@@ -192,12 +218,11 @@ Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& option
                     "or floats a pixel",
                     options.elevation)};
   }
-  SceneOptions heights = options;
-  heights.tile_set = options.elevation;
-  heights.projection.reset();
-  heights.latitude.reset();
-  auto tiles = open_any_tiles(heights);
+  // Known without a request: only a description says what a server's numbers mean.
+  if (options.elevation.find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
+  auto tiles = open_any_tiles(heights_options(options));
   if (!tiles) return tiles.error();
+  if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
   auto source = ElevationSource::open(*std::move(tiles), options.elevation);
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));

@@ -118,7 +118,7 @@ void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--elevation", options.elevation,
                   "Heights that raise the ground: a tile set of 16-bit heights, as terrella cut --elevation and GDAL's "
-                  "gridded coverages are")
+                  "gridded coverages are; or a JSON source description of heights on a server, with its \"elevation\"")
       ->type_name("TILESET");
   command.add_option("--exaggeration", options.exaggeration, "How many times as high heights are drawn")
       ->check(number_in(0.0, 100.0))
@@ -200,7 +200,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "--cache", options.cache,
           "Where tiles from a server are kept, and what a picture given as TILESET is cut into, to be found there the "
-          "next time; off: nowhere (default: $XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
+          "next time; heights from a server are kept beside FILE, in NAME-heights.gpkg; off: nowhere (default: "
+          "$XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
       ->type_name("FILE|off");
   command
       .add_option("--cache-size", options.cache_size_mb,

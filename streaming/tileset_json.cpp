@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/body.h"
+#include "streaming/elevation/elevation_json.h"
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
 #include "streaming/tileset_check.h"
@@ -21,21 +22,6 @@ constexpr int kVersion = 1;
 double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; }
 
 const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
-
-std::optional<ElevationInfo> read_elevation(const json& object, JsonFields& fields, const std::string& where) {
-  if (!fields.has("elevation")) return {};
-  const json& value = object["elevation"];
-  if (!value.is_object()) return fields.fail<std::optional<ElevationInfo>>("elevation", "must be an object");
-  JsonFields inner(value, where);
-  ElevationInfo info{.scale = inner.number("scale"), .offset = inner.number("offset"), .nodata = {}};
-  if (inner.has("nodata")) info.nodata = inner.integer("nodata", 0);
-  if (inner.error())
-    return fields.fail<std::optional<ElevationInfo>>("elevation", "takes the numbers scale, offset, nodata");
-  if (info.scale == 0.0) return fields.fail<std::optional<ElevationInfo>>("elevation", "has a scale of 0");
-  const double nodata = info.nodata.value_or(0.0);
-  if (nodata < 0.0 || nodata > 65535.0) fields.fail<int>("elevation", "has a nodata beyond 0 to 65535");
-  return info;
-}
 
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   JsonFields fields(object, where);

@@ -133,18 +133,31 @@ class Describing {
     const std::string where = for_people(address);
     const Result<SourceDescription> source = parse_source_json(text, where);
     if (!source) return source.error();
-    const RemoteOptions merged = merge(options, source->options);
-    if (source->kind == SourceDescription::Kind::url_template) {
+    RemoteOptions merged = merge(options, source->options);
+    if (merged.elevation) merged.format = ImageFormat::png;
+    Result<RemoteTileSet> set = follow(*source, address, merged, options);
+    if (!set || !merged.elevation) return set;
+    if (set->info.format != ImageFormat::png) {
+      return Error{where + ": its tiles are JPEG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
+    }
+    set->info.elevation = merged.elevation;
+    return set;
+  }
+
+  Result<RemoteTileSet> follow(const SourceDescription& source, const std::string& address, const RemoteOptions& merged,
+                               const RemoteOptions& options) {
+    const std::string where = for_people(address);
+    if (source.kind == SourceDescription::Kind::url_template) {
       // A description may hold its own headers for its own tiles: those of the command line were given for its host.
-      Result<RemoteTileSet> set = template_tile_set(source->address, merged, !is_from_network(address), where);
+      Result<RemoteTileSet> set = template_tile_set(source.address, merged, !is_from_network(address), where);
       if (!set || options.headers.empty()) return set;
       return checked(std::move(set), address);
     }
-    if (Status pointed = check_pointer(address, source->address, options); !pointed) return pointed.error();
-    const Result<std::string> document = read(source->address, merged);
+    if (Status pointed = check_pointer(address, source.address, options); !pointed) return pointed.error();
+    const Result<std::string> document = read(source.address, merged);
     if (!document) return Error{where + ": " + document.error().message};
-    const Kind kind = source->kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
-    return interpret(kind, *document, source->address, merged);
+    const Kind kind = source.kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
+    return interpret(kind, *document, source.address, merged);
   }
 
   static std::string with_scheme(const std::string& address) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/tile_grid.h"
+#include "streaming/elevation/elevation_json.h"
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
 #include "streaming/tileset_check.h"
@@ -14,10 +15,10 @@ namespace {
 constexpr int kVersion = 1;
 constexpr int kMaxLife_s = 315'360'000;  // ten years: longer is a mistake of units
 
-constexpr std::array kKnown = {"version", "name",      "attribution", "body",           "url",        "subdomains",
-                               "headers", "wmts",      "layer",       "matrix_set",     "style",      "time",
-                               "tms",     "min_level", "max_level",   "root_span_deg",  "tile_px",    "bounds",
-                               "format",  "latitude",  "projection",  "absence_life_s", "tile_life_s"};
+constexpr std::array kKnown = {"version", "name",      "attribution", "body",           "url",         "subdomains",
+                               "headers", "wmts",      "layer",       "matrix_set",     "style",       "time",
+                               "tms",     "min_level", "max_level",   "root_span_deg",  "tile_px",     "bounds",
+                               "format",  "latitude",  "projection",  "absence_life_s", "tile_life_s", "elevation"};
 
 std::optional<std::string> text_if(JsonFields& fields, const char* field) {
   return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
@@ -100,6 +101,10 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.tile_life = life_if(fields, "tile_life_s");
   options.absence_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
+  options.elevation = read_elevation(*object, fields, where);
+  if (options.elevation && options.format == ImageFormat::jpeg) {
+    fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
+  }
   if (fields.error()) return *fields.error();
   if (Status checked = check_options(options, where); !checked) return checked.error();
   if (options.bounds) {

@@ -1,12 +1,20 @@
 """Heights that are damaged, missing, unknown, of another grid or no heights at all: each message names file and tile."""
 
+import json
+import resource
 import sqlite3
 import struct
+import subprocess
+import sys
+import time
 import unittest
 import zlib
 
 from pictures import heights_png, png, png_of
-from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, ProgramTest
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
+
+sys.path.insert(0, str(SOURCE / "tests/preload"))
+import servers  # noqa: E402
 
 RENDER = ("-o", "out.png", "--size", "64x64", "--camera", "10,20,2000000,0,-50", "--unlit", "--cache", "off")
 ROUGH = "--exaggeration", "20"
@@ -84,7 +92,7 @@ class BadHeights(ProgramTest):
         self.spoil(f'UPDATE "{table}" SET tile_data = substr(tile_data, 1, 60) WHERE zoom_level = ?', level)
         _, done = self.render(DONE_IN_PART)
         self.assertRegex(done.stderr, rf"relief\.gpkg lacks the heights {level}/\d+/\d+: PNG")
-        self.assertIn("heights lacked", done.stdout)
+        self.assertIn("heights missing", done.stdout)
 
     def test_missing_tiles(self):
         self.cut(hills(256, 128), "--tile-size", "32")
@@ -114,6 +122,146 @@ class BadHeights(ProgramTest):
         (self.folder / "relief.gpkg").unlink()
         self.cut(heights_png(256, 128, 32768), "--tile-size", "32")
         return self.render()[0]
+
+
+class HeightsFromServer(ProgramTest):
+    """--elevation takes a description of heights on a server, as TILESET takes one of imagery."""
+
+    MEANING = {"scale": 1.0, "offset": -32768.0}
+    VIEW = ("-o", "out.png", "--size", "64x64", "--camera", "10,20,2000000,0,-50", "--unlit", *ROUGH)
+
+    def setUp(self):
+        super().setUp()
+        self.write("sea.png", png(128, 64))
+        self.assert_done("cut", "sea.png", "-o", "sea.gpkg", "--tile-size", "64")
+        self.write("in.png", hills(256, 128))
+        self.assert_done("cut", "in.png", "--elevation", "--offset", "-32768", "-o", "relief", "--tile-size", "32")
+        self.relief = self.folder / "relief"
+        self.truth = self.render("relief")
+
+    def describe(self, template, **more):
+        said = json.loads((self.relief / "tileset.json").read_text())
+        grid = {name: said[name] for name in ("tile_px", "root_span_deg", "max_level")}
+        description = {"url": template.replace(".jpg", ".png"), **grid, "elevation": self.MEANING, **more}
+        self.write("heights.json", json.dumps(description).encode())
+        return "heights.json"
+
+    def render(self, elevation, *more, code=DONE):
+        self.done = self.run_program("render", "sea.gpkg", "--elevation", elevation, *self.VIEW, *more)
+        self.assertEqual(self.done.returncode, code, self.done.stdout + self.done.stderr)
+        return (self.folder / "out.png").read_bytes()
+
+    def test_cold_warm_and_offline_the_ground_is_the_same(self):
+        with servers.nginx(self.relief) as server:
+            heights = self.describe(server.template)
+            self.assertEqual(self.render(heights), self.truth)
+            asked = server.requests()
+            self.assertTrue(asked and all(status == 200 for status, _ in asked), asked)
+            self.assertEqual(self.render(heights), self.truth)
+            self.assertEqual(self.render(heights, "--offline"), self.truth)
+            self.assertEqual(server.requests(), asked, "what is fresh in the cache was asked for again")
+        self.assertEqual(self.render(heights, "--offline"), self.truth)
+
+    def test_a_cache_that_is_named_has_the_heights_beside_it(self):
+        with servers.nginx(self.relief) as server:
+            heights = self.describe(server.template)
+            self.assertEqual(self.render(heights, "--cache", "trip.gpkg"), self.truth)
+            self.assertTrue((self.folder / "trip-heights.gpkg").exists())
+            self.assertEqual(self.render(heights, "--cache", "trip.gpkg", "--offline"), self.truth)
+            asked = len(server.requests())
+            self.assertEqual(self.render(heights, "--cache", "off"), self.truth)
+            self.assertGreater(len(server.requests()), asked, "--cache off still has a cache")
+
+    def test_preloaded_heights_serve_offline(self):
+        with servers.nginx(self.relief) as server:
+            heights = self.describe(server.template)
+            levels = f"0-{json.loads((self.folder / heights).read_text())['max_level']}"
+            self.assert_done("preload", heights, "--levels", levels, "-o", "trip-heights.gpkg")
+        self.assertEqual(self.render(heights, "--cache", "trip.gpkg", "--offline"), self.truth)
+        self.assertEqual(self.render("trip-heights.gpkg"), self.truth)
+        told = json.loads(self.assert_done("info", "--verify", "--json", "trip-heights.gpkg").stdout)
+        self.assertEqual((told["elevation"]["scale"], told["elevation"]["offset"]), (1.0, -32768.0))
+        # GDAL reads the same metres: 30000 and 39000, less 32768.
+        shown = subprocess.run(["gdalinfo", "-mm", self.folder / "trip-heights.gpkg"], capture_output=True, text=True,
+                               check=True).stdout
+        self.assertIn("Computed Min/Max=-2768.000,6232.000", shown)
+
+    def test_a_description_brings_its_own_headers(self):
+        with servers.misbehaving(self.relief, {}) as server:
+            self.assertEqual(self.render(self.describe(server.template, headers=["X-Key: 4711"])), self.truth)
+            self.assertTrue(all(entry["headers"].get("X-Key") == "4711" for entry in server.log()))
+
+    def test_numbers_without_a_meaning_are_refused_with_the_cure(self):
+        with servers.nginx(self.relief) as server:
+            template = server.template.replace(".jpg", ".png")
+            cure = ["heights.json", '"elevation"', '"scale"', "--elevation"]
+            self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", template, *self.VIEW, says=[template, *cure])
+            heights = self.describe(server.template)
+            said = json.loads((self.folder / heights).read_text())
+            del said["elevation"]
+            self.write(heights, json.dumps(said).encode())
+            self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", heights, *self.VIEW, says=[heights, *cure])
+            self.assertEqual(server.requests(), [])
+
+    def test_heights_named_as_imagery_are_refused(self):
+        with servers.nginx(self.relief) as server:
+            self.assert_fails(FAILED, "render", self.describe(server.template), "-o", "out.png",
+                              says=["heights.json", "heights, not pictures", "--elevation"])
+
+    def test_missing_tiles_are_counted_and_named(self):
+        finest = max(int(folder.name) for folder in self.relief.iterdir() if folder.is_dir())
+        for tile in (self.relief / str(finest)).glob("*/*.png"):
+            tile.unlink()
+        with servers.nginx(self.relief) as server:
+            coarse = self.render(self.describe(server.template), code=DONE_IN_PART)
+        self.assertRegex(self.done.stderr, rf"heights\.json lacks the heights {finest}/\d+/\d+: .*404")
+        self.assertRegex(self.done.stdout, r"[1-9]\d* tiles of heights missing")
+        self.assertNotEqual(coarse, self.truth)
+
+    def test_heights_that_have_not_come_in_time_are_missing(self):
+        with servers.misbehaving(self.relief, {}, "--latency-ms", "60000") as server:
+            self.render(self.describe(server.template), "--timeout", "1", code=DONE_IN_PART)
+        self.assertRegex(self.done.stdout, r"[1-9]\d* tiles of heights missing")
+
+    def test_a_server_that_asks_for_patience_gets_it_for_both_kinds(self):
+        self.assert_done("cut", "sea.png", "-o", "sea", "--tile-size", "64")
+        both = self.folder / "both"
+        both.mkdir()
+        (self.folder / "sea").rename(both / "sea")
+        self.relief.rename(both / "relief")
+        self.relief = both / "relief"
+        once = {str(tile.relative_to(both)): "503?times=1" for tile in both.glob("*/*/*/*.*")}
+        with servers.misbehaving(both, once) as server:
+            said = json.loads((both / "sea/tileset.json").read_text())
+            grid = {name: said[name] for name in ("tile_px", "root_span_deg", "max_level")}
+            template = server.template.replace(".jpg", "." + said["format"])
+            imagery = {"url": template.replace("/{z}", "/sea/{z}"), **grid}
+            self.write("sea.json", json.dumps(imagery).encode())
+            heights = self.describe(server.template.replace("/{z}", "/relief/{z}"))
+            done = self.run_program("render", "sea.json", "--elevation", heights, *self.VIEW)
+            self.assertEqual(done.returncode, DONE, done.stdout + done.stderr)
+            log = [entry["path"] for entry in server.log()]
+        self.assertEqual((self.folder / "out.png").read_bytes(), self.truth)
+        for kind in "/sea/", "/relief/":
+            asked = [path for path in log if path.startswith(kind)]
+            # A tile that the view no longer wants while it waits is not asked for again.
+            self.assertGreaterEqual(sum(asked.count(path) == 2 for path in set(asked)), 4, asked)
+
+    def test_waiting_for_heights_takes_no_processor_time(self):
+        def cost(latency_ms):
+            """Processor and wall seconds of one render."""
+            with servers.misbehaving(self.relief, {}, "--latency-ms", str(latency_ms)) as server:
+                before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+                heights = self.describe(server.template)
+                self.assertEqual(self.render(heights, "--cache", "off"), self.truth)
+                wall, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+            return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
+
+        prompt, _ = cost(0)
+        slow, wall = cost(8000)
+        self.assertGreater(wall, 8.0)
+        # A loop that draws while it waits takes a core and more: 8 s. A few frames take a fraction of a second.
+        self.assertLess(slow - prompt, 2.0)
 
 
 if __name__ == "__main__":
