@@ -16,6 +16,7 @@
 #include "apps/preload_plan.h"
 #include "apps/preload_progress.h"
 #include "apps/preload_report.h"
+#include "apps/preload_room.h"
 #include "apps/preload_source.h"
 #include "apps/stop_signals.h"
 #include "streaming/preload/wanted_tiles.h"
@@ -27,7 +28,9 @@ constexpr const char* kPreloadExamples =
     "Examples:\n"
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
-    "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg";
+    "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
+    "Preloaded tiles are pinned: no limit of a viewer evicts them. To let go of them:\n"
+    "  terrella preload wmts.json --release -o trip.gpkg";
 
 constexpr int kMostSampled = 20;
 constexpr double kSampleRate = 10.0;      // requests a second
@@ -63,6 +66,9 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
 Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, const PreloadSource& source) {
   CacheOptions options;
   options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
+  options.on_locked = [output = command.output] {
+    fmt::print(stderr, "terrella preload: {} is locked by another program; waiting for it, a minute at most\n", output);
+  };
   auto cache = TileCache::open(command.output, source.set.info, source.key, options);
   if (cache && !(*cache)->set_aside().empty()) {
     fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
@@ -71,27 +77,65 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
   return cache;
 }
 
-Result<std::int64_t> count_there(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+/// What a cache has of a plan.
+struct Held {
+  std::int64_t there = 0;    ///< fresh
+  std::int64_t settled = 0;  ///< WantedTiles::settled()
+};
+
+/// Nothing, if there is no such file.
+Result<Held> count_held(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   std::error_code unknown;
-  if (!std::filesystem::exists(command.output, unknown)) return std::int64_t{0};
+  if (!std::filesystem::exists(command.output, unknown)) return Held{};
   const auto cache = open_cache(command, source);
   if (!cache) return cache.error();
   WantedTiles wanted(plan, **cache, refresh_age(command));
   while (!wanted.done()) {
     if (const auto next = wanted.next(); !next) return next.error();
   }
-  return wanted.there();
+  return Held{wanted.there(), wanted.settled()};
+}
+
+SizeSample take_sample(const PreloadSource& source, const TilePlan& plan) {
+  return sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
+}
+
+/// Before anything is asked for but a sample: the plan must fit into the cache.
+Status check_room(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  if (command.cache_size_mb == 0) return Done{};
+  const auto held = count_held(command, source, plan);
+  if (!held) return held.error();
+  const RoomNeed need = room_need(command, plan, held->settled);
+  if (surely_fits(command, need, source.set.info.grid.tile_px)) return Done{};
+  if (auto no_room = find_no_room(command, plan, need, take_sample(source, plan))) return *std::move(no_room);
+  return Done{};
+}
+
+int release(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(command.output, unknown)) return fail("preload", command.output + ": no such file");
+  const auto cache = open_cache(command, source);
+  if (!cache) return fail("preload", cache.error().message);
+  const auto released = pin_planned(plan, **cache, false);
+  if (!released) return fail("preload", released.error().message);
+  if (command.json) {
+    fmt::print("{}", to_json(ReleaseReport{command.output, *released}));
+  } else {
+    fmt::print("{}: {} tiles released; viewers with --cache-size may evict them\n", command.output, *released);
+  }
+  return kDone;
 }
 
 int forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
-  PreloadForecast forecast{.levels = plan.counts(), .sample = {}};
-  const auto there = count_there(command, source, plan);
-  if (!there) return fail("preload", there.error().message);
-  forecast.there = *there;
+  PreloadForecast forecast{.levels = plan.counts(), .sample = {}, .no_room = {}};
+  const auto held = count_held(command, source, plan);
+  if (!held) return fail("preload", held.error().message);
+  forecast.there = held->there;
   forecast.rate = command.http.rate_per_host;
   forecast.jobs = command.http.connections_per_host;
   if (!command.offline) {
-    forecast.sample = sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
+    forecast.sample = take_sample(source, plan);
+    forecast.no_room = find_no_room(command, plan, room_need(command, plan, held->settled), forecast.sample);
   }
   fmt::print("{}", command.json ? to_json(forecast) : to_text(forecast));
   return kDone;
@@ -115,13 +159,26 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
                c.planned, command.source);
     return kDoneInPart;
   }
-  if (c.lacking() == 0) return kDone;
+  if (c.no_room > 0) {
+    fmt::print(stderr,
+               "terrella preload: {} tiles have no room under --cache-size {}; what was stored is kept; give a larger "
+               "--cache-size, or fewer levels\n",
+               c.no_room, command.cache_size_mb);
+  }
+  if (c.kept > 0) {
+    fmt::print(stderr,
+               "terrella preload: {} tiles that were stored are no longer on the server; the stored ones were kept; is "
+               "the address still right?\n",
+               c.kept);
+  }
+  if (c.lacking() == 0) return c.kept == 0 ? kDone : kDoneInPart;
   fmt::print(stderr, "terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
              command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
   return kDoneInPart;
 }
 
 int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  if (const Status room = check_room(command, source, plan); !room) return fail("preload", room.error().message);
   auto lacks = LackReport::open(command.missing_file);
   if (!lacks) return fail("preload", lacks.error().message);
   LinesFile stored(command.stored_file.empty() ? nullptr : std::fopen(command.stored_file.c_str(), "ae"), &std::fclose);
@@ -170,6 +227,7 @@ int run(PreloadCommand& command) {
   if (!source->set.refuse_bulk.empty()) return fail("preload", command.source + ": " + source->set.refuse_bulk);
   const auto plan = make_preload_plan(command, source->set.info);
   if (!plan) return fail("preload", plan.error().message);
+  if (command.release) return release(command, *source, **plan);
   return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);
 }
 

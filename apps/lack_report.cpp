@@ -27,6 +27,8 @@ const char* lack_name(Lack kind) {
       return "broken";
     case Lack::refused:
       return "refused";
+    case Lack::no_room:
+      return "no room";
     case Lack::failed:
       break;
   }

@@ -14,7 +14,7 @@
 
 namespace terrella {
 
-/// "broken", "refused", "failed".
+/// "broken", "refused", "failed", "no room".
 [[nodiscard]] const char* lack_name(Lack kind);
 
 /// Tiles that a preload could not bring, by reason, and one by one in a file. thread: one at a time

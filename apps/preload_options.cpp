@@ -129,14 +129,19 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
                           {"web-mercator", Projection::web_mercator}},
                          "Of a URL template: what its rows are linear in (default equirectangular)");
   add_network_options(app, command);
-  app.add_option("--cache-size", command.cache_size_mb, "Of the cache in MB; the least recently used tiles go first")
+  app.add_option(
+         "--cache-size", command.cache_size_mb,
+         "Of the cache in MB; what the plan needs beyond it is refused. Tiles that viewers left go first, preloaded "
+         "ones never")
       ->type_name("MB")
       ->check(whole_number_in(1, 1L << 40));
-  app.add_option("--missing", command.missing_file, "Write the tiles that are lacking in the end, and why")
+  app.add_option("--missing", command.missing_file, "Write the tiles that are missing in the end, and why")
       ->type_name("FILE");
   app.add_option("--stored", command.stored_file, "Append each tile as LEVEL/X/Y once it is safely stored")
       ->type_name("FILE");
   app.add_flag("--dry-run", command.dry_run, "Say how many tiles, bytes (by a sample) and how long; store nothing");
+  app.add_flag("--release", command.release,
+               "Ask for nothing: the plan's tiles that are there may be evicted again, by viewers with --cache-size");
   app.add_flag("--offline", command.offline, "With --dry-run: take no sample");
   app.add_flag("--json", command.json, "Print the result as one JSON object");
 }
@@ -145,6 +150,7 @@ Status check_together(const PreloadCommand& command) {
   if (command.offline && !command.dry_run) {
     return Error{"--offline goes with --dry-run: without the network there is nothing to bring"};
   }
+  if (command.release && command.dry_run) return Error{"--release and --dry-run: one at a time"};
   if (!command.flight.empty() && (!command.boxes.empty() || !command.polygons.empty())) {
     return Error{"--flight and --bbox or --polygon: one at a time; the same cache takes both, one after the other"};
   }

@@ -37,6 +37,7 @@ struct PreloadCommand {
   std::string missing_file;
   std::string stored_file;
   bool dry_run = false;
+  bool release = false;
   bool offline = false;
   bool json = false;
 };

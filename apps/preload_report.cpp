@@ -61,6 +61,9 @@ std::string to_text(const PreloadReport& report) {
       "{} requests, {} of them retries, in {}\n",
       report.output, c.planned, c.stored, bytes_text(static_cast<double>(c.stored_bytes)), c.there, c.unchanged,
       c.absent, c.blank, c.lacking(), c.asked.requests, c.asked.retries, duration_text(report.seconds));
+  if (c.kept > 0) {
+    text += fmt::format("{} tiles that were stored are no longer on the server; the stored ones were kept\n", c.kept);
+  }
   for (std::size_t i = 0; i < std::min(report.lacking.size(), kMostReasonsTold); ++i) {
     const LackReport::Group& group = report.lacking[i];
     text += fmt::format("  {} {}: {} (the first is {})\n", group.tiles, lack_name(group.kind), group.why,
@@ -93,11 +96,17 @@ std::string to_json(const PreloadReport& report) {
                   {"broken", c.broken},
                   {"refused", c.refused},
                   {"failed", c.failed},
+                  {"no_room", c.no_room},
+                  {"kept", c.kept},
                   {"not_reached", c.planned - c.passed},
                   {"requests", c.asked.requests},
                   {"retries", c.asked.retries},
                   {"seconds", report.seconds},
                   {"lacking", lacking}});
+}
+
+std::string to_json(const ReleaseReport& report) {
+  return text_of({{"output", report.output}, {"released", report.released}});
 }
 
 std::string to_text(const PreloadForecast& forecast) {
@@ -113,14 +122,20 @@ std::string to_text(const PreloadForecast& forecast) {
   text += seconds ? fmt::format("about {}{}\n", duration_text(*seconds),
                                 forecast.rate > 0.0 ? fmt::format(" at {} requests a second", forecast.rate) : "")
                   : "time: unknown\n";
+  if (forecast.no_room) text += "would be refused: " + forecast.no_room->message + "\n";
   return text;
 }
 
 std::string to_json(const PreloadForecast& forecast) {
   json levels = json::array();
   for (const LevelCount& level : forecast.levels) levels.push_back({{"level", level.level}, {"tiles", level.tiles}});
-  json object = {{"tiles", tiles_in(forecast)},         {"there", forecast.there}, {"levels", levels},
-                 {"sampled", forecast.sample.answered}, {"bytes", nullptr},        {"seconds", nullptr}};
+  json object = {{"tiles", tiles_in(forecast)},
+                 {"there", forecast.there},
+                 {"levels", levels},
+                 {"sampled", forecast.sample.answered},
+                 {"bytes", nullptr},
+                 {"seconds", nullptr},
+                 {"fits", !forecast.no_room}};
   if (const auto bytes = bytes_of(forecast)) object["bytes"] = *bytes;
   if (const auto seconds = seconds_of(forecast)) object["seconds"] = *seconds;
   return text_of(object);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct PreloadReport {
 [[nodiscard]] std::string to_text(const PreloadReport& report);
 [[nodiscard]] std::string to_json(const PreloadReport& report);
 
+/// What --release came to, for programs.
+struct ReleaseReport {
+  std::string output;
+  std::int64_t released = 0;
+};
+[[nodiscard]] std::string to_json(const ReleaseReport& report);
+
 /// What a preload would come to.
 struct PreloadForecast {
   std::vector<LevelCount> levels;
@@ -28,6 +36,7 @@ struct PreloadForecast {
   SizeSample sample;
   double rate = 0.0;  ///< requests a second; 0: no limit
   int jobs = 1;
+  std::optional<Error> no_room;  ///< why the cache's limit is too small for it
 };
 [[nodiscard]] std::string to_text(const PreloadForecast& forecast);
 [[nodiscard]] std::string to_json(const PreloadForecast& forecast);

@@ -53,7 +53,8 @@ constexpr std::array kAbsenceNames = {"absent", "blank", "broken", "failed"};
 
 std::string cache_text(const CacheReport& cache) {
   std::string text = fmt::format("cache of     {}\n", cache.source_key);
-  text += fmt::format("tiles        {}, {} of them expired\n", cache.tiles, cache.expired_tiles);
+  text += fmt::format("tiles        {}, {} of them expired, {} pinned\n", cache.tiles, cache.expired_tiles,
+                      cache.pinned_tiles);
   for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
     text += fmt::format("{:<12} {}, {} of them expired\n", kAbsenceNames.at(kind), cache.absences.at(kind),
                         cache.expired_absences.at(kind));
@@ -65,8 +66,10 @@ std::string cache_text(const CacheReport& cache) {
 }
 
 nlohmann::ordered_json cache_json(const CacheReport& cache) {
-  nlohmann::ordered_json object{
-      {"source", cache.source_key}, {"tiles", cache.tiles}, {"expired_tiles", cache.expired_tiles}};
+  nlohmann::ordered_json object{{"source", cache.source_key},
+                                {"tiles", cache.tiles},
+                                {"expired_tiles", cache.expired_tiles},
+                                {"pinned_tiles", cache.pinned_tiles}};
   for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
     object["absences"][kAbsenceNames.at(kind)] = {{"count", cache.absences.at(kind)},
                                                   {"expired", cache.expired_absences.at(kind)}};

@@ -76,7 +76,9 @@ bool is_mercator(const TileGrid& grid) { return grid.projection == Projection::w
 
 double units_a_degree(const TileGrid& grid) { return is_mercator(grid) ? kMercatorDegree_m : 1.0; }
 
-SqlStatement tile_matrix(const TileGrid& grid, int level) {
+}  // namespace
+
+SqlStatement tile_matrix_row(const TileGrid& grid, int level) {
   const double columns_of_level = std::ldexp(static_cast<double>(columns(grid, 0)), level);
   const double rows_of_level = std::ldexp(static_cast<double>(rows(grid, 0)), level);
   const double pixel = tile_span_deg(grid, level) / grid.tile_px * units_a_degree(grid);
@@ -87,6 +89,8 @@ SqlStatement tile_matrix(const TileGrid& grid, int level) {
           .numbers = {static_cast<double>(level), columns_of_level, rows_of_level, static_cast<double>(grid.tile_px),
                       pixel}};
 }
+
+namespace {
 
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
@@ -150,7 +154,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   if (is_mercator(grid)) all.push_back({kWebMercator, {}});
   all.push_back(contents(info, last_change));
   all.push_back(matrix_set(grid));
-  for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix(grid, level));
+  for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix_row(grid, level));
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
   all.push_back(
       {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});

@@ -22,6 +22,9 @@ inline constexpr double kMercatorDegree_m = 6378137.0 * 3.14159265358979323846 /
 /// What makes a tile table of this name (OGC 12-128r18, table 21).
 [[nodiscard]] std::string tile_table_sql(const std::string& name);
 
+/// What adds a level to gpkg_tile_matrix, for the table `tiles`. A grid's levels may be added in any order.
+[[nodiscard]] SqlStatement tile_matrix_row(const TileGrid& grid, int level);
+
 /// What makes an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the set, and with
 /// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own. Sets in Web
 /// Mercator are declared in EPSG:3857, in its metres.

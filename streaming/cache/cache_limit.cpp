@@ -14,6 +14,10 @@ constexpr std::uint64_t kLeastLogBytes = 128UL << 10;
 constexpr std::uint64_t kLeastBatchBytes = 64UL << 10;
 /// Pages of indexes and of the map of pages that a transaction may add beside its tiles.
 constexpr std::int64_t kSpare = 8;
+/// Of side tables and indexes, for each tile.
+constexpr std::uint64_t kRowBytes = 100;
+/// Pages hold a few tiles each, so their ends stay empty (streaming/cache/README.md, "Figures").
+constexpr double kPagesFilled = 1.08;
 
 }  // namespace
 
@@ -28,9 +32,12 @@ CacheBudget cache_budget(std::uint64_t max_bytes, std::int64_t page_bytes) {
 }
 
 std::int64_t pages_for(std::uint64_t bytes, std::size_t tiles, std::int64_t page_bytes) {
-  // Rows of side tables and indexes take about a hundred bytes a tile.
-  const std::uint64_t all = bytes + 100 * static_cast<std::uint64_t>(tiles);
+  const std::uint64_t all = bytes + kRowBytes * static_cast<std::uint64_t>(tiles);
   return static_cast<std::int64_t>(all) / page_bytes + kSpare;
+}
+
+double file_bytes(std::int64_t tiles, double bytes_a_tile) {
+  return kPagesFilled * static_cast<double>(tiles) * (bytes_a_tile + static_cast<double>(kRowBytes));
 }
 
 std::int64_t pages_over(const CacheBudget& budget, std::int64_t pages, std::int64_t free_pages, std::int64_t needed) {

@@ -18,6 +18,10 @@ struct CacheBudget {
 /// Pages that `tiles` tiles of `bytes` bytes in all need at most, with their rows and indexes.
 [[nodiscard]] std::int64_t pages_for(std::uint64_t bytes, std::size_t tiles, std::int64_t page_bytes);
 
+/// About what `tiles` tiles of `bytes_a_tile` bytes in the mean take of a file, with rows, indexes and pages that are
+/// not quite full.
+[[nodiscard]] double file_bytes(std::int64_t tiles, double bytes_a_tile);
+
 /// The pages that must be freed before `needed` more are written.
 [[nodiscard]] std::int64_t pages_over(const CacheBudget& budget, std::int64_t pages, std::int64_t free_pages,
                                       std::int64_t needed);

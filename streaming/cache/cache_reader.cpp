@@ -41,6 +41,8 @@ FoundRecord record_of(const SqliteQuery& query) {
   record.stored_unix_s = query.integer(6).value_or(0);
   record.expires_unix_s = query.integer(7);
   found.used = query.integer(8);
+  // A tile that another program put in has no side row.
+  record.pinned = found.row && query.integer(6) && !found.used;
   return found;
 }
 

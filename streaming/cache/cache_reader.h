@@ -16,7 +16,7 @@ namespace terrella {
 struct FoundRecord {
   CacheRecord record;
   std::optional<std::int64_t> row;   ///< of a tile
-  std::optional<std::int64_t> used;  ///< none: root tile or absence
+  std::optional<std::int64_t> used;  ///< none: pinned tile or absence
 };
 
 /// Looks tiles up, each reader on a connection of its own. thread: any, several at once

@@ -20,6 +20,12 @@ constexpr std::size_t kMaxProblems = 100;
 /// Counting goes over all rows of a table, which may be hundreds of millions.
 constexpr std::int64_t kCountSteps = std::numeric_limits<std::int64_t>::max();
 
+/// A file that was cut off, or has pages of noise.
+Error damaged(const fs::path& path, const SqlError& error) {
+  return Error{fmt::format("{}: the cache is damaged or was cut off: {}; preload it again, or leave it out",
+                           path.string(), error.message)};
+}
+
 /// The first error of a chain of questions is kept; those after it are not asked.
 class Questions {
  public:
@@ -57,7 +63,9 @@ class Questions {
 
  private:
   void fail(const SqlError& error) {
-    error_ = Error{fmt::format("{}: the cache cannot be read: {}", path_.string(), error.message)};
+    error_ = error.problem == SqlProblem::broken
+                 ? damaged(path_, error)
+                 : Error{fmt::format("{}: the cache cannot be read: {}", path_.string(), error.message)};
   }
 
   const fs::path path_;
@@ -65,13 +73,42 @@ class Questions {
   std::optional<Error> error_;
 };
 
+std::uint64_t used_bytes(Questions& questions) {
+  std::int64_t numbers[3] = {};
+  const char* pragmas[] = {"PRAGMA page_count", "PRAGMA freelist_count", "PRAGMA page_size"};
+  for (std::size_t i = 0; i < std::size(pragmas); ++i) {
+    questions.ask(pragmas[i], [&](const SqliteQuery& query) {
+      numbers[i] = query.integer(0).value_or(0);
+      return false;
+    });
+  }
+  return static_cast<std::uint64_t>((numbers[0] - numbers[1]) * numbers[2]);
+}
+
+/// What to say of a file that cannot be read as a cache; nothing if it can.
+std::optional<Error> find_fault(const fs::path& path) {
+  const std::string name = path.string();
+  const Error no_cache{name + ": is not a cache; caches are what `preload` and `view` fill from a source"};
+  std::error_code error;
+  if (!fs::exists(path, error)) return Error{name + ": no such file"};
+  if (!fs::is_regular_file(path, error)) return no_cache;
+  if (fs::file_size(path, error) == 0) return Error{name + ": is empty; preload it again, or leave it out"};
+  if (!is_sqlite_file(path)) return no_cache;
+  Result<SqliteReader, SqlError> reader = SqliteReader::open(path, kMaxTileBytes);
+  const Result<bool, SqlError> has = reader ? reader->has_table(kCacheTable) : reader.error();
+  if (!has && has.error().problem == SqlProblem::broken) return damaged(path, has.error());
+  if (!has) return Error{fmt::format("{}: the cache cannot be read: {}", name, has.error().message)};
+  return *has ? std::nullopt : std::optional(no_cache);
+}
+
 void count(Questions& questions, CacheReport& report, std::int64_t now_unix_s) {
   questions.ask(
-      "SELECT count(*), count(CASE WHEN s.expires <= ?1 THEN 1 END) FROM tiles t "
-      "LEFT JOIN terrella_cache_tiles s ON s.id = t.id",
+      "SELECT count(*), count(CASE WHEN s.expires <= ?1 THEN 1 END), count(CASE WHEN s.used IS NULL THEN s.id END) "
+      "FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id",
       [&](const SqliteQuery& query) {
         report.tiles = query.integer(0).value_or(0);
         report.expired_tiles = query.integer(1).value_or(0);
+        report.pinned_tiles = query.integer(2).value_or(0);
         return false;
       },
       now_unix_s);
@@ -98,15 +135,14 @@ bool is_cache(const fs::path& path) {
 }
 
 Result<CacheReport> read_cache_report(const fs::path& path, std::int64_t now_unix_s) {
-  if (!is_cache(path)) {
-    return Error{path.string() + ": is not a cache; caches are what `preload` and `view` fill from a source"};
-  }
+  if (std::optional<Error> fault = find_fault(path)) return *fault;
   Questions questions(path);
   CacheReport report;
   report.source_key = questions.text("SELECT value FROM terrella_cache WHERE key = 'source'");
   const std::string text =
       questions.text(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
   count(questions, report, now_unix_s);
+  report.used_bytes = used_bytes(questions);
   if (questions.error()) return *questions.error();
   Result<TileSetInfo> info = parse_tileset_json(text, path.string());
   if (!info) return info.error();

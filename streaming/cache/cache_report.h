@@ -19,6 +19,8 @@ struct CacheReport {
   std::string source_key;
   std::int64_t tiles = 0;
   std::int64_t expired_tiles = 0;
+  std::int64_t pinned_tiles = 0;                   ///< of the coarsest level, or preloaded: never evicted
+  std::uint64_t used_bytes = 0;                    ///< of the file, without pages that are free
   std::array<std::int64_t, 4> absences{};          ///< by Absence
   std::array<std::int64_t, 4> expired_absences{};  ///< of them
   /// Of verify_cache(): what is wrong with the database, in SQLite's words; empty: it is sound.

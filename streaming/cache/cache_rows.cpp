@@ -16,12 +16,15 @@ constexpr std::array kSql = {
     "INSERT OR IGNORE INTO tiles (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)",
     "SELECT id FROM tiles WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
     "UPDATE tiles SET tile_data = ?2 WHERE id = ?1",
-    "INSERT OR REPLACE INTO terrella_cache_tiles VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+    "INSERT INTO terrella_cache_tiles VALUES (?1, ?2, ?3, ?4, ?5, ?6) ON CONFLICT (id) DO UPDATE SET "
+    "etag = excluded.etag, last_modified = excluded.last_modified, stored = excluded.stored, expires = excluded.expires, "
+    "used = CASE WHEN used IS NULL THEN NULL ELSE excluded.used END",
     "DELETE FROM terrella_cache_absences WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
     "INSERT OR REPLACE INTO terrella_cache_absences VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
     "DELETE FROM tiles WHERE id = ?1",
     "DELETE FROM terrella_cache_tiles WHERE id = ?1",
     "UPDATE terrella_cache_tiles SET stored = ?2, expires = ?3 WHERE id = ?1",
+    "UPDATE terrella_cache_tiles SET expires = ?2 WHERE id = ?1",
     "UPDATE terrella_cache_absences SET stored = ?4, expires = ?5 "
     "WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
     "UPDATE terrella_cache_tiles SET used = ?2 WHERE id = ?1 AND used < ?2",
@@ -31,6 +34,12 @@ constexpr std::array kSql = {
     "SELECT s.stored, 0 FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id "
     "WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
     "SELECT stored, kind = 'failed' FROM terrella_cache_absences WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
+    "SELECT EXISTS (SELECT 1 FROM terrella_cache_tiles WHERE used IS NOT NULL)",
+    "UPDATE terrella_cache_tiles SET used = NULL WHERE used IS NOT NULL AND id IN "
+    "(SELECT id FROM tiles WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row BETWEEN ?3 AND ?4)",
+    "UPDATE terrella_cache_tiles SET used = stored WHERE used IS NULL AND id IN "
+    "(SELECT id FROM tiles WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row BETWEEN ?3 AND ?4)",
+    "SELECT length(tile_data) FROM tiles WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
 };
 // clang-format on
 
@@ -71,7 +80,7 @@ WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std
   insert.bind(4, std::span(record.bytes));
   if (WriteStatus done = insert.run(); !done) return done;
   std::int64_t row = database_->last_row_id();
-  if (!database_->changed_a_row()) {
+  if (database_->changed_rows() == 0) {
     const auto there = row_of(id);
     if (!there) return there.error();
     row = there->value_or(0);
@@ -86,7 +95,8 @@ WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std
   side.bind(3, std::string_view(record.last_modified));
   side.bind(4, record.stored_unix_s);
   side.bind(5, record.expires_unix_s);
-  side.bind(6, id.level == root_level_ ? std::nullopt : std::optional(used_unix_s));
+  const bool pinned = record.pinned || id.level == root_level_;
+  side.bind(6, pinned ? std::nullopt : std::optional(used_unix_s));
   if (WriteStatus done = side.run(); !done) return done;
   bind_place(statements_[kDropAbsence], id);
   return statements_[kDropAbsence].run();
@@ -95,11 +105,9 @@ WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std
 WriteStatus CacheRows::put_absence(const TileId& id, const CacheRecord& record) {
   const auto there = row_of(id);
   if (!there) return there.error();
-  if (*there) {
-    // What could not be asked for now says nothing against the tile that is here.
-    if (*record.absence == Absence::failed) return Done{};
-    if (WriteStatus deleted = delete_tile(**there); !deleted) return deleted;
-  }
+  // A tile that is here is kept: one answer of a server is no reason to lose it. It is asked for again after the
+  // absence's life; what could not be asked for now says nothing at all.
+  if (*there) return *record.absence == Absence::failed ? WriteStatus(Done{}) : expire(**there, record.expires_unix_s);
   SqliteStatement& put = statements_[kPutAbsence];
   bind_place(put, id);
   put.bind(4, std::string_view(absence_name(*record.absence)));
@@ -109,6 +117,40 @@ WriteStatus CacheRows::put_absence(const TileId& id, const CacheRecord& record) 
   put.bind(8, record.stored_unix_s);
   put.bind(9, record.expires_unix_s);
   return put.run();
+}
+
+WriteStatus CacheRows::expire(std::int64_t row, std::optional<std::int64_t> expires_unix_s) {
+  statements_[kExpireTile].bind(1, row);
+  statements_[kExpireTile].bind(2, expires_unix_s);
+  return statements_[kExpireTile].run();
+}
+
+WriteResult<std::int64_t> CacheRows::pin(const TileId& first, const PinRun& run) {
+  if (!run.pinned && first.level == root_level_) return std::int64_t{0};
+  if (run.pinned) {
+    // A preload that goes on where it stopped finds everything pinned.
+    const WriteResult<std::int64_t> unpinned = number(kAnyUnpinned);
+    if (!unpinned || *unpinned == 0) return unpinned;
+  }
+  SqliteStatement& pinning = statements_[run.pinned ? kPin : kRelease];
+  bind_place(pinning, first);
+  pinning.bind(4, run.last_y);
+  if (WriteStatus done = pinning.run(); !done) return done.error();
+  return database_->changed_rows();
+}
+
+WriteResult<std::int64_t> CacheRows::tile_bytes(const TileId& id) {
+  bind_place(statements_[kTileBytes], id);
+  return number(kTileBytes);
+}
+
+WriteResult<std::int64_t> CacheRows::number(Which which) {
+  SqliteStatement& statement = statements_[which];
+  const WriteResult<bool> row = statement.step();
+  const std::int64_t value = row && *row ? statement.integer(0) : 0;
+  statement.reset();
+  if (!row) return row.error();
+  return value;
 }
 
 WriteStatus CacheRows::renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires) {
@@ -152,7 +194,7 @@ WriteResult<std::int64_t> CacheRows::evict(int most) {
   statements_[kDropOldAbsences].bind(1, until);
   statements_[kDropOldAbsences].bind(2, std::int64_t{most} * kAbsencesPerTile);
   if (WriteStatus dropped = statements_[kDropOldAbsences].run(); !dropped) return dropped.error();
-  return static_cast<std::int64_t>(rows.size()) + (database_->changed_a_row() ? 1 : 0);
+  return static_cast<std::int64_t>(rows.size()) + (database_->changed_rows() > 0 ? 1 : 0);
 }
 
 WriteResult<CacheRows::Known> CacheRows::known(const TileId& id) {

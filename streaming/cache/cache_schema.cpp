@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -89,6 +90,38 @@ int give_name(const fs::path& part, const fs::path& path) {
   return failed.value();
 }
 
+/// Neither views nor virtual tables: what stands there would run with each write.
+WriteResult<bool> descriptions_are_tables(SqliteWriter& database) {
+  const auto tables = database.integer(
+      "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND sql LIKE 'CREATE TABLE %' AND name IN "
+      "('gpkg_contents', 'gpkg_tile_matrix', 'terrella_tileset')");
+  if (!tables) return tables.error();
+  return *tables == 3;
+}
+
+/// In a transaction: another process may have extended it since it was looked at.
+WriteStatus add_levels(SqliteWriter& database, const TileGrid& grid) {
+  const auto text = database.text(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
+  if (!text) return text.error();
+  Result<TileSetInfo> held = parse_tileset_json(*text, "its description");
+  if (!held) return WriteError{WriteProblem::other, held.error().message};
+  TileGrid& all = held->grid;
+  const TileGrid before = all;
+  all.min_level = std::min(before.min_level, grid.min_level);
+  all.max_level = std::max(before.max_level, grid.max_level);
+  for (int level = all.min_level; level <= all.max_level; ++level) {
+    if (level >= before.min_level && level <= before.max_level) continue;
+    if (WriteStatus added = database.run(tile_matrix_row(all, level)); !added) return added;
+  }
+  const SqlStatement changes[] = {
+      {fmt::format("UPDATE {} SET value = ?2 WHERE key = ?1", kTileSetTable), {kTileSetKey, to_tileset_json(*held)}},
+      {"UPDATE gpkg_contents SET last_change = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE table_name = 'tiles'", {}}};
+  for (const SqlStatement& change : changes) {
+    if (WriteStatus done = database.run(change); !done) return done;
+  }
+  return Done{};
+}
+
 }  // namespace
 
 const char* absence_name(Absence kind) { return kNames.at(static_cast<std::size_t>(kind)); }
@@ -127,10 +160,25 @@ Status create_cache_file(const fs::path& path, const TileSetInfo& info, const st
   close(file);
   const WriteStatus written = write_file(part, info, source_key);
   const int named = written ? give_name(part, path) : 0;
-  fs::remove(part, ignored);
+  remove_database(part);
   if (!written) return cannot(written.error().message);
   if (named != 0) return cannot(std::strerror(named));
   return Done{};
+}
+
+bool has_levels_of(const TileGrid& grid, const TileGrid& wanted) {
+  return grid.min_level <= wanted.min_level && grid.max_level >= wanted.max_level;
+}
+
+WriteStatus extend_levels(SqliteWriter& database, const TileGrid& grid) {
+  const WriteResult<bool> plain = descriptions_are_tables(database);
+  if (!plain) return plain.error();
+  if (!*plain) return WriteError{WriteProblem::other, "another program has changed its tables; name another file"};
+  if (WriteStatus begun = database.run("BEGIN IMMEDIATE"); !begun) return begun;
+  WriteStatus done = add_levels(database, grid);
+  if (done) done = database.run("COMMIT");
+  if (!done) static_cast<void>(database.run("ROLLBACK"));
+  return done;
 }
 
 WriteResult<FileKind> kind_of(SqliteWriter& database) {

@@ -31,6 +31,12 @@ inline constexpr std::int64_t kCachePageBytes = 4096;
 [[nodiscard]] Status create_cache_file(const std::filesystem::path& path, const TileSetInfo& info,
                                        const std::string& source_key);
 
+/// True if the grid has every level that `wanted` has.
+[[nodiscard]] bool has_levels_of(const TileGrid& grid, const TileGrid& wanted);
+
+/// Adds to a cache the levels of `grid` that it does not have: the rows of its tile matrices, and its own description.
+[[nodiscard]] WriteStatus extend_levels(SqliteWriter& database, const TileGrid& grid);
+
 /// What a database is to us.
 enum class FileKind {
   cache,

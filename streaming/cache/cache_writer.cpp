@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <thread>
@@ -65,52 +66,84 @@ WriteResult<std::unique_ptr<CacheWriter>> CacheWriter::make(SqliteWriter databas
   return writer;
 }
 
-Status CacheWriter::write(const CacheBatch& batch) {
+Status CacheWriter::write(const CacheBatch& batch, std::vector<bool>& no_room) {
   database_.wait_for_locks(kPatience);
-  evicted_now_ = 0;
+  evicted_now_ = pins_now_ = 0;
   WriteStatus done = begin_->run();
+  database_.end_wait_for_lock();
   if (done) {
-    done = write_rows(batch, std::time(nullptr));
+    done = write_rows(batch, std::time(nullptr), no_room);
     if (done) done = commit_->run();
     // SQLite has rolled back by itself after some errors; saying it again does no harm.
     if (!done) static_cast<void>(rollback_->run());
   }
   if (!done) return cache_error(path_, done.error());
-  for (const CacheChange& change : batch.changes) stored_ += change.record ? 1 : 0;
+  for (std::size_t i = 0; i < batch.changes.size(); ++i) stored_ += batch.changes[i].record && !no_room[i] ? 1 : 0;
   evicted_ += evicted_now_;
+  pins_changed_ += pins_now_;
   keep_log_short();
   return Done{};
 }
 
-WriteStatus CacheWriter::write_rows(const CacheBatch& batch, std::int64_t now_unix_s) {
+WriteStatus CacheWriter::write_rows(const CacheBatch& batch, std::int64_t now_unix_s, std::vector<bool>& no_room) {
   for (const auto& [row, used] : batch.uses) {
     if (WriteStatus noted = rows_->note_use(row, used); !noted) return noted;
   }
   std::uint64_t bytes = 0;
   for (const CacheChange& change : batch.changes) bytes += change.record ? change.record->bytes.size() : 0;
-  if (WriteStatus room = make_room(pages_for(bytes, batch.changes.size(), page_bytes_)); !room) return room;
-  for (const CacheChange& change : batch.changes) {
-    const Renewal& renewal = change.renewal;
-    WriteStatus done = change.record ? rows_->put(change.id, *change.record, now_unix_s)
-                                     : rows_->renew(change.id, renewal.stored_unix_s, renewal.expires_unix_s);
-    if (!done) return done;
+  const WriteResult<bool> room = make_room(pages_for(bytes, batch.changes.size(), page_bytes_));
+  if (!room) return room.error();
+  for (std::size_t i = 0; i < batch.changes.size(); ++i) {
+    if (!*room) {
+      const WriteResult<bool> this_one = fits(batch.changes[i]);
+      if (!this_one) return this_one.error();
+      no_room[i] = !*this_one;
+      if (no_room[i]) continue;
+    }
+    if (WriteStatus done = write_row(batch.changes[i], now_unix_s); !done) return done;
   }
   return give_back_pages();
 }
 
-WriteStatus CacheWriter::make_room(std::int64_t needed_pages) {
-  if (budget_.file_pages == 0) return Done{};
+WriteStatus CacheWriter::write_row(const CacheChange& change, std::int64_t now_unix_s) {
+  if (change.record) return rows_->put(change.id, *change.record, now_unix_s);
+  if (!change.pin) return rows_->renew(change.id, change.renewal.stored_unix_s, change.renewal.expires_unix_s);
+  const WriteResult<std::int64_t> changed = rows_->pin(change.id, *change.pin);
+  if (!changed) return changed.error();
+  pins_now_ += static_cast<std::uint64_t>(*changed);
+  return Done{};
+}
+
+WriteResult<std::int64_t> CacheWriter::pages_too_many(std::int64_t needed_pages) {
+  const WriteResult<std::int64_t> pages = first_number(*page_count_);
+  if (!pages) return pages;
+  const WriteResult<std::int64_t> free_pages = first_number(*free_count_);
+  if (!free_pages) return free_pages;
+  return pages_over(budget_, *pages, *free_pages, needed_pages);
+}
+
+WriteResult<bool> CacheWriter::make_room(std::int64_t needed_pages) {
+  if (budget_.file_pages == 0) return true;
   while (true) {
-    const WriteResult<std::int64_t> pages = first_number(*page_count_);
-    if (!pages) return pages.error();
-    const WriteResult<std::int64_t> free_pages = first_number(*free_count_);
-    if (!free_pages) return free_pages.error();
-    if (pages_over(budget_, *pages, *free_pages, needed_pages) == 0) return Done{};
+    const WriteResult<std::int64_t> over = pages_too_many(needed_pages);
+    if (!over) return over.error();
+    if (*over == 0) return true;
     const WriteResult<std::int64_t> evicted = rows_->evict(kEvictedAtATime);
     if (!evicted) return evicted.error();
-    if (*evicted == 0) return Done{};
+    if (*evicted == 0) return false;
     evicted_now_ += static_cast<std::uint64_t>(*evicted);
   }
+}
+
+WriteResult<bool> CacheWriter::fits(const CacheChange& change) {
+  if (!change.record || change.record->absence) return true;
+  const WriteResult<std::int64_t> there = rows_->tile_bytes(change.id);
+  if (!there) return there.error();
+  const auto bytes = static_cast<std::int64_t>(change.record->bytes.size());
+  const auto more = static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes - *there));
+  const WriteResult<std::int64_t> over = pages_too_many(pages_for(more, 1, page_bytes_));
+  if (!over) return over.error();
+  return *over == 0;
 }
 
 /// In steps, one for each batch: the file is over its limit only after the limit was lowered.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -28,19 +29,17 @@ constexpr std::int64_t kRowsPerReport = 256;
 // clang-format off
 /// Tiles in the order of the file, so that they are read in one go.
 constexpr const char* kTilesSql =
-    "SELECT zoom_level, tile_column, tile_row, tile_data, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used "
-    "FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id ORDER BY t.id";
+    "SELECT zoom_level, tile_column, tile_row, tile_data, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used, "
+    "s.id IS NOT NULL AND s.used IS NULL FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id ORDER BY t.id";
 constexpr const char* kAbsencesSql =
-    "SELECT zoom_level, tile_column, tile_row, NULL, kind, why, etag, last_modified, stored, expires, NULL "
+    "SELECT zoom_level, tile_column, tile_row, NULL, kind, why, etag, last_modified, stored, expires, NULL, 0 "
     "FROM terrella_cache_absences";
 // clang-format on
 
-/// Whether a record takes the place of what is known of it.
+/// True if a record takes the place of what is known of it: a tile that of any absence, else the later one.
 bool wins(const CacheRecord& record, const CacheRows::Known& known) {
-  if (record.absence == Absence::failed && known.tile_stored) return false;
-  if (!record.absence && known.failed) return true;
-  if (known.tile_stored && record.stored_unix_s < *known.tile_stored) return false;
-  if (known.tile_stored && record.absence && record.stored_unix_s == *known.tile_stored) return false;
+  if (!record.absence) return !known.tile_stored || record.stored_unix_s >= *known.tile_stored;
+  if (known.tile_stored) return false;
   return !known.absence_stored || record.stored_unix_s >= *known.absence_stored;
 }
 
@@ -63,6 +62,7 @@ Row row_of(const SqliteQuery& query) {
   record.last_modified = query.text(7).value_or("");
   record.stored_unix_s = query.integer(8).value_or(0);
   record.expires_unix_s = query.integer(9);
+  record.pinned = query.integer(11).value_or(0) != 0;
   return row;
 }
 
@@ -77,15 +77,13 @@ class MergedFile {
   ~MergedFile() {
     rows_.reset();
     database_.reset();
-    std::error_code ignored;
-    fs::remove(part_, ignored);
+    remove_database(part_);
   }
   MergedFile(const MergedFile&) = delete;
   MergedFile& operator=(const MergedFile&) = delete;
 
   [[nodiscard]] Status begin(const CacheReport& first) {
-    std::error_code ignored;
-    fs::remove(part_, ignored);
+    remove_database(part_);
     const int file = open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) return Error{fmt::format("{}: cannot be written: {}", output_.string(), std::strerror(errno))};
     close(file);
@@ -98,6 +96,10 @@ class MergedFile {
     const bool better = wins(row.record, *known);
     const bool had = known->tile_stored || known->absence_stored;
     summary.dropped += had ? 1 : 0;
+    if (!better && row.record.pinned) {
+      const auto pinned = rows_->pin(row.id, {.last_y = row.id.y});
+      return pinned ? WriteStatus(Done{}) : WriteStatus(pinned.error());
+    }
     if (!better) return Done{};
     summary.tiles += (row.record.absence ? 0 : 1) - (known->tile_stored ? 1 : 0);
     summary.absences += (row.record.absence ? 1 : 0) - (known->absence_stored ? 1 : 0);
@@ -173,7 +175,7 @@ Status copy_rows(const fs::path& cache, const char* sql, MergedFile& merged, Mer
   return Done{};
 }
 
-/// All must be of one source; the total of their rows is added up.
+/// All must be of one source; the total of their rows is added up. Returns the first, with the levels of all.
 Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64_t& rows) {
   std::optional<CacheReport> first;
   for (const fs::path& cache : caches) {
@@ -183,13 +185,17 @@ Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64
     for (const std::int64_t absences : report->absences) rows += absences;
     if (!first) {
       first = *std::move(report);
-    } else if (report->source_key != first->source_key) {
+    } else if (!same_source(report->source_key, first->source_key)) {
       return Error{fmt::format("{}: holds tiles of {}, and {} of {}; only caches of one source can be joined",
                                cache.string(), report->source_key, caches.front().string(), first->source_key)};
     } else if (!same_tiles(report->info, first->info)) {
       return Error{
           fmt::format("{}: has another grid, extent or format than {}; only caches of one source can be joined",
                       cache.string(), caches.front().string())};
+    } else {
+      TileGrid& all = first->info.grid;
+      all.min_level = std::min(all.min_level, report->info.grid.min_level);
+      all.max_level = std::max(all.max_level, report->info.grid.max_level);
     }
   }
   if (!first) return Error{"no cache to join; name one or more"};

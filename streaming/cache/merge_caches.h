@@ -19,10 +19,10 @@ struct MergeSummary {
 using MergeProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Joins caches of one source into one file, with validators, expiry, last use and absences. Of two records of one
-/// place the one stored later wins, a tile or not; of the same second the tile; `failed` never wins over a tile. Caches
-/// of different sources or grids are refused by name. The result is made beside `output` and takes its name once it is
-/// whole, so an interrupted merge leaves nothing under that name and can be run again. What has the name already is
-/// replaced only if it is one of the caches. thread: one at a time
+/// place a tile wins over an absence, else the one stored later. What is pinned in one is pinned in the result. Caches
+/// of different sources or grids are refused by name; levels may differ. The result is made beside `output` and takes
+/// its name once it is whole, so an interrupted merge leaves nothing under that name and can be run again. What has the
+/// name already is replaced only if it is one of the caches. thread: one at a time
 [[nodiscard]] Result<MergeSummary> merge_caches(const std::vector<std::filesystem::path>& caches,
                                                 const std::filesystem::path& output,
                                                 const MergeProgress& progress = {});

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPartEnding = ".part";
+constexpr std::string_view kJournalEnding = "-journal";  // SQLite's
 
 fs::path part_folder(const fs::path& output) {
   return output.parent_path().empty() ? fs::path(".") : output.parent_path();
@@ -29,8 +30,9 @@ std::string part_prefix(const fs::path& output) {
   return fmt::format(".{}.{}.", output.filename().string(), host.data());
 }
 
-/// Whose part a file name is; nothing if it is no part of that prefix.
+/// Whose part, or journal of a part, a file name is; nothing if it is no part of that prefix.
 std::optional<pid_t> part_owner(std::string_view name, std::string_view prefix) {
+  if (name.ends_with(kJournalEnding)) name.remove_suffix(kJournalEnding.size());
   if (!name.starts_with(prefix) || !name.ends_with(kPartEnding)) return std::nullopt;
   if (name.size() <= prefix.size() + kPartEnding.size()) return std::nullopt;
   name.remove_prefix(prefix.size());
@@ -59,10 +61,7 @@ void remove_dead_parts(const fs::path& output) {
     const std::optional<pid_t> owner = part_owner(entry->path().filename().string(), prefix);
     if (owner && is_dead(*owner)) dead.push_back(entry->path());
   }
-  for (const fs::path& part : dead) {
-    fs::remove(part, error);
-    fs::remove(part.string() + "-journal", error);
-  }
+  for (const fs::path& part : dead) fs::remove(part, error);
 }
 
 }  // namespace terrella

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "streaming/cache/cache_schema.h"
@@ -80,7 +82,7 @@ Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo
   if (!text) return failed(path, text.error());
   const Result<TileSetInfo> held = parse_tileset_json(*text, path.string());
   if (!held) return damaged(held.error().message);
-  if (*source != key) {
+  if (!same_source(*source, key)) {
     return refused(
         {fmt::format("{}: holds tiles of {}, not of {}; name another file as the cache", path.string(), *source, key)});
   }
@@ -90,15 +92,24 @@ Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo
                      "file as the cache, or delete this one",
                      path.string(), *source)});
   }
+  if (!has_levels_of(held->grid, info.grid)) {
+    if (WriteStatus extended = extend_levels(database, info.grid); !extended) {
+      return refused(
+          extended.error().problem == WriteProblem::other
+              ? Error{fmt::format("{}: levels cannot be added to it: {}", path.string(), extended.error().message)}
+              : cache_error(path, extended.error()));
+    }
+  }
   Look look;
   look.database = std::move(database);
   return look;
 }
 
 /// Nothing is written to the file before it is known to be ours and sound.
-Look look_at(const fs::path& path, const TileSetInfo& info, const std::string& source_key) {
+Look look_at(const fs::path& path, const TileSetInfo& info, const std::string& source_key,
+             const std::function<void()>& on_locked) {
   if (!is_sqlite_file(path)) return damaged("not an SQLite database");
-  WriteResult<SqliteWriter> database = SqliteWriter::open(path, SqliteWriter::Mode::existing);
+  WriteResult<SqliteWriter> database = SqliteWriter::open(path, SqliteWriter::Mode::existing, on_locked);
   if (!database) return failed(path, database.error());
   database->leave_log_on_close(true);
   const WriteResult<FileKind> kind = kind_of(*database);
@@ -138,9 +149,28 @@ bool same_tiles(const TileSetInfo& a, const TileSetInfo& b) {
     info.name.clear();
     info.attribution.clear();
     info.body.clear();
+    info.grid.min_level = info.grid.max_level = 0;
     return to_tileset_json(info);
   };
-  return essence(a) == essence(b);
+  return essence(a) == essence(b) && columns(a.grid, 0) == columns(b.grid, 0) && rows(a.grid, 0) == rows(b.grid, 0);
+}
+
+bool same_source(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  using nlohmann::json;
+  json one = json::parse(a, nullptr, false);
+  json other = json::parse(b, nullptr, false);
+  if (!one.is_object() || !other.is_object()) return false;
+  // What is said of each level: the shorter list must be how the longer one begins.
+  for (const char* list : {"levels", "shifts"}) {
+    if (!one[list].is_array() || !other[list].is_array()) return false;
+    if (one[list].size() > other[list].size()) std::swap(one[list], other[list]);
+    const json& shorter = one[list];
+    const json& longer = other[list];
+    if (shorter.empty() != longer.empty() || !std::equal(shorter.begin(), shorter.end(), longer.begin())) return false;
+    one[list] = longer;
+  }
+  return one == other;
 }
 
 Error cache_error(const fs::path& path, const WriteError& error) {
@@ -151,7 +181,8 @@ Error cache_error(const fs::path& path, const WriteError& error) {
   return Error{fmt::format("{}: the cache cannot be written: {}{}", path.string(), error.message, advice)};
 }
 
-Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo& info, const std::string& source_key) {
+Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo& info, const std::string& source_key,
+                                        const std::function<void()>& on_locked) {
   fs::path aside;
   for (int round = 0; round < kMaxRounds; ++round) {
     std::error_code error;
@@ -160,7 +191,7 @@ Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo&
       if (Status made = create_cache_file(path, info, source_key); !made) return made.error();
     }
     const std::optional<ino_t> number = number_of(path);
-    Look look = look_at(path, info, source_key);
+    Look look = look_at(path, info, source_key, on_locked);
     if (look.refused) return *look.refused;
     if (!look.database) {
       Result<fs::path> renamed = set_aside(path, number);
@@ -172,6 +203,7 @@ Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo&
       return cache_error(path, logged.error());
     }
     look.database->leave_log_on_close(false);
+    look.database->end_wait_for_lock();
     return OpenedCache{*std::move(look.database), aside};
   }
   return Error{path.string() + ": is damaged again and again by another program; name another file as the cache"};

@@ -6,11 +6,14 @@
 #include <cerrno>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 namespace terrella {
 namespace {
 
 constexpr std::chrono::milliseconds kDefaultPatience{60'000};
+/// From here on a person is told what is waited for.
+constexpr std::chrono::seconds kLongWait{1};
 /// A writer that is busy without pause frees the lock for a moment only, several hundred times a second: short looks
 /// find it, SQLite's own pauses of up to 100 ms may not.
 constexpr std::chrono::microseconds kBetweenLooks{700};
@@ -18,8 +21,11 @@ constexpr std::chrono::microseconds kBetweenLooks{700};
 int on_busy(void* context, int tried) {
   auto& patience = *static_cast<LockPatience*>(context);
   const auto now = std::chrono::steady_clock::now();
-  if (tried == 0) patience.until = now + patience.limit;
-  if (now >= patience.until) return 0;
+  if (tried == 0) patience.since = now;
+  if (now - patience.since >= patience.limit) return 0;
+  if (now - patience.since >= kLongWait && !patience.long_wait.exchange(true) && patience.on_long_wait) {
+    patience.on_long_wait();
+  }
   std::this_thread::sleep_for(kBetweenLooks);
   return 1;
 }
@@ -116,7 +122,8 @@ std::string SqliteStatement::text(int column) const {
   return {text, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
-WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, Mode mode) {
+WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, Mode mode,
+                                             std::function<void()> on_long_wait) {
   SqliteWriter writer;
   sqlite3* database = nullptr;
   const int flags = (mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE) | SQLITE_OPEN_NOMUTEX |
@@ -127,6 +134,7 @@ WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, 
   if (opened != SQLITE_OK) return error_of(database, opened, errno);
   writer.patience_ = std::make_unique<LockPatience>();
   writer.patience_->limit = kDefaultPatience;
+  writer.patience_->on_long_wait = std::move(on_long_wait);
   sqlite3_busy_handler(database, on_busy, writer.patience_.get());
   errno = 0;
   if (const int code = distrust(database); code != SQLITE_OK) return error_of(database, code, errno);
@@ -169,12 +177,19 @@ WriteResult<std::string> SqliteWriter::text(std::string_view sql) {
   return *row ? statement->text(0) : std::string();
 }
 
-bool SqliteWriter::changed_a_row() const { return sqlite3_changes64(database_.get()) > 0; }
+std::int64_t SqliteWriter::changed_rows() const { return sqlite3_changes64(database_.get()); }
 std::int64_t SqliteWriter::last_row_id() const { return sqlite3_last_insert_rowid(database_.get()); }
 void SqliteWriter::wait_for_locks(std::chrono::milliseconds limit) { patience_->limit = limit; }
 
 void SqliteWriter::leave_log_on_close(bool leave) {
   sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, leave ? 1 : 0, nullptr);
+}
+
+void remove_database(const std::filesystem::path& path) {
+  for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
+    std::error_code ignored;
+    std::filesystem::remove(path.string() + ending, ignored);
+  }
 }
 
 }  // namespace terrella

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -61,7 +63,9 @@ class SqliteStatement {
 /// How long to wait for a lock, and since when.
 struct LockPatience {
   std::chrono::milliseconds limit{0};
-  std::chrono::steady_clock::time_point until{};
+  std::chrono::steady_clock::time_point since{};
+  std::atomic<bool> long_wait = false;  ///< a wait has taken more than a second and goes on
+  std::function<void()> on_long_wait{};
 };
 
 /// A connection that writes. The file's schema is distrusted: no triggers, no views, no functions with side effects.
@@ -69,7 +73,9 @@ struct LockPatience {
 class SqliteWriter {
  public:
   enum class Mode { read, existing, create };  ///< read: for checks that have no bounds; writes fail
-  [[nodiscard]] static WriteResult<SqliteWriter> open(const std::filesystem::path& path, Mode mode);
+  /// `on_long_wait` is called once for each wait for a lock of more than a second, by the thread that waits.
+  [[nodiscard]] static WriteResult<SqliteWriter> open(const std::filesystem::path& path, Mode mode,
+                                                      std::function<void()> on_long_wait = {});
 
   [[nodiscard]] WriteResult<SqliteStatement> prepare(std::string_view sql);
   [[nodiscard]] WriteStatus run(std::string_view sql);
@@ -78,11 +84,14 @@ class SqliteWriter {
   [[nodiscard]] WriteResult<std::int64_t> integer(std::string_view sql);
   [[nodiscard]] WriteResult<std::string> text(std::string_view sql);
 
-  [[nodiscard]] bool changed_a_row() const;  ///< the last INSERT, UPDATE or DELETE did
+  [[nodiscard]] std::int64_t changed_rows() const;  ///< by the last INSERT, UPDATE or DELETE
   [[nodiscard]] std::int64_t last_row_id() const;
 
   /// How long a lock that another process holds is waited for; at first 60 s.
   void wait_for_locks(std::chrono::milliseconds limit);
+  /// True while it waits for a lock, from the second second on, until end_wait_for_lock(). thread: any
+  [[nodiscard]] bool waits_for_lock() const { return patience_->long_wait; }
+  void end_wait_for_lock() { patience_->long_wait = false; }
   /// Whether the write-ahead log stays as it is when the last connection closes.
   void leave_log_on_close(bool leave);
 
@@ -93,5 +102,8 @@ class SqliteWriter {
   std::unique_ptr<LockPatience> patience_;  ///< on the heap: SQLite keeps its address
   std::unique_ptr<sqlite3, Close> database_;
 };
+
+/// Deletes a database that nobody has open, with the journal or log that SQLite may have left beside it. thread: any
+void remove_database(const std::filesystem::path& path);
 
 }  // namespace terrella

@@ -35,7 +35,15 @@ CacheRecord without_bytes(const CacheRecord& record) {
           .etag = record.etag,
           .last_modified = record.last_modified,
           .stored_unix_s = record.stored_unix_s,
-          .expires_unix_s = record.expires_unix_s};
+          .expires_unix_s = record.expires_unix_s,
+          .pinned = record.pinned};
+}
+
+/// What a place will have once the queue is written, where that does not depend on the file.
+CacheRecord record_of(const PendingRecord& pending, bool whole) {
+  CacheRecord record = whole ? *pending.record : without_bytes(*pending.record);
+  if (pending.renewal && record.absence != Absence::failed) apply(*pending.renewal, record);
+  return record;
 }
 
 WriteQueue::Limits limits_of(const CacheOptions& options, const CacheBudget& budget) {
@@ -83,7 +91,7 @@ class SqliteTileCache : public TileCache {
     return Done{};
   }
 
-  void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable) override {
+  void store(const TileId& id, CacheRecord record, std::function<void(const StoreStatus&)> on_durable) override {
     queue_.push({.id = id,
                  .record = std::make_shared<const CacheRecord>(std::move(record)),
                  .renewal = {},
@@ -91,15 +99,23 @@ class SqliteTileCache : public TileCache {
   }
 
   void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,
-             std::function<void(const Status&)> on_durable) override {
+             std::function<void(const StoreStatus&)> on_durable) override {
     queue_.push(
         {.id = id, .record = nullptr, .renewal = {stored_unix_s, expires_unix_s}, .on_durable = std::move(on_durable)});
+  }
+
+  void pin(const TileId& first, std::int64_t last_y, bool pinned) override {
+    queue_.push({.id = first, .record = nullptr, .renewal = {}, .on_durable = {}, .pin = PinRun{last_y, pinned}});
   }
 
   [[nodiscard]] Status flush() override { return queue_.flush(); }
 
   [[nodiscard]] CacheCounts counts() const override {
-    CacheCounts counts{.file_bytes = 0, .stored = writer_->stored(), .evicted = writer_->evicted()};
+    CacheCounts counts{.file_bytes = 0,
+                       .stored = writer_->stored(),
+                       .evicted = writer_->evicted(),
+                       .pins_changed = writer_->pins_changed(),
+                       .locked = writer_->locked()};
     for (const char* ending : {"", "-wal"}) {
       std::error_code error;
       const std::uintmax_t size = fs::file_size(path_.string() + ending, error);
@@ -112,20 +128,19 @@ class SqliteTileCache : public TileCache {
   [[nodiscard]] Result<std::optional<CacheRecord>> look_up(const TileId& id, bool whole) {
     // Before the file: what leaves the queue meanwhile is in the file by then.
     const std::optional<PendingRecord> pending = queue_.pending(id);
-    const bool failed = pending && pending->record && pending->record->absence == Absence::failed;
-    if (pending && pending->record && !failed) {
-      CacheRecord record = whole ? *pending->record : without_bytes(*pending->record);
-      if (pending->renewal) apply(*pending->renewal, record);
-      return std::optional(std::move(record));
-    }
+    const CacheRecord* absence =
+        pending && pending->record && pending->record->absence ? pending->record.get() : nullptr;
+    if (pending && pending->record && absence == nullptr) return std::optional(record_of(*pending, whole));
     Result<std::optional<FoundRecord>> found = readers_.find(id, whole);
     if (!found) return found.error();
-    // A failure that waits to be written does not take the place of a tile.
-    if (failed && (!*found || (*found)->record.absence)) return std::optional(*pending->record);
+    // An absence that waits to be written does not take the place of a tile.
+    if (absence != nullptr && (!*found || (*found)->record.absence)) return std::optional(record_of(*pending, whole));
     if (!*found) return std::optional<CacheRecord>();
     if (whole) note_use(**found);
-    if (pending && pending->renewal) apply(*pending->renewal, (*found)->record);
-    return std::optional(std::move((*found)->record));
+    CacheRecord& record = (*found)->record;
+    if (absence != nullptr && absence->absence != Absence::failed) record.expires_unix_s = absence->expires_unix_s;
+    if (pending && pending->renewal) apply(*pending->renewal, record);
+    return std::optional(std::move(record));
   }
 
   void note_use(const FoundRecord& found) {
@@ -150,9 +165,17 @@ class SqliteTileCache : public TileCache {
   }
 
   void write(CacheBatch& batch) {
-    const Status status = writer_->write(batch);
-    for (const CacheChange& change : batch.changes) {
-      if (change.on_durable) change.on_durable(status);
+    std::vector<bool> no_room(batch.changes.size());
+    const Status status = writer_->write(batch, no_room);
+    for (std::size_t i = 0; i < batch.changes.size(); ++i) {
+      if (!batch.changes[i].on_durable) continue;
+      if (!status) {
+        batch.changes[i].on_durable(StoreError{{status.error().message}});
+      } else if (no_room[i]) {
+        batch.changes[i].on_durable(StoreError{{path_.string() + ": no room under the limit"}, true});
+      } else {
+        batch.changes[i].on_durable(Done{});
+      }
     }
     queue_.finish(batch, status);
   }
@@ -170,7 +193,7 @@ class SqliteTileCache : public TileCache {
 
 Result<std::shared_ptr<TileCache>> TileCache::open(const fs::path& path, const TileSetInfo& info,
                                                    const std::string& source_key, const CacheOptions& options) {
-  Result<OpenedCache> opened = open_cache_database(path, info, source_key);
+  Result<OpenedCache> opened = open_cache_database(path, info, source_key, options.on_locked);
   if (!opened) return opened.error();
   auto writer = CacheWriter::make(std::move(opened->database), path, info.grid.min_level, options.max_bytes);
   if (!writer) return cache_error(path, writer.error());

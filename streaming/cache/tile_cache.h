@@ -22,14 +22,25 @@ struct CacheRecord {
   std::string last_modified;
   std::int64_t stored_unix_s = 0;
   std::optional<std::int64_t> expires_unix_s;  ///< none: does not expire
+  bool pinned = false;                         ///< a tile that is never evicted: of the coarsest level, or preloaded
 };
 [[nodiscard]] inline bool is_fresh(const CacheRecord& record, std::int64_t now_unix_s) {
   return !record.expires_unix_s || *record.expires_unix_s > now_unix_s;
 }
 
+/// Why a record is not in the file.
+struct StoreError : Error {
+  bool no_room = false;  ///< the limit is reached, and nothing that could be evicted is left; the file is sound
+};
+using StoreStatus = Result<Done, StoreError>;
+
 struct CacheOptions {
-  std::uint64_t max_bytes =
-      0;  ///< of the file; least recently used tiles go first and the space is given back; 0: none
+  /// Of the file; 0: none. The least recently used tiles that are not pinned go first and the space is given back. If
+  /// only pinned tiles are left, new tiles are not kept.
+  std::uint64_t max_bytes = 0;
+  /// Called once for each wait of more than a second for a lock that another program holds, on opening by the caller's
+  /// thread, later by the writer's. At most a minute is waited.
+  std::function<void()> on_locked{};
   std::size_t batch_tiles = 256;              ///< written in one transaction at most
   std::size_t max_queued_bytes = 64UL << 20;  ///< store() waits over this
 };
@@ -38,11 +49,13 @@ struct CacheCounts {
   std::uint64_t file_bytes = 0;
   std::uint64_t stored = 0;  ///< records made durable since opening
   std::uint64_t evicted = 0;
+  std::uint64_t pins_changed = 0;  ///< tiles that pin() pinned or released since opening
+  bool locked = false;  ///< the writer has waited for more than a second for a lock that another program holds
 };
 
 /// One source's tiles in a GeoPackage that GDAL and QGIS open while it is in use (engine/DESIGN.md, 8): tiles as in any
 /// GeoPackage, absences, validators, expiry and last use in side tables. Several processes may use one file. All
-/// writing is done by one thread, in batches; root tiles (level grid.min_level) are never evicted.
+/// writing is done by one thread, in batches; root tiles (level grid.min_level) and pinned tiles are never evicted.
 class TileCache {
  public:
   /// Opens the cache or makes it. A file that holds another source's tiles (another grid, another `source_key`) is
@@ -72,13 +85,17 @@ class TileCache {
     }
     return Done{};
   }
-  /// Queues a record to be written in the place of what is known; but `failed` never takes the place of a tile.
-  /// `on_durable` is called on the writer's thread once it would survive kill -9, or with the reason why it could not
-  /// be written (disk full); later records are still tried. thread: any
-  virtual void store(const TileId& id, CacheRecord record, std::function<void(const Status&)> on_durable = {}) = 0;
+  /// Queues a record to be written in the place of what is known; but an absence never takes the place of a tile: the
+  /// tile then expires when the absence would (`failed` changes nothing). `on_durable` is called on the writer's thread
+  /// once it would survive kill -9, or with the reason why it could not be written (disk full, no room under the
+  /// limit); later records are still tried. thread: any
+  virtual void store(const TileId& id, CacheRecord record, std::function<void(const StoreStatus&)> on_durable = {}) = 0;
   /// Notes that a tile was found unchanged (304): new expiry, same bytes. thread: any
   virtual void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,
-                     std::function<void(const Status&)> on_durable = {}) = 0;
+                     std::function<void(const StoreStatus&)> on_durable = {}) = 0;
+  /// Queues the pinning, or the release, of the tiles that are there from `first` down to the row `last_y`. Tiles of
+  /// the coarsest level stay pinned. thread: any
+  virtual void pin(const TileId& first, std::int64_t last_y, bool pinned) = 0;
   /// Waits until all that is queued is durable. The first error since the last flush, if any. thread: any but the
   /// writer
   [[nodiscard]] virtual Status flush() = 0;

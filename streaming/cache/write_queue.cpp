@@ -32,16 +32,23 @@ void WriteQueue::push(CacheChange change) {
 
 /// The same rules as CacheRows::put() and renew(): what is found now is what will be found.
 void WriteQueue::merge_pending(const CacheChange& change) {
+  if (change.pin) return;
   PendingRecord& pending = pending_[change.id];
   pending.last_change = pushed_;
   if (!change.record) {
     pending.renewal = change.renewal;
     return;
   }
-  const bool failed = change.record->absence == Absence::failed;
-  if (failed && pending.record && !pending.record->absence) return;
-  // A renewal before a failure is of what is in the file, where there may be a tile.
-  if (!failed) pending.renewal.reset();
+  const CacheRecord& record = *change.record;
+  if (record.absence && pending.record && !pending.record->absence) {
+    if (record.absence == Absence::failed) return;
+    const std::int64_t stored = pending.renewal ? pending.renewal->stored_unix_s : pending.record->stored_unix_s;
+    pending.renewal = {stored, record.expires_unix_s};
+    return;
+  }
+  // A renewal before an absence is of what is in the file, where there may be a tile.
+  if (!record.absence) pending.renewal.reset();
+  if (pending.renewal && record.absence != Absence::failed) pending.renewal->expires_unix_s = record.expires_unix_s;
   pending.record = change.record;
 }
 

@@ -22,12 +22,19 @@ struct Renewal {
   std::optional<std::int64_t> expires_unix_s;
 };
 
-/// A change that waits for the writer: a record, or the renewal of one.
+/// Tiles below one another, from the change's tile to the row `last_y`, that become pinned or released.
+struct PinRun {
+  std::int64_t last_y = 0;
+  bool pinned = true;
+};
+
+/// A change that waits for the writer: a record, a run to pin, or else the renewal of a record.
 struct CacheChange {
   TileId id;
-  std::shared_ptr<const CacheRecord> record;  ///< none: a renewal
+  std::shared_ptr<const CacheRecord> record;
   Renewal renewal;
-  std::function<void(const Status&)> on_durable;
+  std::function<void(const StoreStatus&)> on_durable;
+  std::optional<PinRun> pin = {};
 };
 
 /// What the file does not know yet of one place.

@@ -19,13 +19,16 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kBetweenReports{100};
 constexpr milliseconds kLongestWait{5};
+constexpr int kTilesAtATime = 4096;  // or runs of them
+constexpr const char* kNoRoom = "the cache is full of tiles that are not to be evicted";
 
 class Run {
  public:
   Run(const TilePlan& plan, TileCache& cache,
       const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
       const PreloadOptions& options)
-      : cache_(cache),
+      : plan_(plan),
+        cache_(cache),
         options_(options),
         wanted_(plan, cache, options.refresh_older_than),
         tally_(std::make_shared<StoreTally>(options.on_stored)),
@@ -34,14 +37,17 @@ class Run {
   }
 
   Result<PreloadResult> run() {
+    // Before anything is looked for: what is found from then on stays.
+    if (const auto pinned = pin_planned(plan_, cache_, true); !pinned) return pinned.error();
     if (const Status passed = first_pass(); !passed) return passed.error();
     if (end_ == PreloadEnd::complete) second_pass();
     wind_down();
-    for (const auto& [id, why] : failed_) lack(id, Lack::failed, why);
+    for (const auto& [asked, why] : failed_) lack(asked.id, Lack::failed, why);
     last_asked_ = origin_->counts();
     origin_.reset();
     if (const Status flushed = cache_.flush(); !flushed && !tally_->failed()) return flushed.error();
     while (!tally_->settled()) std::this_thread::sleep_for(kLongestWait);
+    note_tiles_without_room();
     if (tally_->failed()) return tally_->error();
     if (options_.progress) options_.progress(counts());
     return PreloadResult{end_, counts()};
@@ -55,7 +61,7 @@ class Run {
 
   Status first_pass() {
     while (going()) {
-      while (asked_.size() < options_.window && !wanted_.done()) {
+      for (int n = 0; n < kTilesAtATime && asked_.size() < options_.window && !wanted_.done(); ++n) {
         auto next = wanted_.next();
         if (!next) return next.error();
         if (!*next) break;
@@ -71,11 +77,12 @@ class Run {
   // The fetcher has tried each several times by now; this is for what passes in minutes.
   void second_pass() {
     second_ = true;
-    std::vector<std::pair<TileId, std::string>> again = std::exchange(failed_, {});
+    std::vector<std::pair<Asked, std::string>> again = std::exchange(failed_, {});
     std::size_t next = 0;
     while (going() && (next < again.size() || !asked_.empty())) {
       for (; asked_.size() < options_.window && next < again.size(); ++next) {
-        ask({.id = again[next].first, .etag = {}, .last_modified = {}});
+        const Asked& asked = again[next].first;
+        ask({.id = asked.id, .have = asked.have, .etag = {}, .last_modified = {}});
       }
       take_answers(kLongestWait);
     }
@@ -96,12 +103,18 @@ class Run {
   }
 
   void ask(WantedTileRecord wanted) {
+    if (tally_->out_of_room() && !wanted.have) return lack(wanted.id, Lack::no_room, kNoRoom);
     const std::uint64_t number = ++last_number_;
     asked_.emplace(number, Asked{wanted.id, wanted.have});
     origin_->ask({number, wanted.id, std::move(wanted.etag), std::move(wanted.last_modified)});
   }
 
+  void note_tiles_without_room() {
+    for (const TileId& id : tally_->take_without_room()) lack(id, Lack::no_room, kNoRoom);
+  }
+
   void take_answers(milliseconds longest) {
+    note_tiles_without_room();
     for (HttpReply& reply : answers_.take(longest)) {
       const auto asked = asked_.find(reply.id);
       if (asked == asked_.end()) continue;
@@ -115,41 +128,45 @@ class Run {
   void settle(const Asked& asked, HttpReply&& reply) {
     switch (reply.outcome) {
       case HttpOutcome::content:
-        return settle_content(asked.id, std::move(reply));
+        return settle_content(asked, std::move(reply));
       case HttpOutcome::not_modified:
         if (!asked.have)
           return lack(asked.id, Lack::broken, "304 Not Modified of what was never asked for conditionally");
         return cache_.renew(asked.id, unix_now_s(), expiry(reply, options_.tile_life),
                             tally_->sent(StoreTally::Kind::unchanged, asked.id, 0));
       case HttpOutcome::nothing:
-        return note_absence(asked.id, Absence::absent, std::move(reply));
+        return note_absence(asked, Absence::absent, std::move(reply));
       case HttpOutcome::refused:
         return lack(asked.id, Lack::refused, reply.why);
       case HttpOutcome::failed:
         if (second_ || failed_.size() >= options_.most_second_tries) return lack(asked.id, Lack::failed, reply.why);
-        failed_.emplace_back(asked.id, std::move(reply.why));
+        failed_.emplace_back(asked, std::move(reply.why));
     }
   }
 
-  void settle_content(const TileId& id, HttpReply&& reply) {
+  void settle_content(const Asked& asked, HttpReply&& reply) {
+    const TileId& id = asked.id;
     if (reply.no_store) return lack(id, Lack::refused, "the server forbids storing it (Cache-Control: no-store)");
-    if (reply.body.empty()) return note_absence(id, Absence::blank, std::move(reply));
+    if (reply.body.empty()) return note_absence(asked, Absence::blank, std::move(reply));
     if (const Status good = check_tile(reply.body, options_.tile_px); !good) {
       return lack(id, Lack::broken, good.error().message);
     }
     const std::size_t bytes = reply.body.size();
     CacheRecord record = record_of(std::move(reply), options_.tile_life);
+    record.pinned = true;
     cache_.store(id, std::move(record), tally_->sent(StoreTally::Kind::tile, id, bytes));
   }
 
-  void note_absence(const TileId& id, Absence kind, HttpReply&& reply) {
+  // The cache keeps a tile that it has.
+  void note_absence(const Asked& asked, Absence kind, HttpReply&& reply) {
     reply.body.clear();
     std::string why = std::move(reply.why);
     CacheRecord record = record_of(std::move(reply), options_.absence_life);
     record.absence = kind;
     record.why = std::move(why);
-    const auto counted = kind == Absence::blank ? StoreTally::Kind::blank : StoreTally::Kind::absent;
-    cache_.store(id, std::move(record), tally_->sent(counted, id, 0));
+    auto counted = kind == Absence::blank ? StoreTally::Kind::blank : StoreTally::Kind::absent;
+    if (asked.have) counted = StoreTally::Kind::kept;
+    cache_.store(asked.id, std::move(record), tally_->sent(counted, asked.id, 0));
   }
 
   [[nodiscard]] CacheRecord record_of(HttpReply&& reply, std::chrono::seconds life) const {
@@ -171,6 +188,7 @@ class Run {
     if (kind == Lack::broken) ++counts_.broken;
     if (kind == Lack::refused) ++counts_.refused;
     if (kind == Lack::failed) ++counts_.failed;
+    if (kind == Lack::no_room) ++counts_.no_room;
     if (options_.on_lacking) options_.on_lacking(id, kind, why);
   }
 
@@ -194,20 +212,24 @@ class Run {
     counts.unchanged = tally_->durable(StoreTally::Kind::unchanged);
     counts.absent = tally_->durable(StoreTally::Kind::absent);
     counts.blank = tally_->durable(StoreTally::Kind::blank);
+    counts.kept = tally_->durable(StoreTally::Kind::kept);
+    counts.locked = cache_.counts().locked;
     counts.stored_bytes = tally_->bytes();
-    counts.passed = counts.there + counts.stored + counts.unchanged + counts.absent + counts.blank + counts.lacking();
+    counts.passed =
+        counts.there + counts.stored + counts.unchanged + counts.absent + counts.blank + counts.kept + counts.lacking();
     if (origin_) last_asked_ = origin_->counts();
     counts.asked = last_asked_;
     return counts;
   }
 
+  const TilePlan& plan_;
   TileCache& cache_;
   const PreloadOptions& options_;
   WantedTiles wanted_;
   std::shared_ptr<StoreTally> tally_;
   AnswerQueue answers_;
   std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
-  std::vector<std::pair<TileId, std::string>> failed_;
+  std::vector<std::pair<Asked, std::string>> failed_;
   PreloadCounts counts_;
   mutable HttpCounts last_asked_;
   std::uint64_t last_number_ = 0;
@@ -219,6 +241,19 @@ class Run {
 };
 
 }  // namespace
+
+Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pinned) {
+  const std::uint64_t before = cache.counts().pins_changed;
+  const auto feed = plan.walk();
+  auto run = feed->next();
+  while (run) {
+    for (int n = 0; run && n < kTilesAtATime; ++n, run = feed->next()) {
+      cache.pin({run->level, run->x, run->first_y}, run->last_y, pinned);
+    }
+    if (const Status flushed = cache.flush(); !flushed) return flushed.error();
+  }
+  return static_cast<std::int64_t>(cache.counts().pins_changed - before);
+}
 
 Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
                               const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,

@@ -19,6 +19,7 @@ enum class Lack {
   broken,   ///< what came is no picture of the set's size, or a picture cut off
   refused,  ///< the server will not give it: 401, 403, redirects without end, too large, not to be stored
   failed,   ///< no answer after all attempts, twice
+  no_room,  ///< the cache's limit is reached by tiles that may not be evicted
 };
 
 /// How far a preload is.
@@ -30,10 +31,12 @@ struct PreloadCounts {
   std::int64_t unchanged = 0;  ///< asked for conditionally, not changed, noted so
   std::int64_t absent = 0;     ///< the source has no such tile (404, 204, 410): noted in the cache
   std::int64_t blank = 0;      ///< it has one without content: noted in the cache
-  std::int64_t broken = 0, refused = 0, failed = 0;  ///< see Lack
+  std::int64_t kept = 0;       ///< the source no longer has it; the tile that was stored before stays
+  std::int64_t broken = 0, refused = 0, failed = 0, no_room = 0;  ///< see Lack
   std::uint64_t stored_bytes = 0;
   HttpCounts asked;
-  [[nodiscard]] std::int64_t lacking() const { return broken + refused + failed; }
+  bool locked = false;  ///< another program holds the cache's file, and nothing can be written for now
+  [[nodiscard]] std::int64_t lacking() const { return broken + refused + failed + no_room; }
 };
 
 struct PreloadOptions {
@@ -65,11 +68,17 @@ struct PreloadResult {
   PreloadCounts counts;
 };
 
+/// Pins the tiles of a plan that a cache has, or releases them, and waits until that is written. Returns how many
+/// changed. thread: any but the cache's writer
+[[nodiscard]] Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pinned);
+
 /// Brings what a plan names into a cache: passes over what is there and fresh without a request, asks for the rest,
 /// with validators where there is something, checks what comes and stores it; at the end asks once more for what
 /// failed. What is lacking is not noted in the cache, so that the next run asks for it again, and never takes the place
-/// of an older tile. `make_origin` is given where answers go. Fails only if the cache cannot be read or written (disk
-/// full); what was stored before stays. Blocks. thread: any but the cache's writer
+/// of an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile,
+/// tiles that it does not have are not asked for any more: they are lacking too. `make_origin` is given where answers
+/// go. Fails only if the cache cannot be read or written (disk full); what was stored before stays. Blocks. thread: any
+/// but the cache's writer
 [[nodiscard]] Result<PreloadResult> preload(
     const TilePlan& plan, TileCache& cache,
     const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin, const PreloadOptions& options);

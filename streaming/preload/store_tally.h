@@ -7,17 +7,19 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geo/result.h"
 #include "geo/tile_grid.h"
+#include "streaming/cache/tile_cache.h"
 
 namespace terrella {
 
 /// What a preload has sent to the cache's writer and what has become of it. thread: any
 class StoreTally : public std::enable_shared_from_this<StoreTally> {
  public:
-  enum class Kind : std::size_t { tile, unchanged, absent, blank };
-  using OnDurable = std::function<void(const Status&)>;
+  enum class Kind : std::size_t { tile, unchanged, absent, blank, kept };
+  using OnDurable = std::function<void(const StoreStatus&)>;
 
   /// `on_stored` is called for each tile that is durable, on the writer's thread; may be empty.
   explicit StoreTally(std::function<void(const TileId&)> on_stored) : on_stored_(std::move(on_stored)) {}
@@ -28,19 +30,24 @@ class StoreTally : public std::enable_shared_from_this<StoreTally> {
   [[nodiscard]] std::int64_t durable(Kind kind) const { return durable_[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   [[nodiscard]] bool failed() const { return failed_; }
-  [[nodiscard]] Error error() const;                         ///< the first; only if failed()
-  [[nodiscard]] bool settled() const { return open_ == 0; }  ///< nothing is on its way
+  [[nodiscard]] Error error() const;  ///< the first; only if failed()
+  /// Tiles for which the cache had no room, since the last call.
+  [[nodiscard]] std::vector<TileId> take_without_room();
+  [[nodiscard]] bool out_of_room() const { return out_of_room_; }  ///< there was such a tile
+  [[nodiscard]] bool settled() const { return open_ == 0; }        ///< nothing is on its way
 
  private:
-  void ended(Kind kind, const TileId& id, std::size_t bytes, const Status& status);
+  void ended(Kind kind, const TileId& id, std::size_t bytes, const StoreStatus& status);
 
   std::function<void(const TileId&)> on_stored_;
-  std::atomic<std::int64_t> durable_[4] = {};
+  std::atomic<std::int64_t> durable_[5] = {};
   std::atomic<std::uint64_t> bytes_ = 0;
   std::atomic<std::int64_t> open_ = 0;
   std::atomic<bool> failed_ = false;
+  std::atomic<bool> out_of_room_ = false;
   mutable std::mutex mutex_;
-  std::optional<Error> error_;
+  std::optional<Error> error_;        ///< guarded by mutex_
+  std::vector<TileId> without_room_;  ///< likewise
 };
 
 }  // namespace terrella

@@ -48,7 +48,9 @@ Status WantedTiles::look() {
       cache_.peek_column(run_.level, run_.x, run_.first_y, last_y, [&](std::int64_t y, const CacheRecord& record) {
         unknown_until(y);
         ++next_y;
-        if (is_up_to_date(record)) {
+        const bool up_to_date = is_up_to_date(record);
+        if (record.pinned || (up_to_date && record.absence)) ++settled_;
+        if (up_to_date) {
           ++there_;
           return;
         }

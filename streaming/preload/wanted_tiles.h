@@ -32,6 +32,8 @@ class WantedTiles {
   [[nodiscard]] Result<std::optional<WantedTileRecord>> next();
   [[nodiscard]] bool done() const { return done_ && at_ == found_.size(); }
   [[nodiscard]] std::int64_t there() const { return there_; }  ///< passed over so far
+  /// Of all looked at so far: pinned tiles, and absences that are fresh. They need no more room than they have.
+  [[nodiscard]] std::int64_t settled() const { return settled_; }
 
  private:
   [[nodiscard]] Status look();
@@ -45,6 +47,7 @@ class WantedTiles {
   std::vector<WantedTileRecord> found_;
   std::size_t at_ = 0;
   std::int64_t there_ = 0;
+  std::int64_t settled_ = 0;
   bool done_ = false;
 };
 

@@ -136,8 +136,6 @@ class RemoteSource : public TileSource, public RemoteTiles {
     if (reply.body.empty()) return absence(id, Absence::blank, std::move(reply), absence_life());
     if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
       reply.why = good.error().message;
-      // What was good before is not given up for what is not.
-      if (auto record = cached(id); record && !record->absence) return tile_of(*std::move(record));
       reply.expires_unix_s.reset();
       return absence(id, Absence::broken, std::move(reply), kBrokenLife);
     }
@@ -148,13 +146,17 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded absence(const TileId& id, Absence kind, HttpReply&& reply, seconds life) {
     TileFailure failure{kind, reply.why};
-    if (cache_ == nullptr || reply.no_store) return failure;
+    if (cache_ == nullptr) return failure;
+    // The cache keeps a tile that it has (CacheRows::put()), and so does the picture.
+    auto known = cached(id);
+    const bool stored = known && !known->absence;
+    if (reply.no_store) return stored ? tile_of(*std::move(known)) : Encoded(failure);
     reply.body.clear();
     CacheRecord record = record_of(std::move(reply), life);
     record.absence = kind;
     record.why = failure.why;
     cache_->store(id, std::move(record));
-    return failure;
+    return stored ? tile_of(*std::move(known)) : Encoded(failure);
   }
 
   static std::optional<std::int64_t> expiry(const HttpReply& reply, seconds life) {

@@ -66,7 +66,7 @@ TEST_F(Cache, TellsWhenARecordIsDurable) {
   const auto cache = open_cache(file_);
   for (int n = 0; n < 1000; ++n) {
     const TileId id = nth_tile(5, n);
-    cache->store(id, tile_record(id, 100), [&, id](const Status& status) {
+    cache->store(id, tile_record(id, 100), [&, id](const StoreStatus& status) {
       EXPECT_TRUE(status);
       const std::string rows =
           test::sql(file_, "SELECT count(*) FROM tiles WHERE zoom_level = 5 AND tile_column = " + std::to_string(id.x) +

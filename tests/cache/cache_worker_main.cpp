@@ -44,7 +44,7 @@ void say(int number) {
 [[noreturn]] void write_for_ever(const std::string& file, int seed) {
   const auto cache = open_or_fail(file, {.max_bytes = 0, .batch_tiles = 16, .max_queued_bytes = 1UL << 20});
   for (int n = seed * 100'000;; ++n) {
-    cache->store(nth_tile(10, n), tile_record(nth_tile(10, n)), [n](const Status& status) {
+    cache->store(nth_tile(10, n), tile_record(nth_tile(10, n)), [n](const StoreStatus& status) {
       if (!status) fail(status.error().message);
       say(n);
     });
@@ -53,7 +53,7 @@ void say(int number) {
 
 void use_once(TileCache& cache, std::mt19937& random) {
   const TileId id = nth_tile(9, static_cast<int>(random() % kTiles));
-  const auto checked = [](const Status& status) {
+  const auto checked = [](const StoreStatus& status) {
     if (!status) fail(status.error().message);
   };
   switch (random() % 8) {

@@ -30,7 +30,7 @@ void fill_and_go_on(const fs::path& file, const std::function<void()>& make_spac
   ASSERT_TRUE(cache);
   const auto store = [&](int n) {
     cache->store(nth_tile(9, n), tile_record(nth_tile(9, n), kTileBytes),
-                 [&durable, n](const Status& status) { durable[static_cast<std::size_t>(n)] = status ? 1 : -1; });
+                 [&durable, n](const StoreStatus& status) { durable[static_cast<std::size_t>(n)] = status ? 1 : -1; });
   };
   for (int n = 0; n < kTiles; ++n) store(n);
   const Status full = cache->flush();
