@@ -75,7 +75,8 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
     fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
                (*cache)->set_aside().string());
   }
-  return cache;
+  if (!cache) return cache.error();
+  return *std::move(cache);
 }
 
 /// What a cache has of a plan.
