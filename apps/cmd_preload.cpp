@@ -12,6 +12,7 @@
 
 #include "apps/commands.h"
 #include "apps/lack_report.h"
+#include "apps/open_files.h"
 #include "apps/preload_options.h"
 #include "apps/preload_plan.h"
 #include "apps/preload_progress.h"
@@ -74,7 +75,8 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
     fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
                (*cache)->set_aside().string());
   }
-  return cache;
+  if (!cache) return cache.error();
+  return *std::move(cache);
 }
 
 /// What a cache has of a plan.
@@ -213,7 +215,20 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   return conclude(command, *result);
 }
 
+/// Connections that cannot be opened would look like a server that fails.
+void fit_jobs(PreloadCommand& command) {
+  const int asked = command.http.connections_per_host;
+  int& jobs = command.http.connections_per_host;
+  jobs = connections_that_fit(asked);
+  if (jobs == asked) return;
+  fmt::print(stderr,
+             "terrella preload: --jobs {} needs more open files than this process may have, so it is --jobs {}; "
+             "`ulimit -n {}` before it allows all\n",
+             asked, jobs, asked + 64);
+}
+
 int run(PreloadCommand& command) {
+  fit_jobs(command);
   if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
   const StopSignals signals;
   HttpOptions http = network_options(command);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,7 @@ struct Rendered {
 };
 
 constexpr std::size_t kMostNamed = 16;
+constexpr std::size_t kMostReasons = 4;
 
 std::string name_of(const LackingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, tile.failure.why);
@@ -79,6 +81,17 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   }
 }
 
+/// A picture of no tile would look like the planet, and is none.
+Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& lacking) {
+  if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
+  std::string message =
+      fmt::format("none of the {} tiles of this picture came, nothing was written", stats.tiles_wanted);
+  if (stats.tiles_missing > 0) message += "; --timeout gives them longer";
+  for (std::size_t k = 0; k < std::min(lacking.size(), kMostReasons); ++k)
+    message += "\n  lacks " + name_of(lacking[k]);
+  return Error{message};
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
@@ -107,6 +120,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
   (*globe)->render_until_settled(target.framebuffer(), command.scene.size, std::chrono::steady_clock::now() + limit);
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
   const auto& lacking = (*globe)->lacking();

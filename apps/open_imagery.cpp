@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "apps/data_dir.h"
+#include "apps/no_cache.h"
 #include "apps/open_remote.h"
 #include "apps/progress.h"
 #include "apps/user_folder.h"
@@ -96,8 +97,9 @@ Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const 
                                                  const CutProgress& told) {
   if (cache != "off") {
     const auto folder = picture_cache_folder(cache);
-    if (!folder) return folder.error();
-    return cut_and_open(picture, *folder, told);
+    auto kept = folder ? cut_and_open(picture, *folder, told) : Result<std::unique_ptr<TileSource>>(folder.error());
+    if (kept || (folder && can_write_into(*folder))) return kept;
+    say_without_cache(kept.error());
   }
   auto scratch = make_scratch_folder();
   if (!scratch) return scratch.error();

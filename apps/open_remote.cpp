@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/no_cache.h"
 #include "apps/open_imagery.h"
 #include "apps/preload_source.h"
 #include "geo/hash_mix.h"
@@ -76,16 +77,28 @@ HttpOptions network_options() {
   return http;
 }
 
+std::shared_ptr<TileCache> go_without(const Error& why) {
+  say_without_cache(why);
+  return nullptr;
+}
+
+/// None, if it is off or its place cannot be written. A file that is something else is refused.
 Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const RemoteTileSet& set) {
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file(options);
-  if (!file) return file.error();
-  auto cache = TileCache::open(*file, set.info, source_key(set), {.max_bytes = options.cache_size_mb * kMegabyte});
-  if (cache && !(*cache)->set_aside().empty()) {
+  if (!file) return go_without(file.error());
+  CacheOptions cache_options{.max_bytes = options.cache_size_mb * kMegabyte};
+  cache_options.on_locked = [name = file->string()] {
+    fmt::print(stderr, "terrella: {} is locked by another program; waiting for it, a minute at most\n", name);
+  };
+  auto cache = TileCache::open(*file, set.info, source_key(set), cache_options);
+  if (!cache && cache.error().cannot_write) return go_without(cache.error());
+  if (!cache) return cache.error();
+  if (!(*cache)->set_aside().empty()) {
     fmt::print(stderr, "terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
                (*cache)->set_aside().string());
   }
-  return cache;
+  return *std::move(cache);
 }
 
 bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid) {

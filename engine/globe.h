@@ -79,10 +79,11 @@ struct FrameStats {
   int band_patches = 0;  ///< of those, drawn by a per-fragment program
   int draw_calls = 0;
   long triangles = 0;
-  int tiles_wanted = 0;       ///< tiles the view asks for at full quality
-  int tiles_missing = 0;      ///< of those, neither on the GPU nor finally failed
-  int tiles_lacked = 0;       ///< of those, finally failed
-  int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
+  int tiles_wanted = 0;        ///< tiles the view asks for at full quality
+  int tiles_missing = 0;       ///< of those, neither on the GPU nor finally failed
+  int tiles_lacked = 0;        ///< of those, finally failed
+  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are there
+  bool imagery_shown = false;  ///< a tile of imagery is in view, be it a coarse one that stands in
   std::size_t uploaded_bytes = 0;
   int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
   int heights_lacked = 0;        ///< elevation tiles that failed, of those that views wanted lately

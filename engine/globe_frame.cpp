@@ -171,6 +171,7 @@ void Globe::Impl::count() {
     stats.tiles_wanted += layer->coverage().tiles;
     stats.tiles_missing += layer->coverage().missing;
     stats.tiles_lacked += layer->coverage().lacking;
+    stats.imagery_shown = stats.imagery_shown || layer->coverage().shown;
   }
 }
 

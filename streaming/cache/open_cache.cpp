@@ -23,7 +23,7 @@ constexpr int kMaxRounds = 8;
 /// What a look at the file ends in: a database, a refusal, or damage.
 struct Look {
   std::optional<SqliteWriter> database;
-  std::optional<Error> refused;
+  std::optional<CacheOpenError> refused;
   std::string damage;
 };
 
@@ -32,13 +32,13 @@ Look damaged(std::string what) {
   look.damage = std::move(what);
   return look;
 }
-Look refused(Error error) {
+Look refused(Error error, bool cannot_write = false) {
   Look look;
-  look.refused = std::move(error);
+  look.refused = CacheOpenError{std::move(error), cannot_write};
   return look;
 }
 Look failed(const fs::path& path, const WriteError& error) {
-  return error.problem == WriteProblem::damaged ? damaged(error.message) : refused(cache_error(path, error));
+  return error.problem == WriteProblem::damaged ? damaged(error.message) : refused(cache_error(path, error), true);
 }
 
 /// The file's number on its file system: what was looked at is what is renamed.
@@ -94,10 +94,9 @@ Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo
   }
   if (!has_levels_of(held->grid, info.grid)) {
     if (WriteStatus extended = extend_levels(database, info.grid); !extended) {
-      return refused(
-          extended.error().problem == WriteProblem::other
-              ? Error{fmt::format("{}: levels cannot be added to it: {}", path.string(), extended.error().message)}
-              : cache_error(path, extended.error()));
+      if (extended.error().problem != WriteProblem::other) return failed(path, extended.error());
+      return refused({fmt::format("{}: levels cannot be added to it: {}", path.string(), extended.error().message)},
+                     true);
     }
   }
   Look look;
@@ -181,32 +180,38 @@ Error cache_error(const fs::path& path, const WriteError& error) {
   return Error{fmt::format("{}: the cache cannot be written: {}{}", path.string(), error.message, advice)};
 }
 
-Result<OpenedCache> open_cache_database(const fs::path& path, const TileSetInfo& info, const std::string& source_key,
-                                        const std::function<void()>& on_locked) {
+Result<OpenedCache, CacheOpenError> open_cache_database(const fs::path& path, const TileSetInfo& info,
+                                                        const std::string& source_key,
+                                                        const std::function<void()>& on_locked) {
   fs::path aside;
   for (int round = 0; round < kMaxRounds; ++round) {
     std::error_code error;
-    if (fs::is_directory(path, error)) return Error{path.string() + ": is a folder; name a file as the cache"};
+    if (fs::is_directory(path, error)) {
+      return CacheOpenError{{path.string() + ": is a folder; name a file as the cache"}};
+    }
     if (!fs::exists(path, error)) {
-      if (Status made = create_cache_file(path, info, source_key); !made) return made.error();
+      if (Status made = create_cache_file(path, info, source_key); !made) {
+        return CacheOpenError{made.error(), true};
+      }
     }
     const std::optional<ino_t> number = number_of(path);
     Look look = look_at(path, info, source_key, on_locked);
     if (look.refused) return *look.refused;
     if (!look.database) {
       Result<fs::path> renamed = set_aside(path, number);
-      if (!renamed) return renamed.error();
+      if (!renamed) return CacheOpenError{renamed.error(), true};
       if (!renamed->empty()) aside = *renamed;
       continue;
     }
     if (WriteStatus logged = look.database->run("PRAGMA journal_mode = WAL"); !logged) {
-      return cache_error(path, logged.error());
+      return CacheOpenError{cache_error(path, logged.error()), true};
     }
     look.database->leave_log_on_close(false);
     look.database->end_wait_for_lock();
     return OpenedCache{*std::move(look.database), aside};
   }
-  return Error{path.string() + ": is damaged again and again by another program; name another file as the cache"};
+  return CacheOpenError{
+      {path.string() + ": is damaged again and again by another program; name another file as the cache"}};
 }
 
 }  // namespace terrella

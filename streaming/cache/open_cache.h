@@ -6,6 +6,7 @@
 
 #include "geo/result.h"
 #include "streaming/cache/sqlite_writer.h"
+#include "streaming/cache/tile_cache.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -23,9 +24,10 @@ struct OpenedCache {
 /// with more stays as it is. Found to be damaged by the look that its size allows: renamed NAME.damaged-N with its log,
 /// and made anew. Refused by name, and left as it is: another source's cache or grid, a tile set that is no cache,
 /// another program's database, a later version's cache.
-[[nodiscard]] Result<OpenedCache> open_cache_database(const std::filesystem::path& path, const TileSetInfo& info,
-                                                      const std::string& source_key,
-                                                      const std::function<void()>& on_locked = {});
+[[nodiscard]] Result<OpenedCache, CacheOpenError> open_cache_database(const std::filesystem::path& path,
+                                                                      const TileSetInfo& info,
+                                                                      const std::string& source_key,
+                                                                      const std::function<void()>& on_locked = {});
 
 /// True if both say that the same tiles lie in the same places: grid and format; names and levels may differ.
 [[nodiscard]] bool same_tiles(const TileSetInfo& a, const TileSetInfo& b);

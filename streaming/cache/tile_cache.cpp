@@ -191,12 +191,13 @@ class SqliteTileCache : public TileCache {
 
 }  // namespace
 
-Result<std::shared_ptr<TileCache>> TileCache::open(const fs::path& path, const TileSetInfo& info,
-                                                   const std::string& source_key, const CacheOptions& options) {
-  Result<OpenedCache> opened = open_cache_database(path, info, source_key, options.on_locked);
+Result<std::shared_ptr<TileCache>, CacheOpenError> TileCache::open(const fs::path& path, const TileSetInfo& info,
+                                                                   const std::string& source_key,
+                                                                   const CacheOptions& options) {
+  Result<OpenedCache, CacheOpenError> opened = open_cache_database(path, info, source_key, options.on_locked);
   if (!opened) return opened.error();
   auto writer = CacheWriter::make(std::move(opened->database), path, info.grid.min_level, options.max_bytes);
-  if (!writer) return cache_error(path, writer.error());
+  if (!writer) return CacheOpenError{cache_error(path, writer.error()), true};
   return std::shared_ptr<TileCache>(
       std::make_shared<SqliteTileCache>(path, info, options, opened->set_aside, *std::move(writer)));
 }

@@ -28,6 +28,11 @@ struct CacheRecord {
   return !record.expires_unix_s || *record.expires_unix_s > now_unix_s;
 }
 
+/// Why a cache cannot be opened.
+struct CacheOpenError : Error {
+  bool cannot_write = false;  ///< its place is at fault (rights, space, a lock), not what is in the file
+};
+
 /// Why a record is not in the file.
 struct StoreError : Error {
   bool no_room = false;  ///< the limit is reached, and nothing that could be evicted is left; the file is sound
@@ -61,9 +66,10 @@ class TileCache {
   /// Opens the cache or makes it. A file that holds another source's tiles (another grid, another `source_key`) is
   /// refused by name. One that is damaged is renamed NAME.damaged-N, a fresh one begun, and `set_aside()` says so.
   /// thread: any
-  [[nodiscard]] static Result<std::shared_ptr<TileCache>> open(const std::filesystem::path& path,
-                                                               const TileSetInfo& info, const std::string& source_key,
-                                                               const CacheOptions& options = {});
+  [[nodiscard]] static Result<std::shared_ptr<TileCache>, CacheOpenError> open(const std::filesystem::path& path,
+                                                                               const TileSetInfo& info,
+                                                                               const std::string& source_key,
+                                                                               const CacheOptions& options = {});
   virtual ~TileCache() = default;  ///< writes what is queued
 
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;

@@ -107,9 +107,11 @@ TEST_F(Cache, KeepsEveryKindOfAbsenceWithItsReasonAndItsLife) {
 TEST_F(Cache, TheLastRecordOfAPlaceIsKept) {
   const TileId id = nth_tile(4, 5);
   const auto cache = open_cache(file_);
-  const CacheRecord records[] = {tile_record(id, 3000, 1), tile_record(id, 9000, 2),
-                                 absence_record(Absence::absent, "gone"), tile_record(id, 2000, 3)};
+  const CacheRecord records[] = {absence_record(Absence::absent, "not yet"), absence_record(Absence::blank, "sea"),
+                                 tile_record(id, 3000, 1), tile_record(id, 9000, 2), tile_record(id, 2000, 3)};
   for (const bool flushed : {false, true}) {
+    ASSERT_TRUE(cache->flush());
+    test::sql(file_, "DELETE FROM tiles; DELETE FROM terrella_cache_tiles");
     for (const CacheRecord& record : records) {
       cache->store(id, record);
       if (flushed) {
@@ -123,19 +125,47 @@ TEST_F(Cache, TheLastRecordOfAPlaceIsKept) {
   EXPECT_EQ(test::sql(file_, "SELECT count(*) FROM terrella_cache_absences"), "0");
 }
 
-TEST_F(Cache, AFailureDoesNotTakeThePlaceOfATile) {
+TEST_F(Cache, NoAbsenceTakesThePlaceOfATileWhichIsAskedForAgainAfterTheAbsencesLife) {
   const TileId id = nth_tile(4, 5);
   const auto cache = open_cache(file_);
-  for (const bool flushed : {false, true}) {
-    cache->store(id, tile_record(id));
-    if (flushed) {
+  for (const Absence kind : {Absence::absent, Absence::blank, Absence::broken, Absence::failed}) {
+    for (const bool flushed : {false, true}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(kind) << flushed);
+      CacheRecord expected = tile_record(id);
+      cache->store(id, expected);
+      if (flushed) {
+        ASSERT_TRUE(cache->flush());
+      }
+      const CacheRecord absence = absence_record(kind, "gone", 5000);
+      cache->store(id, absence);
+      if (kind != Absence::failed) expected.expires_unix_s = absence.expires_unix_s;
+      expect_same(found(*cache, id), expected);
       ASSERT_TRUE(cache->flush());
+      expect_same(found(*cache, id), expected);
+      EXPECT_EQ(test::sql(file_, "SELECT count(*) FROM terrella_cache_absences"), "0");
     }
-    cache->store(id, absence_record(Absence::failed, "time-out"));
-    expect_same(found(*cache, id), tile_record(id));
-    ASSERT_TRUE(cache->flush());
-    expect_same(found(*cache, id), tile_record(id));
   }
+}
+
+TEST_F(Cache, LevelsAreAddedAtBothEnds) {
+  TileSetInfo middle = test::planet();
+  middle.grid.min_level = 3;
+  middle.grid.max_level = 5;
+  const TileId id = nth_tile(4, 5);
+  {
+    const auto cache = TileCache::open(file_, middle, test::kSource);
+    ASSERT_TRUE(cache) << cache.error().message;
+    (*cache)->store(id, tile_record(id));
+  }
+  const auto cache = open_cache(file_);
+  expect_same(found(*cache, id), tile_record(id));
+  EXPECT_EQ(
+      test::sql(file_, "SELECT group_concat(zoom_level) FROM (SELECT zoom_level FROM gpkg_tile_matrix ORDER BY 1)"),
+      "0,1,2,3,4,5,6,7,8,9,10,11,12");
+  EXPECT_TRUE(TileCache::open(file_, middle, test::kSource));
+  auto source = open_tile_set(file_);
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_EQ((*source)->info().grid, test::planet().grid);
 }
 
 TEST_F(Cache, RenewsATileThatIsQueuedAndOneThatIsStored) {

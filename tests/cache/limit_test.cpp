@@ -76,6 +76,42 @@ TEST_F(CacheLimit, TheLeastRecentlyUsedGoFirstAndRootsNever) {
   EXPECT_EQ(cache->counts().evicted, static_cast<std::uint64_t>(tiles - 50 - left));
 }
 
+TEST_F(CacheLimit, PinnedTilesStayAndWhatHasNoRoomIsSaidAndNotKept) {
+  const auto pinned_record = [](const TileId& id) {
+    CacheRecord record = tile_record(id, kLimitedTileBytes);
+    record.pinned = true;
+    return record;
+  };
+  const auto pinned_tiles = static_cast<int>(kLimit / kLimitedTileBytes * 3 / 2);
+  {
+    const auto cache = open_cache(file_);
+    for (int n = 0; n < pinned_tiles; ++n) cache->store(nth_tile(8, n), pinned_record(nth_tile(8, n)));
+  }
+  const auto cache = open_cache(file_, {.max_bytes = kLimit});
+  int no_room = 0;
+  for (int n = 0; n < 300; ++n) {
+    cache->store(nth_tile(9, n), tile_record(nth_tile(9, n), kLimitedTileBytes),
+                 [&](const StoreStatus& status) { no_room += !status && status.error().no_room ? 1 : 0; });
+    cache->store(nth_tile(10, n), test::absence_record(Absence::absent, "the sea", n));
+  }
+  ASSERT_TRUE(cache->flush());
+  EXPECT_EQ(no_room, 300);
+  EXPECT_FALSE(found(*cache, nth_tile(9, 0)));
+  // What is as large as before goes in its place, however full the file is.
+  cache->store(nth_tile(8, 0), tile_record(nth_tile(8, 0), kLimitedTileBytes, 1));
+  ASSERT_TRUE(cache->flush());
+  for (int n = 0; n < pinned_tiles; ++n) ASSERT_TRUE(found(*cache, nth_tile(8, n))) << n;
+  EXPECT_EQ(test::sql(file_, "SELECT count(*) FROM terrella_cache_tiles WHERE used IS NULL"),
+            std::to_string(pinned_tiles));
+
+  for (std::int64_t x = 0; x < columns(test::planet().grid, 8); ++x) cache->pin({8, x, 0}, 255, false);
+  ASSERT_TRUE(cache->flush());
+  EXPECT_EQ(cache->counts().pins_changed, static_cast<std::uint64_t>(pinned_tiles));
+  fill(*cache, kLimit / 4, 9);
+  EXPECT_TRUE(found(*cache, nth_tile(9, 0)));
+  EXPECT_GT(cache->counts().evicted, 0U);
+}
+
 TEST_F(CacheLimit, SpaceIsGivenBackWhenTheLimitIsLowered) {
   fill(*open_cache(file_), 2 * kLimit);
   EXPECT_GT(fs::file_size(file_), 2 * kLimit);

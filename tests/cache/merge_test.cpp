@@ -75,7 +75,7 @@ TEST_F(Merge, LosesNothing) {
   EXPECT_EQ(found(*merged, nth_tile(7, 2))->absence, Absence::failed);
 }
 
-TEST_F(Merge, TheNewestOfAPlaceWinsInEitherOrder) {
+TEST_F(Merge, ATileOrElseTheNewestOfAPlaceWinsInEitherOrder) {
   struct Case {
     CacheRecord loser, winner;
   };
@@ -83,7 +83,7 @@ TEST_F(Merge, TheNewestOfAPlaceWinsInEitherOrder) {
   const Case cases[] = {
       {tile_record(id, 100, 1), tile_record(id, 200, 2)},
       {absence_record(Absence::absent, "", 1000), tile_record(id, 100, 1)},
-      {tile_record(id, 100, 1), absence_record(Absence::absent, "gone", 5000)},
+      {absence_record(Absence::absent, "gone", 5000), tile_record(id, 100, 1)},
       {absence_record(Absence::blank, "", 1001), tile_record(id, 100, 1)},  // the same second: the tile
       {absence_record(Absence::failed, "", 9000), tile_record(id, 100, 1)},
       {absence_record(Absence::absent, "", 1000), absence_record(Absence::blank, "", 2000)},
@@ -109,13 +109,45 @@ TEST_F(Merge, OtherSourcesGridsAndFilesAreRefusedByName) {
   EXPECT_NE(refusal({a_, b_}).find("https://other.example/{z}"), std::string::npos);
   EXPECT_NE(refusal({a_, b_}).find(b_.string()), std::string::npos);
   TileSetInfo finer = test::planet();
-  finer.grid.max_level = 13;
+  finer.grid.tile_px = 512;
   fs::remove(b_);
   static_cast<void>(TileCache::open(b_, finer, test::kSource));
   EXPECT_NE(refusal({a_, b_}).find("grid"), std::string::npos);
   std::ofstream(folder_ / "text") << "text";
   EXPECT_NE(refusal({a_, folder_ / "text"}).find("not a cache"), std::string::npos);
-  EXPECT_NE(refusal({folder_ / "nothing"}).find("nothing"), std::string::npos);
+  EXPECT_NE(refusal({folder_ / "nothing"}).find("no such file"), std::string::npos);
+}
+
+TEST_F(Merge, ACacheThatWasCutOffIsCalledDamaged) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 300; ++n) cache->store(nth_tile(6, n), tile_record(nth_tile(6, n)));
+  }
+  const std::uintmax_t whole = fs::file_size(a_);
+  for (const std::uintmax_t size : {whole * 9 / 10, whole / 2, std::uintmax_t{8192}, std::uintmax_t{5000},
+                                    std::uintmax_t{3000}, std::uintmax_t{100}}) {
+    fs::resize_file(a_, size);
+    EXPECT_NE(refusal({a_}).find(a_.string() + ": the cache is damaged or was cut off"), std::string::npos)
+        << size << ": " << refusal({a_});
+  }
+  fs::resize_file(a_, 0);
+  EXPECT_NE(refusal({a_}).find("is empty"), std::string::npos);
+}
+
+TEST_F(Merge, WhatIsPinnedInOneIsPinnedInTheResult) {
+  const TileId id = nth_tile(6, 5);
+  CacheRecord pinned = tile_record(id, 100, 1);
+  pinned.pinned = true;
+  for (const bool swapped : {false, true}) {
+    put(swapped ? b_ : a_, id, pinned);
+    put(swapped ? a_ : b_, id, tile_record(id, 200, 2));
+    EXPECT_EQ(merge().tiles, 1);
+    const auto got = found(*open_cache(out_), id);
+    ASSERT_TRUE(got);
+    EXPECT_TRUE(got->pinned);
+    EXPECT_EQ(got->bytes.size(), 200U);
+    for (const fs::path& file : {a_, b_, out_}) fs::remove(file);
+  }
 }
 
 TEST_F(Merge, AnOutputThatIsThereIsReplacedOnlyIfItIsOneOfTheCaches) {

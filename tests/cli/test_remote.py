@@ -206,9 +206,46 @@ class CacheTest(PyramidTest):
 
 class NoServerTest(ProgramTest):
     def test_a_server_that_is_not_there_is_named(self):
-        done = self.assert_fails(DONE_IN_PART, "render", "http://127.0.0.1:9/{z}/{x}/{y}.jpg", "--max-level", "2", "-o",
-                                 "x.png", *VIEW, says=["127.0.0.1"])
-        self.assertIn("lacked", done.stdout)
+        self.assert_fails(1, "render", "http://127.0.0.1:9/{z}/{x}/{y}.jpg", "--max-level", "2", "-o", "x.png", *VIEW,
+                          says=["127.0.0.1", "none of the", "nothing was written"])
+        self.assert_nothing_but()
+
+    def test_a_set_of_which_every_tile_is_missing_leaves_no_picture(self):
+        with servers.misbehaving(self.folder / "nothing", {}) as server:
+            self.assert_fails(1, "render", server.template, "--max-level", "2", "-o", "x.png", *VIEW,
+                              says=["0/0/0", "404", "none of the", "nothing was written"])
+        self.assertFalse((self.folder / "x.png").exists())
+
+
+class NoPlaceForTheCacheTest(PyramidTest):
+    """One goes on without, and it is said once. A file's name as a folder stops root, too."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("file", b"")
+
+    def draw(self, *arguments, **options):
+        done = self.assert_done("render", *arguments, "-o", "x.png", *VIEW, **options)
+        said = [line for line in done.stderr.splitlines() if "without a cache" in line]
+        self.assertEqual(len(said), 1, done.stderr)
+        self.assertIn("file", said[0])
+        return (self.folder / "x.png").read_bytes()
+
+    def test_tiles_from_a_server(self):
+        with servers.nginx(self.pyramid) as server:
+            tiles = server.template, "--max-level", str(LEVELS - 1)
+            expected = self.draw(*tiles, "--cache", "file/cache.gpkg")
+            self.assertEqual(self.draw(*tiles, "--overlay", server.template, environment={"XDG_CACHE_HOME": str(self.folder / "file")}),
+                             expected)
+
+    def test_a_picture_that_is_cut(self):
+        self.draw(BLUE_MARBLE, environment={"XDG_CACHE_HOME": str(self.folder / "file")})
+
+    def test_another_sources_cache_is_refused_as_ever(self):
+        with servers.nginx(self.pyramid) as one, servers.nginx(self.pyramid) as other:
+            self.assert_done("render", one.template, "--max-level", "2", "-o", "x.png", *VIEW, "--cache", "c.gpkg")
+            self.assert_fails(1, "render", other.template, "--max-level", "2", "-o", "x.png", *VIEW, "--cache", "c.gpkg",
+                              says=["c.gpkg", "name another file"])
 
     def test_a_template_without_a_place_for_the_level_is_wrong(self):
         self.assert_fails(1, "render", "http://127.0.0.1:9/{x}/{y}.jpg", "-o", "x.png", says=["{z}"])

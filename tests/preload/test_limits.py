@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import shutil
 import sqlite3
 import subprocess
@@ -222,6 +223,63 @@ class GoneFromTheServer(LimitTest):
         before = len(self.server.requests())
         self.assert_done("render", source, "-o", "again.png", *VIEW, "--cache", self.cache)
         self.assertEqual(len(self.server.requests()), before)
+
+
+class Merges(LimitTest):
+    levels = 3
+
+    def setUp(self):
+        super().setUp()
+        self.bring("0-2")
+
+    def left(self, folder):
+        return sorted(path.name for path in folder.iterdir())
+
+    def test_a_disk_that_is_full_keeps_nothing_of_it(self):
+        whole = self.cache.stat().st_size
+        before = self.left(self.folder)
+        for limit in 512, 4096, 20_000, 50_000, whole // 2:
+            self.assert_fails(FAILED, "merge", self.cache, "-o", "joined.gpkg", file_size_limit=limit,
+                              says=["joined.gpkg", "make space"])
+            self.assertEqual(self.left(self.folder), before, limit)
+
+    def test_a_small_disk_that_is_full_keeps_nothing_of_it(self):
+        for size in "16k", "64k", "128k":
+            disk = servers.SmallDisk(self.folder / f"disk{size}", size)
+            self.addCleanup(disk.unmount)
+            if not disk.mounted:
+                print("no small disk can be mounted here")  # only root may
+                return
+            self.assert_fails(FAILED, "merge", self.cache, "-o", disk.folder / "joined.gpkg",
+                              says=["joined.gpkg", "make space"])
+            self.assertEqual(self.left(disk.folder), [], size)
+
+    def test_a_cache_that_was_cut_off_is_called_damaged(self):
+        whole = self.cache.read_bytes()
+        for size in len(whole) // 2, 5000, 100:
+            part = self.write("part.gpkg", whole[:size])
+            done = self.assert_fails(FAILED, "merge", self.cache, part, "-o", "joined.gpkg",
+                                     says=["part.gpkg", "damaged or was cut off"])
+            self.assertNotIn("not a cache", done.stderr)
+
+
+class OpenFiles(LimitTest):
+    levels = 6
+
+    def test_more_connections_than_open_files(self):
+        for soft, hard, says in (32, 32, "so it is --jobs 16; `ulimit -n"), (32, 4096, None):
+            with self.subTest(hard=hard):
+                self.cache = self.folder / f"{hard}.gpkg"
+                done = subprocess.run(
+                    [PROGRAM, "preload", self.server.template, "--levels", "0-5", "--jobs", "64", "-o", self.cache,
+                     "--json"], capture_output=True, text=True, timeout=60,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard)))
+                self.assertEqual(done.returncode, DONE, done.stderr)
+                self.assertEqual(json.loads(done.stdout)["retries"], 0, "connections that could not be opened")
+                if says:
+                    self.assertIn(says, done.stderr)
+                else:
+                    self.assertNotIn("--jobs", done.stderr)
 
 
 class Locked(LimitTest):
