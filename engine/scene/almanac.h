@@ -10,17 +10,16 @@ namespace terrella {
 
 /// Where Sun, Moon and stars stand at an instant, seen from the Earth's centre, in the Earth's ECEF axes.
 ///
-/// Valid from 1950-01-01 to 2050-12-31. Error: Sun 0.02°, Moon 0.04° and 150 km, sidereal angle 0.01° (of that 0.004°
-/// because UTC is taken for UT1), star positions 0.02° and what the star itself has moved since J2000. Sources:
-/// J. Meeus, Astronomical Algorithms (2nd edition, 1998): chapters 12 (sidereal time), 21 (precession), 25 (Sun) and 47
-/// (Moon, its 30 largest terms in longitude and 15 in latitude, of ELP-2000/82). Nutation (0.005°) is left out on both
-/// sides, of the sidereal angle and of the positions, so that it all but cancels.
+/// Valid from 1950-01-01 to 2050-12-31. Error: Sun and stars 0.005°, Moon 0.015° and 70 km. Of that, 0.004° is because
+/// UTC is taken for UT1, from which leap seconds keep it by less than 0.9 s. A star's own motion since J2000 comes on
+/// top. ERFA, the free edition of the IAU's SOFA, works it out: the Earth's orbit by epv00, the Moon by moon98 (J.
+/// Meeus, Astronomical Algorithms, 2nd edition 1998, chapter 47), the Earth's axis and rotation by the IAU's models of
+/// 2006 and 2000A.
 struct Almanac {
   EcefDir sun;                  ///< towards the Sun
   double sun_distance_m = 0.0;  ///< centre to centre
   Ecef moon;                    ///< the Moon's centre
-  Angle sidereal;               ///< Greenwich mean sidereal angle, [0°, 360°)
-  glm::dmat3 ecef_from_j2000;   ///< turns a catalogue's direction (mean equator and equinox of J2000)
+  glm::dmat3 ecef_from_j2000;   ///< turns a catalogue's direction (ICRS, or J2000's mean equator: 0.03" apart)
 };
 
 /// The Sun's and the Moon's radius, metres (IAU 2015 nominal solar radius; IAU 2015 report, mean radius).

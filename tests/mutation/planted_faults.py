@@ -3,10 +3,12 @@
 
 Example:  tests/mutation/planted_faults.py --work /tmp/faults
           tests/mutation/planted_faults.py --only asin
+          tests/mutation/planted_faults.py --check
 
 The copy is built once without a fault, and its tests must pass; then each fault is planted, the test program that it
 concerns is built again and must fail, and the fault is taken out. Some minutes on two cores. Exit code 0: every fault
-was noticed; 1: one was not, or the copy without faults fails.
+was noticed; 1: one was not, or the copy without faults fails. --check builds nothing: it says in a moment if each fault
+still has its place in the source, which changes.
 """
 import argparse
 import pathlib
@@ -80,6 +82,15 @@ FAULTS = [
 ]
 
 
+def misplaced(source: pathlib.Path, fault: Fault) -> str:
+    """Why the fault cannot be planted; empty if it can."""
+    file = source / fault.file
+    if not file.is_file():
+        return f"there is no {fault.file}"
+    count = file.read_text().count(fault.right)
+    return "" if count == 1 else f"its text is {count} times in {fault.file}, not once: {fault.right}"
+
+
 def run(words, **more) -> subprocess.CompletedProcess:
     return subprocess.run([str(w) for w in words], text=True, capture_output=True, check=False, **more)
 
@@ -132,10 +143,10 @@ def check_without_fault(copy: pathlib.Path, faults: list[Fault], jobs: int) -> b
 
 def plant(copy: pathlib.Path, fault: Fault, jobs: int) -> bool:
     file = copy / fault.file
-    sound = file.read_text()
-    if sound.count(fault.right) != 1:
-        print(f"NOT PLANTED  {fault.name}: what should be there once is there {sound.count(fault.right)} times in {fault.file}")
+    if why := misplaced(copy, fault):
+        print(f"NOT PLANTED  {fault.name}: {why}")
         return False
+    sound = file.read_text()
     file.write_text(sound.replace(fault.right, fault.wrong))
     try:
         if why := build(copy, fault.program, jobs):
@@ -152,11 +163,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, help="folder for the copy and its build, kept (default: one that goes)")
     parser.add_argument("--only", default="", help="only faults with this in their name")
+    parser.add_argument("--check", action="store_true", help="only say if each fault's text is in its file, once")
     parser.add_argument("--cmake", action="append", default=[], metavar="NAME=VALUE", help="an option of the build")
     parser.add_argument("--jobs", type=int, default=2, help="compilers at once")
     arguments = parser.parse_args()
     faults = [fault for fault in FAULTS if arguments.only in fault.name]
     source = pathlib.Path(__file__).resolve().parents[2]
+    if arguments.check:
+        wrong = [f"{fault.name}: {why}" for fault in faults if (why := misplaced(source, fault))]
+        print("\n".join(wrong) or f"each of {len(faults)} faults has its place")
+        return 1 if wrong else 0
     with tempfile.TemporaryDirectory(prefix="terrella-faults-") as temporary:
         copy = arguments.work or pathlib.Path(temporary)
         copy_source(source, copy)

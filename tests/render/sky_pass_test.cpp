@@ -134,7 +134,7 @@ TEST(SkyPass, PutsTheSunWhereItIs) {
   // Overhead at 23.43785°N 0.45432°E (ERFA 2.0), of 0.5246° diameter at 1.016203 au.
   constexpr double kFov_deg = 4.0;
   constexpr double kPlace_px =
-      1.5;  // the almanac's 0.02° are 0.8 px, the ellipsoid's zenith is where the Sun is overhead
+      1.5;  // the almanac's 0.005° are 0.2 px, the ellipsoid's zenith is where the Sun is overhead
   const SkyInput input = only(kSolstice, false, true, false, false);
   SkyScene scene(earth(), kSky, {});
   const auto picture = scene.draw(looking(23.43785, 0.45432, 1e7, 0, 90, kFov_deg), input);
