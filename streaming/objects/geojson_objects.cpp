@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "streaming/json_builder.h"
 #include "streaming/objects/feature_objects.h"
 #include "streaming/objects/model_shelf.h"
 #include "streaming/objects/quake_catalogue.h"
@@ -17,8 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Ends the parse.
-struct TooMuch : std::exception {};
+constexpr std::size_t kMostDepth = 64;
 
 /// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
 class FeatureTaker {
@@ -26,18 +25,11 @@ class FeatureTaker {
   FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectFile& file)
       : where_(std::move(where)), models_(folder), file_(file) {}
 
-  /// What the parser asks after each piece: keep it? Depth 0 is the document, 1 its members, 2 the features.
-  bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    constexpr int kMostDepth = 64;
-    if (++values_ > kMaxFeatureValues || depth > kMostDepth) throw TooMuch();
-    if (depth == 1 && event == json::parse_event_t::key) member_ = parsed.get<std::string>();
-    const bool complete = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end ||
-                          event == json::parse_event_t::value;
-    if (!complete) return true;
-    if (depth == 1 && member_ == "metadata" && is_quake_catalogue(parsed)) quakes_ = true;
-    if (depth != 2 || member_ != "features") return true;
-    take(parsed, count_++);
-    values_ = 0;
+  /// For JsonBuilder: keeps all but the features.
+  bool keep(std::size_t depth, const std::string& member, const json& value) {
+    if (depth == 1 && member == "metadata" && is_quake_catalogue(value)) quakes_ = true;
+    if (depth != 2 || member != "features") return true;
+    take(value, count_++);
     return false;
   }
 
@@ -71,9 +63,7 @@ class FeatureTaker {
   std::string where_;
   ModelShelf models_;
   ObjectFile& file_;
-  std::string member_;
   std::size_t count_ = 0;
-  std::size_t values_ = 0;
   bool quakes_ = false;
 };
 
@@ -103,18 +93,22 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
     return std::move(file);
   };
-  json document;
-  try {
-    document = json::parse(
-        text, [&taker](int depth, json::parse_event_t event, json& parsed) { return taker(depth, event, parsed); });
-  } catch (const json::parse_error& error) {
-    return broken(fmt::format("not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", error.byte));
-  } catch (const json::exception&) {
-    return broken(fmt::format("a number after feature {} is too large", taker.count()));
-  } catch (const TooMuch&) {
-    return broken(fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
+  JsonBuilder builder(
+      {.depth = kMostDepth, .pieces = kMaxFeatureValues},
+      [&taker](std::size_t depth, const std::string& member, json& value) { return taker.keep(depth, member, value); });
+  json::sax_parse(text, &builder);
+  switch (builder.problem()) {
+    case JsonBuilder::Problem::syntax:
+      return broken(fmt::format("not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", builder.byte()));
+    case JsonBuilder::Problem::number:
+      return broken(fmt::format("a number after feature {} is too large", taker.count()));
+    case JsonBuilder::Problem::too_much:
+      return broken(
+          fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
+    case JsonBuilder::Problem::none:
+      break;
   }
-  if (const Status rest = take_rest(document, taker, file); !rest) return broken(rest.error().message);
+  if (const Status rest = take_rest(builder.document(), taker, file); !rest) return broken(rest.error().message);
   return file;
 }
 

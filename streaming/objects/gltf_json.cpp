@@ -4,19 +4,19 @@
 
 #include <cstdint>
 #include <cstring>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "streaming/json_builder.h"
+#include "streaming/objects/gltf_model.h"
 
 namespace terrella {
 namespace {
 
 using nlohmann::json;
 
-constexpr int kMostGltfDepth = 64;
-constexpr std::size_t kMostGltfValues = 4'000'000;
-
-struct BadGltfJson : std::exception {};
+constexpr std::size_t kMostGltfDepth = 64;
+constexpr std::size_t kMostGltfPieces = 4'000'000;
 
 /// The text of a binary file's first chunk.
 Result<std::string_view> first_chunk(std::string_view file) {
@@ -45,21 +45,27 @@ Result<json> gltf_json(std::span<const std::byte> bytes) {
     if (!chunk) return chunk.error();
     text = *chunk;
   }
-  std::size_t values = 0;
-  try {
-    json document = json::parse(text, [&values](int depth, json::parse_event_t, const json&) {
-      if (depth > kMostGltfDepth || ++values > kMostGltfValues) throw BadGltfJson();
-      return true;
-    });
-    if (!document.is_object() || !document.contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
-    return document;
-  } catch (const json::parse_error& problem) {
-    return Error{fmt::format("not JSON at byte {}; a .gltf or .glb file is needed", problem.byte)};
-  } catch (const json::exception&) {
-    return Error{"a number in it is too large"};
-  } catch (const BadGltfJson&) {
-    return Error{fmt::format("its JSON is deeper than {} or has more than {} values", kMostGltfDepth, kMostGltfValues)};
+  JsonBuilder builder({.depth = kMostGltfDepth, .pieces = kMostGltfPieces});
+  json::sax_parse(text, &builder);
+  switch (builder.problem()) {
+    case JsonBuilder::Problem::syntax:
+      return Error{fmt::format("not JSON at byte {}; a .gltf or .glb file is needed", builder.byte())};
+    case JsonBuilder::Problem::number:
+      return Error{"a number in it is too large"};
+    case JsonBuilder::Problem::too_much:
+      return Error{
+          fmt::format("its JSON is deeper than {} or has more than {} pieces", kMostGltfDepth, kMostGltfPieces)};
+    case JsonBuilder::Problem::none:
+      break;
   }
+  json& document = builder.document();
+  if (!document.is_object() || !document.contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
+  const auto nodes = document.find("nodes");
+  if (nodes != document.end() && nodes->size() > kMaxModelNodes) {
+    return Error{
+        fmt::format("it has {} nodes, more than the {} that are read; divide it", nodes->size(), kMaxModelNodes)};
+  }
+  return std::move(document);
 }
 
 }  // namespace terrella
