@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/lack_report.h"
 #include "apps/preload_options.h"
 #include "apps/preload_plan.h"
@@ -65,8 +66,8 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
   options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
   auto cache = TileCache::open(command.output, source.set.info, source.key, options);
   if (cache && !(*cache)->set_aside().empty()) {
-    fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
-               (*cache)->set_aside().string());
+    print_message("terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
+                  (*cache)->set_aside().string());
   }
   return cache;
 }
@@ -93,7 +94,7 @@ int forecast(const PreloadCommand& command, const PreloadSource& source, const T
   if (!command.offline) {
     forecast.sample = sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
   }
-  fmt::print("{}", command.json ? to_json(forecast) : to_text(forecast));
+  print_result("{}", command.json ? to_json(forecast) : to_text(forecast));
   return kDone;
 }
 
@@ -102,22 +103,21 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
   const PreloadCounts& c = result.counts;
   const char* again = "the same command goes on where this one ended";
   if (result.end == PreloadEnd::stopped) {
-    fmt::print(stderr, "terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned,
-               again);
+    print_message("terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned, again);
     return kDoneInPart;
   }
   if (result.end == PreloadEnd::source_down) {
-    fmt::print(stderr, "terrella preload: given up, {} does not answer any more; {}\n", command.source, again);
+    print_message("terrella preload: given up, {} does not answer any more; {}\n", command.source.redacted(), again);
     return kDoneInPart;
   }
   if (c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned) {
-    fmt::print(stderr, "terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
-               c.planned, command.source);
+    print_message("terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
+                  c.planned, command.source.redacted());
     return kDoneInPart;
   }
   if (c.lacking() == 0) return kDone;
-  fmt::print(stderr, "terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
-             command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
+  print_message("terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
+                command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
   return kDoneInPart;
 }
 
@@ -151,7 +151,7 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
     return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const PreloadReport report{command.output, *result, lacks->groups(), seconds};
-  fmt::print("{}", command.json ? to_json(report) : to_text(report));
+  print_result("{}", command.json ? to_json(report) : to_text(report));
   if (const Status listed = lacks->close(); !listed) return fail("preload", listed.error().message);
   return conclude(command, *result);
 }
@@ -167,7 +167,8 @@ int run(PreloadCommand& command) {
   }
   const auto source = open_preload_source(command.source, command.remote, http);
   if (!source) return fail("preload", source.error().message);
-  if (!source->set.refuse_bulk.empty()) return fail("preload", command.source + ": " + source->set.refuse_bulk);
+  if (!source->set.refuse_bulk.empty())
+    return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
   const auto plan = make_preload_plan(command, source->set.info);
   if (!plan) return fail("preload", plan.error().message);
   return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);

@@ -108,7 +108,7 @@ Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const 
 Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
   auto tiles = is_picture(path) ? open_picture(path, options.cache, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
@@ -150,7 +150,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 
 Status find_imagery(const SceneOptions& options) {
   if (is_remote(options.tile_set)) return Done{};
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
   return Done{};
@@ -162,10 +162,10 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
   TileSetInfo info = (*tiles)->info();
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
   if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
-    return Error{options.tile_set + (mercator
-                                         ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
-                                         : ": it is not in Web Mercator by what it says of itself, as --projection "
-                                           "says; leave that out")};
+    return Error{options.tile_set.redacted() +
+                 (mercator ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                           : ": it is not in Web Mercator by what it says of itself, as --projection "
+                             "says; leave that out")};
   }
   if (mercator) return tiles;
   info.grid.projection = options.projection.value_or(info.grid.projection);
@@ -180,17 +180,17 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   return Error{
       fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
                   "--elevation {0}",
-                  options.tile_set)};
+                  options.tile_set.redacted())};
 }
 
 Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
   if (options.elevation.empty()) return std::optional<ElevationSource>();
-  if (is_picture(options.elevation)) {
+  if (is_picture(options.elevation.with_secrets())) {
     return Error{
         fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
                     "of one of 16 bits "
                     "or floats a pixel",
-                    options.elevation)};
+                    options.elevation.redacted())};
   }
   SceneOptions heights = options;
   heights.tile_set = options.elevation;
@@ -198,7 +198,7 @@ Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& option
   heights.latitude.reset();
   auto tiles = open_any_tiles(heights);
   if (!tiles) return tiles.error();
-  auto source = ElevationSource::open(*std::move(tiles), options.elevation);
+  auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));
 }
