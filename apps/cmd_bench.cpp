@@ -10,6 +10,7 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/report_files.h"
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/open_imagery.h"
 
 namespace terrella {
@@ -63,7 +64,7 @@ int run(const BenchCommand& command) {
   const Result<fs::path> cache = picture_cache_folder(command.work);
   if (!cache) return fail("bench", cache.error().message);
   options.work = command.work.empty() ? *cache / "bench" : *cache;
-  options.progress = [&](const std::string& doing) { fmt::print(stderr, "bench {}: {}\n", chosen.name, doing); };
+  options.progress = [&](const std::string& doing) { print_message("bench {}: {}\n", chosen.name, doing); };
   // Not after minutes of measuring.
   if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
   const Result<bench::Report> report = chosen.run(options);
@@ -72,9 +73,9 @@ int run(const BenchCommand& command) {
     return fail("bench", fmt::format("no view of {} has '{}' in its name", command.name, command.only));
   const Result<bench::ReportFiles> files = bench::write_report(*report, command.out);
   if (!files) return fail("bench", files.error().message);
-  fmt::print("{}", command.json ? as_json(*report) : as_text(*report));
-  for (const fs::path& file : files->written) fmt::print(stderr, "bench {}: wrote {}\n", chosen.name, file.string());
-  if (!files->remark.empty()) fmt::print(stderr, "bench {}: {}\n", chosen.name, files->remark);
+  print_result("{}", command.json ? as_json(*report) : as_text(*report));
+  for (const fs::path& file : files->written) print_message("bench {}: wrote {}\n", chosen.name, file.string());
+  if (!files->remark.empty()) print_message("bench {}: {}\n", chosen.name, files->remark);
   return report->failed ? kFailed : kDone;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/option_checks.h"
 #include "apps/progress.h"
 #include "apps/stop_signals.h"
@@ -89,11 +90,11 @@ void print_summary(const CutCommand& command, const CutSummary& summary) {
                                    {"min_level", grid.min_level},
                                    {"max_level", grid.max_level}};
     // A path need not be UTF-8.
-    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  fmt::print("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB\n", command.output, summary.tiles, grid.tile_px,
-             grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
+  print_result("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB\n", command.output, summary.tiles, grid.tile_px,
+               grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
 }
 
 int run(CutCommand& command) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/open_imagery.h"
 #include "apps/tile_set_report.h"
 #include "apps/verify_tiles.h"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InfoOptions {
-  std::string tile_set;
+  Url tile_set;
   bool verify = false;
   bool json = false;
 };
@@ -62,7 +63,7 @@ auto progress_lines() {
     const auto now = std::chrono::steady_clock::now();
     if (now - last < std::chrono::seconds(1)) return;
     last = now;
-    fmt::print(stderr, "{} of {} tiles read\n", done, total);
+    print_message("{} of {} tiles read\n", done, total);
   };
 }
 
@@ -71,26 +72,26 @@ int run_info(const InfoOptions& options) {
   scene.tile_set = options.tile_set;
   const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
   if (!source) return fail("info", source.error().message);
+  const std::string& path = options.tile_set.with_secrets();
   TileSetReport report{
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
-  report.size_bytes = size_of(options.tile_set);
+  report.size_bytes = size_of(path);
   report.levels = count_levels(**source);
-  if (is_cache(options.tile_set)) {
+  if (is_cache(path)) {
     const std::int64_t now_unix_s = std::time(nullptr);
-    Result<CacheReport> cache =
-        options.verify ? verify_cache(options.tile_set, now_unix_s) : read_cache_report(options.tile_set, now_unix_s);
+    Result<CacheReport> cache = options.verify ? verify_cache(path, now_unix_s) : read_cache_report(path, now_unix_s);
     if (!cache) return fail("info", cache.error().message);
     report.cache = *std::move(cache);
   }
   if (options.verify) {
     // A cache's grid may have a million times more places than it has tiles: what is there is what is checked.
-    Result<VerifyReport> verified =
-        report.cache ? verify_cached_tiles(*source, options.tile_set, report.cache->tiles, progress_lines())
-                     : verify_tiles(*source, progress_lines());
+    Result<VerifyReport> verified = report.cache
+                                        ? verify_cached_tiles(*source, path, report.cache->tiles, progress_lines())
+                                        : verify_tiles(*source, progress_lines());
     if (!verified) return fail("info", verified.error().message);
     report.verified = *std::move(verified);
   }
-  fmt::print("{}", options.json ? to_json(report) : to_text(report));
+  print_result("{}", options.json ? to_json(report) : to_text(report));
   const bool damaged = report.cache && report.cache->problems && !report.cache->problems->empty();
   return damaged || (report.verified && report.verified->bad > 0) ? kFailed : kDone;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/progress.h"
 #include "apps/stop_signals.h"
 #include "streaming/cache/merge_caches.h"
@@ -39,11 +40,11 @@ void print_summary(const MergeCommand& command, const MergeSummary& summary) {
                                         {"absences", summary.absences},
                                         {"dropped", summary.dropped}};
     // A path need not be UTF-8.
-    fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  fmt::print("{}: {} tiles and {} absences from {} caches, {} older records left out\n", command.output, summary.tiles,
-             summary.absences, command.caches.size(), summary.dropped);
+  print_result("{}: {} tiles and {} absences from {} caches, {} older records left out\n", command.output,
+               summary.tiles, summary.absences, command.caches.size(), summary.dropped);
 }
 
 int run_merge(const MergeCommand& command) {

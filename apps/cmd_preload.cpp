@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/lack_report.h"
 #include "apps/open_files.h"
 #include "apps/preload_options.h"
@@ -68,12 +69,12 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
   CacheOptions options;
   options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
   options.on_locked = [output = command.output] {
-    fmt::print(stderr, "terrella preload: {} is locked by another program; waiting for it, a minute at most\n", output);
+    print_message("terrella preload: {} is locked by another program; waiting for it, a minute at most\n", output);
   };
   auto cache = TileCache::open(command.output, source.set.info, source.key, options);
   if (cache && !(*cache)->set_aside().empty()) {
-    fmt::print(stderr, "terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
-               (*cache)->set_aside().string());
+    print_message("terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
+                  (*cache)->set_aside().string());
   }
   if (!cache) return cache.error();
   return *std::move(cache);
@@ -121,9 +122,9 @@ int release(const PreloadCommand& command, const PreloadSource& source, const Ti
   const auto released = pin_planned(plan, **cache, false);
   if (!released) return fail("preload", released.error().message);
   if (command.json) {
-    fmt::print("{}", to_json(ReleaseReport{command.output, *released}));
+    print_result("{}", to_json(ReleaseReport{command.output, *released}));
   } else {
-    fmt::print("{}: {} tiles released; viewers with --cache-size may evict them\n", command.output, *released);
+    print_result("{}: {} tiles released; viewers with --cache-size may evict them\n", command.output, *released);
   }
   return kDone;
 }
@@ -139,7 +140,7 @@ int forecast(const PreloadCommand& command, const PreloadSource& source, const T
     forecast.sample = take_sample(source, plan);
     forecast.no_room = find_no_room(command, plan, room_need(command, plan, held->settled), forecast.sample);
   }
-  fmt::print("{}", command.json ? to_json(forecast) : to_text(forecast));
+  print_result("{}", command.json ? to_json(forecast) : to_text(forecast));
   return kDone;
 }
 
@@ -148,34 +149,33 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
   const PreloadCounts& c = result.counts;
   const char* again = "the same command goes on where this one ended";
   if (result.end == PreloadEnd::stopped) {
-    fmt::print(stderr, "terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned,
-               again);
+    print_message("terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned, again);
     return kDoneInPart;
   }
   if (result.end == PreloadEnd::source_down) {
-    fmt::print(stderr, "terrella preload: given up, {} does not answer any more; {}\n", command.source, again);
+    print_message("terrella preload: given up, {} does not answer any more; {}\n", command.source.redacted(), again);
     return kDoneInPart;
   }
   if (c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned) {
-    fmt::print(stderr, "terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
-               c.planned, command.source);
+    print_message("terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
+                  c.planned, command.source.redacted());
     return kDoneInPart;
   }
   if (c.no_room > 0) {
-    fmt::print(stderr,
-               "terrella preload: {} tiles have no room under --cache-size {}; what was stored is kept; give a larger "
-               "--cache-size, or fewer levels\n",
-               c.no_room, command.cache_size_mb);
+    print_message(
+        "terrella preload: {} tiles have no room under --cache-size {}; what was stored is kept; give a larger "
+        "--cache-size, or fewer levels\n",
+        c.no_room, command.cache_size_mb);
   }
   if (c.kept > 0) {
-    fmt::print(stderr,
-               "terrella preload: {} tiles that were stored are no longer on the server; the stored ones were kept; is "
-               "the address still right?\n",
-               c.kept);
+    print_message(
+        "terrella preload: {} tiles that were stored are no longer on the server; the stored ones were kept; is "
+        "the address still right?\n",
+        c.kept);
   }
   if (c.lacking() == 0) return c.kept == 0 ? kDone : kDoneInPart;
-  fmt::print(stderr, "terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
-             command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
+  print_message("terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
+                command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
   return kDoneInPart;
 }
 
@@ -210,7 +210,7 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
     return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const PreloadReport report{command.output, *result, lacks->groups(), seconds};
-  fmt::print("{}", command.json ? to_json(report) : to_text(report));
+  print_result("{}", command.json ? to_json(report) : to_text(report));
   if (const Status listed = lacks->close(); !listed) return fail("preload", listed.error().message);
   return conclude(command, *result);
 }
@@ -221,10 +221,10 @@ void fit_jobs(PreloadCommand& command) {
   int& jobs = command.http.connections_per_host;
   jobs = connections_that_fit(asked);
   if (jobs == asked) return;
-  fmt::print(stderr,
-             "terrella preload: --jobs {} needs more open files than this process may have, so it is --jobs {}; "
-             "`ulimit -n {}` before it allows all\n",
-             asked, jobs, asked + 64);
+  print_message(
+      "terrella preload: --jobs {} needs more open files than this process may have, so it is --jobs {}; "
+      "`ulimit -n {}` before it allows all\n",
+      asked, jobs, asked + 64);
 }
 
 int run(PreloadCommand& command) {
@@ -239,7 +239,8 @@ int run(PreloadCommand& command) {
   }
   const auto source = open_preload_source(command.source, command.remote, http);
   if (!source) return fail("preload", source.error().message);
-  if (!source->set.refuse_bulk.empty()) return fail("preload", command.source + ": " + source->set.refuse_bulk);
+  if (!source->set.refuse_bulk.empty())
+    return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
   const auto plan = make_preload_plan(command, source->set.info);
   if (!plan) return fail("preload", plan.error().message);
   if (command.release) return release(command, *source, **plan);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
 #include "apps/scene_layers.h"
@@ -46,7 +47,7 @@ constexpr std::size_t kMostNamed = 16;
 constexpr std::size_t kMostReasons = 4;
 
 std::string name_of(const LackingTile& tile) {
-  return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, tile.failure.why);
+  return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
 }
 
 /// Tiles of heights that failed, or that had not come when time was up.
@@ -68,16 +69,17 @@ void report(const RenderCommand& command, const Rendered& rendered) {
     for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
     if (!command.scene.elevation.empty()) result["heights_lacked"] = heights_without(stats);
     for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
-    fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_result("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  fmt::print("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
-             stats.tiles_lacked + stats.tiles_missing);
+  print_result("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
+               stats.tiles_lacked + stats.tiles_missing);
   if (!rendered.attributions.empty()) {
-    fmt::print("{}: thanks to {}\n", command.output, fmt::join(rendered.attributions, "; "));
+    print_result("{}: thanks to {}\n", command.output,
+                 one_line(fmt::format("{}", fmt::join(rendered.attributions, "; "))));
   }
   if (heights_without(stats) > 0) {
-    fmt::print("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
+    print_result("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
   }
 }
 
@@ -140,11 +142,11 @@ int run(const RenderCommand& command) {
     return rendered->all_objects ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
-    fmt::print(stderr, "terrella render: lacks {}\n", name_of(rendered->lacking[k]));
+    print_message("terrella render: lacks {}\n", name_of(rendered->lacking[k]));
   }
   for (std::size_t k = 0; k < std::min(rendered->lacking_heights.size(), kMostNamed); ++k) {
-    fmt::print(stderr, "terrella render: {} lacks the heights {}; coarser ones stand there\n", command.scene.elevation,
-               name_of(rendered->lacking_heights[k]));
+    print_message("terrella render: {} lacks the heights {}; coarser ones stand there\n",
+                  command.scene.elevation.redacted(), name_of(rendered->lacking_heights[k]));
   }
   return kDoneInPart;
 }

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 #include "apps/open_imagery.h"
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/scene_overlays.h"
 #include "apps/viewer/viewer.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
@@ -62,19 +64,24 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   if (!said("--stereo")) scene.stereo.mode = kept.stereo;
 }
 
-LayerRow image_row(LayerId id, const std::string& tile_set, const ImageLook& look) {
-  const std::string name = std::filesystem::path(tile_set).filename().string();
-  return {.id = id, .name = name.empty() ? tile_set : name, .bounds = {}, .look = look};
+/// The name of a file alone; the whole address of a set on the network, whose last part is "{y}.jpg" for most.
+std::string layer_name(const Url& tile_set) {
+  const std::string shown = tile_set.without_query();
+  const std::string name = is_remote(tile_set) ? shown : std::filesystem::path(shown).filename().string();
+  return one_line(name.empty() ? shown : name);
+}
+
+LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
+  return {.id = id, .name = layer_name(tile_set), .bounds = {}, .look = look};
 }
 
 /// In the order that add_overlays(), add_image_layers() and add_objects() have made them.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
-    rows.push_back(
-        {.kind = LayerKind::heights, .name = std::filesystem::path(scene.elevation).filename().string(), .bounds = {}});
+    rows.push_back({.kind = LayerKind::heights, .name = layer_name(scene.elevation), .bounds = {}});
   }
-  std::vector<std::string> names = {scene.tile_set.empty() ? first.name : scene.tile_set};
+  std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
   if (!scene.night.empty()) names.push_back(scene.night);
   if (!scene.clouds.tile_set.empty()) names.push_back(scene.clouds.tile_set);

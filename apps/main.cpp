@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/commands.h"
+#include "apps/console.h"
 
 namespace {
 
@@ -25,23 +26,32 @@ const CLI::App& innermost(const CLI::App& app) {
   return parsed.empty() ? app : *parsed.front();
 }
 
+/// "--option" of "--option=value".
+std::string name_part(const std::string& argument) {
+  return argument.starts_with('-') ? argument.substr(0, argument.find('=')) : argument;
+}
+
 /// CLI11 has an exit code for each kind of mistake; the program's contract has one, 2.
 int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const CLI::App& where = innermost(app);
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
-  // CLI11 looks for what is missing first: without this, a mistyped name would be told as a missing one.
+  // CLI11 looks for what is missing first: without this, a mistyped name would be told as a missing one. And it names
+  // all that it cannot use, the value of a mistyped --header included.
   const auto unknown = where.remaining();
-  const bool mistyped = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !unknown.empty();
-  const std::string message = mistyped ? "there is no option or subcommand " + unknown.front() : error.what();
-  fmt::print(stderr, "{}: {}\nSee {} --help.\n", command, message, command);
+  const bool mistyped = (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
+                         dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) &&
+                        !unknown.empty();
+  const std::string message =
+      mistyped ? "there is no option or subcommand " + name_part(unknown.front()) : std::string(error.what());
+  print_message("{}: {}\nSee {} --help.\n", command, message, command);
   return kWrongUsage;
 }
 
 }  // namespace
 
 int terrella::fail(const char* command, const std::string& why) {
-  fmt::print(stderr, "terrella {}: {}\n", command, why);
+  print_message("terrella {}: {}\n", command, why);
   return kFailed;
 }
 
@@ -64,7 +74,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report_parse(app, error);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "terrella: {}\n", error.what());
+    print_message("terrella: {}\n", error.what());
     return kFailed;
   }
 }

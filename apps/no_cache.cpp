@@ -1,4 +1,5 @@
 #include "apps/no_cache.h"
+#include "apps/console.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -14,7 +15,7 @@ namespace terrella {
 void say_without_cache(const Error& why) {
   static std::atomic_flag said;
   if (said.test_and_set()) return;
-  fmt::print(stderr, "terrella: {}; going on without a cache: nothing is kept for the next time\n", why.message);
+  print_message("terrella: {}; going on without a cache: nothing is kept for the next time\n", why.message);
 }
 
 bool can_write_into(const std::filesystem::path& folder) {

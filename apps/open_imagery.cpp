@@ -111,7 +111,7 @@ Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const 
 Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
   auto tiles = is_picture(path) ? open_picture(path, options.cache, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
@@ -134,13 +134,13 @@ SceneOptions heights_options(const SceneOptions& options) {
 }
 
 /// `field`: the field of a description that the address goes into.
-Error no_meaning(const std::string& address, const char* field) {
+Error no_meaning(const Url& address, const char* field) {
   return Error{fmt::format(
       "{}: nothing says what the numbers in its tiles mean in metres; write a description that does, for example "
       "heights.json with {{\"{}\": \"…\", \"max_level\": 8, \"elevation\": {{\"scale\": 1, \"offset\": -32768}}}}, and "
       "give "
       "--elevation heights.json (streaming/remote/README.md)",
-      for_people(address), field)};
+      address.redacted(), field)};
 }
 
 bool starts_like_a_picture(const fs::path& path) {
@@ -178,7 +178,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 
 Status find_imagery(const SceneOptions& options) {
   if (is_remote(options.tile_set)) return Done{};
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
   return Done{};
@@ -190,10 +190,10 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
   TileSetInfo info = (*tiles)->info();
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
   if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
-    return Error{options.tile_set + (mercator
-                                         ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
-                                         : ": it is not in Web Mercator by what it says of itself, as --projection "
-                                           "says; leave that out")};
+    return Error{options.tile_set.redacted() +
+                 (mercator ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                           : ": it is not in Web Mercator by what it says of itself, as --projection "
+                             "says; leave that out")};
   }
   if (mercator) return tiles;
   info.grid.projection = options.projection.value_or(info.grid.projection);
@@ -208,24 +208,24 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   return Error{
       fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
                   "--elevation {0}",
-                  options.tile_set)};
+                  options.tile_set.redacted())};
 }
 
 Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
   if (options.elevation.empty()) return std::optional<ElevationSource>();
-  if (is_picture(options.elevation)) {
+  if (is_picture(options.elevation.with_secrets())) {
     return Error{
         fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
                     "of one of 16 bits "
                     "or floats a pixel",
-                    options.elevation)};
+                    options.elevation.redacted())};
   }
   // Known without a request: only a description says what a server's numbers mean.
-  if (options.elevation.find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
+  if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
   auto tiles = open_any_tiles(heights_options(options));
   if (!tiles) return tiles.error();
   if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
-  auto source = ElevationSource::open(*std::move(tiles), options.elevation);
+  auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));
 }

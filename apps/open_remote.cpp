@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/console.h"
 #include "apps/no_cache.h"
 #include "apps/open_imagery.h"
 #include "apps/preload_source.h"
@@ -28,16 +29,15 @@ constexpr int kTemplateMaxLevel = 18;
 constexpr std::size_t kMaxNameBytes = 60;
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
-/// The address without what follows a question mark, which may be secret, as a file's name; and a number for the rest.
+/// The address without its secrets as a file's name, and a number for the rest: a new key or password is no new source.
 std::string cache_name(const SceneOptions& options) {
-  const std::string& address = options.tile_set;
   std::string name;
-  for (const char c : address.substr(0, address.find('?')).substr(0, kMaxNameBytes)) {
+  for (const char c : options.tile_set.without_query().substr(0, kMaxNameBytes)) {
     name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
   }
   const RemoteOptions& r = options.remote;
-  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", address, r.layer, r.matrix_set, r.style, r.time,
-                                  r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.tile_set), r.layer, r.matrix_set,
+                                  r.style, r.time, r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
   if (options.projection == Projection::web_mercator) whole += "|web-mercator";
   return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
 }
@@ -61,7 +61,7 @@ Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
     return Error{
         fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
                     "--offline",
-                    options.tile_set, file->string())};
+                    options.tile_set.redacted(), file->string())};
   }
   auto tiles = open_tile_set(*file);
   if (!tiles) return tiles.error();
@@ -89,14 +89,14 @@ Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const
   if (!file) return go_without(file.error());
   CacheOptions cache_options{.max_bytes = options.cache_size_mb * kMegabyte};
   cache_options.on_locked = [name = file->string()] {
-    fmt::print(stderr, "terrella: {} is locked by another program; waiting for it, a minute at most\n", name);
+    print_message("terrella: {} is locked by another program; waiting for it, a minute at most\n", name);
   };
   auto cache = TileCache::open(*file, set.info, source_key(set), cache_options);
   if (!cache && cache.error().cannot_write) return go_without(cache.error());
   if (!cache) return cache.error();
   if (!(*cache)->set_aside().empty()) {
-    fmt::print(stderr, "terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
-               (*cache)->set_aside().string());
+    print_message("terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
+                  (*cache)->set_aside().string());
   }
   return *std::move(cache);
 }
@@ -107,7 +107,9 @@ bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid)
   return root && *root;
 }
 
-bool is_template(const SceneOptions& options) { return options.tile_set.find("{z}") != std::string::npos; }
+bool is_template(const SceneOptions& options) {
+  return options.tile_set.with_secrets().find("{z}") != std::string::npos;
+}
 
 /// A URL template says nothing of its grid: before the first picture a few tiles are compared, so that a mistaken one
 /// is named rather than drawn. Not for a set that was drawn before: its cache has tiles.
@@ -132,10 +134,9 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
-  auto set = describe_remote(options.tile_set, remote,
-                             [&http](const std::string& url, const std::vector<std::string>& headers) {
-                               return fetch_document(http, url, headers);
-                             });
+  auto set = describe_remote(
+      options.tile_set, remote,
+      [&http](const Url& url, const std::vector<std::string>& headers) { return fetch_document(http, url, headers); });
   if (!set) return set.error();
   auto cache = open_cache(options, *set);
   if (!cache) return cache.error();
@@ -143,7 +144,7 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
   // The cache has the tiles as the server has them.
-  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set);
+  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }

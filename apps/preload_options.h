@@ -22,7 +22,7 @@ struct LevelRange {
 
 /// What `terrella preload` was told. Every value has been checked once the parse is over.
 struct PreloadCommand {
-  std::string source;
+  Url source;
   std::string output;
   std::optional<LevelRange> levels;
   std::vector<GeoRect> boxes;

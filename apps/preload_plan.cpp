@@ -18,7 +18,7 @@ Result<LevelRange> levels_of(const PreloadCommand& command, const TileGrid& grid
   if (!command.levels) return has;
   if (command.levels->first < has.first || command.levels->last > has.last) {
     return Error{fmt::format("--levels {}-{}: {} has levels {} to {}", command.levels->first, command.levels->last,
-                             command.source, has.first, has.last)};
+                             command.source.redacted(), has.first, has.last)};
   }
   return *command.levels;
 }

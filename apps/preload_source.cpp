@@ -10,8 +10,8 @@
 namespace terrella {
 namespace {
 
-Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions& remote, const HttpOptions& http) {
-  const auto fetch = [&](const std::string& url, const std::vector<std::string>& headers) {
+Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
+  const auto fetch = [&](const Url& url, const std::vector<std::string>& headers) {
     return fetch_document(http, url, headers);
   };
   auto set = describe_remote(source, remote, fetch);
@@ -23,7 +23,8 @@ Result<PreloadSource> open_remote(const std::string& source, const RemoteOptions
   return opened;
 }
 
-Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
+Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
+  const std::string& source = named.with_secrets();
   auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
   // A cache has no place for what GeoPackages say of single tiles' heights.
@@ -43,12 +44,11 @@ Result<PreloadSource> open_on_disk(const std::string& source, int jobs) {
 
 }  // namespace
 
-Result<PreloadSource> open_preload_source(const std::string& source, const RemoteOptions& remote,
-                                          const HttpOptions& http) {
+Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
 }
 
-Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const std::string& url,
+Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
                                               const std::vector<std::string>& headers) {
   std::promise<HttpReply> promise;
   std::future<HttpReply> answer = promise.get_future();

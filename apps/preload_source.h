@@ -21,11 +21,11 @@ struct PreloadSource {
 };
 
 /// Finds out what SOURCE is; a remote set's description is fetched. The error names SOURCE. thread: main
-[[nodiscard]] Result<PreloadSource> open_preload_source(const std::string& source, const RemoteOptions& remote,
+[[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
                                                         const HttpOptions& http);
 
 /// Fetches one document and waits for it. thread: any
-[[nodiscard]] Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const std::string& url,
+[[nodiscard]] Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
                                                             const std::vector<std::string>& headers);
 
 }  // namespace terrella

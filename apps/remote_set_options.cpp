@@ -2,8 +2,22 @@
 
 #include "apps/option_checks.h"
 #include "geo/tile_grid.h"
+#include "streaming/http/http_headers.h"
 
 namespace terrella {
+
+namespace {
+
+/// Refuses what no request could be sent with, before any is.
+CLI::Validator sendable_header() {
+  return {[](const std::string& header) {
+            const Status sendable = http::check_request_header(header);
+            return sendable ? std::string() : sendable.error().message;
+          },
+          ""};
+}
+
+}  // namespace
 
 void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer", remote.layer, "Of a WMTS");
@@ -19,6 +33,7 @@ void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
       ->check(whole_number_in(0, kMaxTileLevel));
   app.add_option("--header", remote.headers, "Sent with each request, to the source's host alone; never stored or told")
       ->type_name("'K: V'")
+      ->check(sendable_header())
       ->allow_extra_args(false);
 }
 

@@ -9,7 +9,7 @@ namespace terrella {
 namespace {
 
 /// What is said of TILESET, its rows and its server, is not said of another, and a cache holds one source's tiles.
-Status add_layer(Globe& globe, const SceneOptions& options, const std::string& tile_set, const ImageLook& look) {
+Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set, const ImageLook& look) {
   if (tile_set.empty()) return Done{};
   SceneOptions layer = options;
   layer.tile_set = tile_set;

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "apps/console.h"
 #include "apps/data_dir.h"
 #include "apps/sky_data.h"
 #include "streaming/file_bytes.h"
@@ -14,7 +15,7 @@ namespace terrella {
 void add_sky_data(GlobeOptions& options) {
   if (!options.sky) return;
   SkyData data = load_sky_data();
-  for (const std::string& problem : data.problems) fmt::print(stderr, "{}\n", problem);
+  for (const std::string& problem : data.problems) print_message("{}\n", problem);
   options.stars = std::move(data.stars);
   options.night_lights = std::move(data.night_lights);
 }
@@ -26,10 +27,10 @@ void add_label_font(GlobeOptions& options) {
     if (font) {
       options.label_font = std::move(*font);
     } else {
-      fmt::print(stderr, "{}; objects are without labels\n", font.error().message);
+      print_message("{}; objects are without labels\n", font.error().message);
     }
   } catch (const BrokenInstallation& broken) {
-    fmt::print(stderr, "{}\nobjects are without labels\n", broken.what());
+    print_message("{}\nobjects are without labels\n", broken.what());
   }
 }
 
@@ -37,8 +38,8 @@ Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (options.objects.empty()) return true;
   const Result<ObjectFile> file = read_geojson_objects(options.objects);
   if (!file) return file.error();
-  for (const std::string& complaint : file->complaints) fmt::print(stderr, "{}\n", complaint);
-  if (file->complaints_left_out > 0) fmt::print(stderr, "and {} more\n", file->complaints_left_out);
+  for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
+  if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
   if (const auto added = globe.add_objects(file->scene); !added) return added.error();
   return file->complaints.empty();
 }

@@ -12,18 +12,19 @@
 #include "geo/tile_grid.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/tile_source.h"
+#include "streaming/url.h"
 
 namespace terrella {
 
 /// One --overlay.
 struct OverlayOption {
-  std::string tile_set;
+  Url tile_set;
   double opacity = 1.0;
 };
 
 /// What `view` and `render` have in common on the command line. Every value has been checked once the parse is over.
 struct SceneOptions {
-  std::string tile_set;          ///< empty: the Earth that the program carries
+  Url tile_set;                  ///< empty: the Earth that the program carries
   std::optional<Camera> camera;  ///< absent: the whole globe, see first_camera()
   Viewport size{.width_px = 1024, .height_px = 1024};
   std::optional<Body> body;                      ///< absent: what the tile set says, else Earth
@@ -39,9 +40,9 @@ struct SceneOptions {
   int polar_columns = 32;
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
-  std::string elevation;      ///< tile set of heights; empty: none
+  Url elevation;              ///< tile set of heights; empty: none
   double exaggeration = 1.0;  ///< of heights
-  std::string night;          ///< tile set that shows where it is night; empty: none
+  Url night;                  ///< tile set that shows where it is night; empty: none
   OverlayOption clouds;       ///< whose brightness is its alpha, over the others; empty: none
   SurfaceLook surface;
   StereoLook stereo;

@@ -18,7 +18,7 @@ Result<OverlayOption> parse_overlay(const std::string& text) {
   }
   if (overlay.tile_set.empty()) return Error{fmt::format("'{}' names no tile set", text)};
   if (!(overlay.opacity >= 0.0 && overlay.opacity <= 1.0)) {
-    return Error{fmt::format("'{}': the opacity after the last colon must be from 0 to 1", text)};
+    return Error{fmt::format("'{}': the opacity after the last colon must be from 0 to 1", Url(text).redacted())};
   }
   return overlay;
 }
@@ -35,7 +35,7 @@ Status add_overlays(Globe& globe, const SceneOptions& options) {
     auto tiles = open_imagery(scene);
     if (!tiles) return tiles.error();
     const auto layer = globe.add_imagery(*std::move(tiles), ImageLook{.opacity = overlay.opacity});
-    if (!layer) return Error{overlay.tile_set + ": " + layer.error().message};
+    if (!layer) return Error{overlay.tile_set.redacted() + ": " + layer.error().message};
   }
   return Done{};
 }

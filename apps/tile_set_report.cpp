@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "apps/console.h"
 #include "streaming/projection_names.h"
 #include "streaming/tileset_json.h"
 
@@ -47,12 +48,12 @@ std::string made_of_text(const TileGrid& grid) {
                      grid.tile_px, grid.min_level, grid.max_level, columns(grid, grid.max_level));
 }
 
-std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : text; }
+std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : one_line(text); }
 
 constexpr std::array kAbsenceNames = {"absent", "blank", "broken", "failed"};
 
 std::string cache_text(const CacheReport& cache) {
-  std::string text = fmt::format("cache of     {}\n", cache.source_key);
+  std::string text = fmt::format("cache of     {}\n", one_line(redact_addresses(cache.source_key)));
   text += fmt::format("tiles        {}, {} of them expired, {} pinned\n", cache.tiles, cache.expired_tiles,
                       cache.pinned_tiles);
   for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
@@ -61,12 +62,12 @@ std::string cache_text(const CacheReport& cache) {
   }
   if (!cache.problems) return text;
   text += fmt::format("database     {}\n", cache.problems->empty() ? "sound" : "damaged");
-  for (const std::string& problem : *cache.problems) text += fmt::format("damage       {}\n", problem);
+  for (const std::string& problem : *cache.problems) text += fmt::format("damage       {}\n", one_line(problem));
   return text;
 }
 
 nlohmann::ordered_json cache_json(const CacheReport& cache) {
-  nlohmann::ordered_json object{{"source", cache.source_key},
+  nlohmann::ordered_json object{{"source", redact_addresses(cache.source_key)},
                                 {"tiles", cache.tiles},
                                 {"expired_tiles", cache.expired_tiles},
                                 {"pinned_tiles", cache.pinned_tiles}};
@@ -82,7 +83,7 @@ std::string verify_text(const VerifyReport& verified) {
   std::string text = fmt::format("verified     {} tiles are good, {} absent, {} blank, {} broken\n", verified.good,
                                  verified.absent, verified.blank, verified.bad);
   for (const BadTile& tile : verified.first_bad) {
-    text += fmt::format("broken       {}/{}/{}: {}\n", tile.id.level, tile.id.x, tile.id.y, tile.why);
+    text += fmt::format("broken       {}/{}/{}: {}\n", tile.id.level, tile.id.x, tile.id.y, one_line(tile.why));
   }
   const auto listed = static_cast<std::int64_t>(verified.first_bad.size());
   if (verified.bad > listed) text += fmt::format("             and {} more\n", verified.bad - listed);
@@ -103,7 +104,7 @@ nlohmann::ordered_json verify_json(const VerifyReport& verified) {
 
 std::string to_text(const TileSetReport& report) {
   const TileGrid& grid = report.info.grid;
-  std::string text = fmt::format("tile set     {}\n", report.path);
+  std::string text = fmt::format("tile set     {}\n", report.path.redacted());
   text += fmt::format("name         {}\n", or_not_said(report.info.name));
   text += fmt::format("attribution  {}\n", or_not_said(report.info.attribution));
   text += fmt::format("body         {}\n", or_not_said(report.info.body));
@@ -129,7 +130,7 @@ std::string to_text(const TileSetReport& report) {
 std::string to_json(const TileSetReport& report) {
   auto object = nlohmann::ordered_json::parse(to_tileset_json(report.info));
   if (report.info.format == ImageFormat::unknown) object["format"] = nullptr;
-  object["path"] = report.path;
+  object["path"] = report.path.redacted();
   if (report.size_bytes) object["size_bytes"] = *report.size_bytes;
   if (const auto& made_of = report.info.made_of) {
     object["made_of"] = {{"projection", projection_name(made_of->projection)},

@@ -7,6 +7,7 @@
 
 #include "streaming/cache/cache_report.h"
 #include "streaming/tile_source.h"
+#include "streaming/url.h"
 
 namespace terrella {
 
@@ -32,7 +33,7 @@ struct VerifyReport {
 inline constexpr std::size_t kMaxBadTilesListed = 1000;
 
 struct TileSetReport {
-  std::string path;
+  Url path;
   std::optional<std::uintmax_t> size_bytes;  ///< of the file or of all files in the directory
   TileSetInfo info;
   std::vector<LevelReport> levels;

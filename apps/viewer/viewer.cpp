@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/console.h"
 #include "apps/viewer/screenshot.h"
 
 namespace terrella {
@@ -198,7 +199,7 @@ void Viewer::print_camera_at_rest() {
   std::string text = camera_text(navigator_.camera());
   if (text == printed_camera_) return;
   printed_camera_ = std::move(text);
-  fmt::print("{}\n", printed_camera_);
+  print_result("{}\n", printed_camera_);
   std::fflush(stdout);
 }
 

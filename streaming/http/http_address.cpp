@@ -8,9 +8,9 @@
 namespace terrella::http {
 namespace {
 
-using Url = std::unique_ptr<CURLU, decltype(&curl_url_cleanup)>;
+using UrlParts = std::unique_ptr<CURLU, decltype(&curl_url_cleanup)>;
 
-std::string part(const Url& url, CURLUPart which, unsigned flags = 0) {
+std::string part(const UrlParts& url, CURLUPart which, unsigned flags = 0) {
   char* text = nullptr;
   if (curl_url_get(url.get(), which, &text, flags) != CURLUE_OK) return {};
   std::string copy(text);
@@ -27,12 +27,13 @@ bool has_blank_or_control(const std::string& url) {
 
 }  // namespace
 
-Result<Address> parse_http_address(const std::string& url) {
-  const Url parsed(curl_url(), &curl_url_cleanup);
-  if (has_blank_or_control(url)) {
+Result<Address> parse_http_address(const Url& url) {
+  const UrlParts parsed(curl_url(), &curl_url_cleanup);
+  if (has_blank_or_control(url.with_secrets())) {
     return Error{"an address holds a blank, a line end or another control character: write it as %20 or remove it"};
   }
-  if (!parsed || curl_url_set(parsed.get(), CURLUPART_URL, url.c_str(), CURLU_NON_SUPPORT_SCHEME) != CURLUE_OK) {
+  if (!parsed ||
+      curl_url_set(parsed.get(), CURLUPART_URL, url.with_secrets().c_str(), CURLU_NON_SUPPORT_SCHEME) != CURLUE_OK) {
     return Error{"an address cannot be read: write http://host/path, https://host/path or file:///path"};
   }
   const std::string scheme = part(parsed, CURLUPART_SCHEME);

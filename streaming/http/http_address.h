@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geo/result.h"
+#include "streaming/url.h"
 
 namespace terrella::http {
 
@@ -17,7 +18,7 @@ struct Address {
 
 /// Refuses other schemes and addresses with blanks or control characters. The error names host and path where they can
 /// be told, and never the query, which may hold a key.
-[[nodiscard]] Result<Address> parse_http_address(const std::string& url);
+[[nodiscard]] Result<Address> parse_http_address(const Url& url);
 
 /// Address without query, user and password, for people.
 [[nodiscard]] std::string shown(const Address& address);

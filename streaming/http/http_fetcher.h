@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geo/result.h"
+#include "streaming/url.h"
 
 namespace terrella {
 
@@ -35,7 +36,7 @@ struct HttpOptions {
 /// stand in no message.
 struct HttpRequest {
   std::uint64_t id = 0;              ///< the caller's; unique among what is under way
-  std::string url;                   ///< http, https or file
+  Url url;                           ///< http, https or file
   std::vector<std::string> headers;  ///< "Name: value"
   std::string etag;                  ///< validators of what the caller has: asks conditionally
   std::string last_modified;

@@ -10,6 +10,7 @@
 namespace terrella::http {
 namespace {
 
+constexpr std::size_t kMaxHeaderBytes = 8192;  // most servers take no more
 constexpr std::string_view kBlank = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
@@ -168,11 +169,14 @@ Status check_request_header(std::string_view header) {
   if (colon == std::string_view::npos || name.empty() || !std::all_of(name.begin(), name.end(), is_token_char)) {
     return Error{"a header is not of the form \"Name: value\""};
   }
+  if (header.size() > kMaxHeaderBytes) {
+    return Error{fmt::format("the header {} is longer than {} bytes", name, kMaxHeaderBytes)};
+  }
   if (!is_field_value(header.substr(colon + 1))) {
     return Error{fmt::format("the header {} holds a line end or another control character: remove it", name)};
   }
   if (std::any_of(kOwn.begin(), kOwn.end(), [&](std::string_view own) { return same_name(name, own); })) {
-    return Error{fmt::format("the header {} is set by Terrella itself: leave it out", name)};
+    return Error{fmt::format("the header {} is set by Terrella itself for each request: leave it out", name)};
   }
   return Done{};
 }

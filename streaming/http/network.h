@@ -57,7 +57,7 @@ class Network {
   void read_local_file(Job& job);
   [[nodiscard]] bool collect();
   void finish(Job& job, CURLcode code);
-  void redirect(Job& job, const Verdict& verdict, int status, std::string url);
+  void redirect(Job& job, const Verdict& verdict, int status, Url url);
   void try_again(Job& job, const Verdict& verdict, int status, const Transfer& transfer);
   [[nodiscard]] bool pause(Host& host, int status, const ReplyFields& fields, std::chrono::milliseconds own_wait);
   void fail_waiting(Host& host);

@@ -54,7 +54,7 @@ void Network::finish(Job& job, CURLcode code) {
   recycle(std::move(transfer));
 }
 
-void Network::redirect(Job& job, const Verdict& verdict, int status, std::string url) {
+void Network::redirect(Job& job, const Verdict& verdict, int status, Url url) {
   const std::string from = shown(job.address);
   if (url.empty()) return reply(job, HttpOutcome::refused, status, from + ": " + std::string(verdict.why));
   if (++job.redirects > options_.max_redirects) {

@@ -25,8 +25,8 @@ struct Job {
   };
 
   HttpRequest request;
-  Address address;             ///< where it goes now: another than the request's after a redirect
-  std::string redirected_url;  ///< empty: request.url
+  Address address;     ///< where it goes now: another than the request's after a redirect
+  Url redirected_url;  ///< empty: request.url
   Host* host = nullptr;
   std::uint64_t sequence = 0;  ///< settles ties of rank: first come, first served
   State state = State::ready;
@@ -37,7 +37,7 @@ struct Job {
   bool may_send_headers = true;  ///< false once it has left the host that it was meant for
   std::unique_ptr<Transfer> transfer;
 
-  [[nodiscard]] const std::string& url() const { return redirected_url.empty() ? request.url : redirected_url; }
+  [[nodiscard]] const Url& url() const { return redirected_url.empty() ? request.url : redirected_url; }
 };
 
 /// Best first. A NaN would break the order: it comes last.

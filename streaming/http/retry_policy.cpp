@@ -13,6 +13,8 @@ constexpr Verdict again(std::string_view why) { return {Next::again, HttpOutcome
 constexpr Verdict wait(std::string_view why) { return {Next::wait, HttpOutcome::failed, why}; }
 constexpr Verdict nothing(std::string_view why) { return {Next::reply, HttpOutcome::nothing, why}; }
 
+constexpr std::string_view kNotHttp = "the server's answer is not HTTP; check the scheme and the port of the address";
+
 Verdict judge_client_error(int status) {
   switch (status) {
     case 401:
@@ -63,8 +65,11 @@ Verdict judge_status(int status, bool conditional) {
 
 Verdict judge_failure(CURLcode code) {
   switch (code) {
+    // Only http and https come as far as curl: what it does not support is an answer without an HTTP status line.
     case CURLE_UNSUPPORTED_PROTOCOL:
-      return refused("only http and https are allowed on the network");
+      return refused(kNotHttp);
+    case CURLE_WEIRD_SERVER_REPLY:
+      return again(kNotHttp);
     case CURLE_URL_MALFORMAT:
       return refused("the address cannot be read");
     case CURLE_FILESIZE_EXCEEDED:

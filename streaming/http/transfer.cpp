@@ -62,7 +62,7 @@ void Transfer::begin(const Question& question) {
   if (!question.etag.empty()) add_header("If-None-Match: " + std::string(question.etag));
   if (!question.last_modified.empty()) add_header("If-Modified-Since: " + std::string(question.last_modified));
   curl_easy_setopt(handle_.get(), CURLOPT_HTTPHEADER, headers_.get());
-  curl_easy_setopt(handle_.get(), CURLOPT_URL, question.url->c_str());
+  curl_easy_setopt(handle_.get(), CURLOPT_URL, question.url->with_secrets().c_str());
   curl_easy_setopt(handle_.get(), CURLOPT_PIPEWAIT, question.wait_for_multiplexing ? 1L : 0L);
 }
 
@@ -85,10 +85,10 @@ long Transfer::status() const {
   return status;
 }
 
-std::string Transfer::redirect_url() const {
+Url Transfer::redirect_url() const {
   char* url = nullptr;
   curl_easy_getinfo(handle_.get(), CURLINFO_REDIRECT_URL, &url);
-  return url == nullptr ? std::string() : std::string(url);
+  return url == nullptr ? Url() : Url(url);
 }
 
 bool Transfer::multiplexed() const {

@@ -20,7 +20,7 @@ class Transfer {
  public:
   /// What one attempt asks for.
   struct Question {
-    const std::string* url = nullptr;
+    const Url* url = nullptr;
     const std::vector<std::string>* headers = nullptr;  ///< checked already; null: none
     std::string_view etag;
     std::string_view last_modified;
@@ -39,7 +39,7 @@ class Transfer {
   [[nodiscard]] std::string_view certificate_fault() const { return certificate_fault_; }
   [[nodiscard]] const ReplyFields& fields() const { return fields_; }
   [[nodiscard]] std::vector<std::byte> take_body() { return std::move(body_); }
-  [[nodiscard]] std::string redirect_url() const;  ///< absolute; empty: none
+  [[nodiscard]] Url redirect_url() const;  ///< absolute; empty: none
   [[nodiscard]] bool multiplexed() const;
   [[nodiscard]] CURL* handle() const { return handle_.get(); }
 

@@ -36,7 +36,7 @@ bool belongs_to(std::string_view host, std::string_view domain) {
 
 }  // namespace
 
-std::string bulk_refusal(const std::string& url) {
+std::string bulk_refusal(const Url& url) {
   const auto address = parse_address(url);
   if (!address) return {};
   for (const Terms& terms : kTerms) {

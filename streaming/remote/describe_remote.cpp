@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "streaming/file_bytes.h"
+#include "streaming/http/http_address.h"
 #include "streaming/remote/remote_tms.h"
 #include "streaming/remote/source_json.h"
 #include "streaming/remote/url_template.h"
@@ -45,39 +46,39 @@ Kind kind_of_document(std::string_view text) {
   return root == "Capabilities" || root == "ExceptionReport" ? Kind::wmts : Kind::unknown;
 }
 
-bool is_from_network(std::string_view address) {
-  const std::string lowered = lower_case(address.substr(0, 8));
+bool is_from_network(const Url& address) {
+  const std::string lowered = lower_case(address.with_secrets().substr(0, 8));
   return lowered.starts_with("http://") || lowered.starts_with("https://");
 }
 
-/// Headers given for one address may go to another one on the same host, and not from https to http.
-bool may_have_headers(const std::string& given_for, const std::string& other) {
-  const auto from = parse_address(given_for);
-  const auto to = parse_address(other);
-  return from && to && from->host == to->host && (from->scheme == to->scheme || to->scheme == "https");
+/// Headers belong to the scheme, host and port that they were given for: another port may be another owner's server.
+bool may_have_headers(const Url& given_for, const Url& other) {
+  const auto from = http::parse_http_address(given_for);
+  const auto to = http::parse_http_address(other);
+  return from && to && from->origin == to->origin;
 }
 
-Status check_pointer(const std::string& from, const std::string& to, const RemoteOptions& options) {
+Status check_pointer(const Url& from, const Url& to, const RemoteOptions& options) {
   if (is_from_network(from) && !is_from_network(to)) {
-    return Error{fmt::format("{}: it points to {}, which is not on the network", for_people(from), for_people(to))};
+    return Error{fmt::format("{}: it points to {}, which is not on the network", from.redacted(), to.redacted())};
   }
   if (is_from_network(from) && !options.headers.empty() && !may_have_headers(from, to)) {
     return Error{
-        fmt::format("{}: its tiles are at {}, a host that the headers were not given for; if they should go "
-                    "there, give the URL template of the tiles",
-                    for_people(from), for_people(to))};
+        fmt::format("{}: it points to {}, which has another scheme, host or port, and the headers were given for the "
+                    "first alone; if they should go there, give the URL template of the tiles",
+                    from.redacted(), to.redacted())};
   }
   return Done{};
 }
 
 /// Where the sub-domains are, a template's first tile stands for all: its host is what is compared.
-Result<RemoteTileSet> checked(Result<RemoteTileSet> set, const std::string& from) {
+Result<RemoteTileSet> checked(Result<RemoteTileSet> set, const Url& from) {
   if (!set) return set;
   const RemoteOptions headers{.headers = set->headers};
   RemoteTileSet each = *set;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, set->subdomains.size()); ++i) {
     if (!set->subdomains.empty()) each.subdomains = {set->subdomains[i]};
-    const std::string url = tile_url(each, {.level = set->info.grid.min_level});
+    const Url url = tile_url(each, {.level = set->info.grid.min_level});
     if (Status pointed = check_pointer(from, url, headers); !pointed) return pointed.error();
   }
   return set;
@@ -87,8 +88,8 @@ class Describing {
  public:
   explicit Describing(const FetchDocument& fetch) : fetch_(fetch) {}
 
-  Result<RemoteTileSet> describe(const std::string& address, const RemoteOptions& options) {
-    const Kind kind = kind_of_name(address);
+  Result<RemoteTileSet> describe(const Url& address, const RemoteOptions& options) {
+    const Kind kind = kind_of_name(address.with_secrets());
     if (kind == Kind::url_template) return template_tile_set(address, options, true, "tile set");
     const Result<std::string> text = read(address, options);
     if (!text) return text.error();
@@ -96,25 +97,25 @@ class Describing {
   }
 
  private:
-  Result<std::string> read(const std::string& address, const RemoteOptions& options) {
-    if (Status fine = check_options(options, for_people(address)); !fine) return fine.error();
-    if (!has_scheme(address)) {
-      Result<std::vector<std::byte>, FileError> bytes = read_file(address, kMaxCapabilitiesBytes);
+  Result<std::string> read(const Url& address, const RemoteOptions& options) {
+    if (Status fine = check_options(options, address.redacted()); !fine) return fine.error();
+    if (!has_scheme(address.with_secrets())) {
+      Result<std::vector<std::byte>, FileError> bytes = read_file(address.with_secrets(), kMaxCapabilitiesBytes);
       if (!bytes) return Error{bytes.error().message};
       return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     }
     const auto parsed = parse_address(address);
     if (!parsed || (parsed->scheme != "http" && parsed->scheme != "https" && parsed->scheme != "file")) {
-      return Error{fmt::format("{}: not an address that can be read; http, https and file can", for_people(address))};
+      return Error{fmt::format("{}: not an address that can be read; http, https and file can", address.redacted())};
     }
     Result<std::vector<std::byte>> bytes = fetch_(address, options.headers);
     if (!bytes) return bytes.error();
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   }
 
-  Result<RemoteTileSet> interpret(Kind kind, const std::string& text, const std::string& address,
+  Result<RemoteTileSet> interpret(Kind kind, const std::string& text, const Url& address,
                                   const RemoteOptions& options) {
-    const std::string where = for_people(address);
+    const std::string where = address.redacted();
     switch (kind) {
       case Kind::wmts:
         return checked(parse_wmts_capabilities(text, options, where), address);
@@ -129,8 +130,8 @@ class Describing {
     }
   }
 
-  Result<RemoteTileSet> follow(const std::string& text, const std::string& address, const RemoteOptions& options) {
-    const std::string where = for_people(address);
+  Result<RemoteTileSet> follow(const std::string& text, const Url& address, const RemoteOptions& options) {
+    const std::string where = address.redacted();
     const Result<SourceDescription> source = parse_source_json(text, where);
     if (!source) return source.error();
     RemoteOptions merged = merge(options, source->options);
@@ -160,10 +161,10 @@ class Describing {
     return interpret(kind, *document, source.address, merged);
   }
 
-  static std::string with_scheme(const std::string& address) {
-    if (has_scheme(address)) return address;
+  static Url with_scheme(const Url& address) {
+    if (has_scheme(address.with_secrets())) return address;
     std::error_code ignored;
-    return "file://" + std::filesystem::absolute(address, ignored).string();
+    return "file://" + std::filesystem::absolute(address.with_secrets(), ignored).string();
   }
 
   const FetchDocument& fetch_;
@@ -171,14 +172,14 @@ class Describing {
 
 }  // namespace
 
-bool is_remote(std::string_view tile_set) {
-  if (has_scheme(tile_set) || tile_set.find("{z}") != std::string_view::npos) return true;
-  const std::string name = lower_case(file_name(tile_set));
+bool is_remote(const Url& tile_set) {
+  const std::string_view text = tile_set.with_secrets();
+  if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;
+  const std::string name = lower_case(file_name(text));
   return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile);
 }
 
-Result<RemoteTileSet> describe_remote(const std::string& tile_set, const RemoteOptions& options,
-                                      const FetchDocument& fetch) {
+Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options, const FetchDocument& fetch) {
   return Describing(fetch).describe(tile_set, options);
 }
 

@@ -6,12 +6,12 @@
 #include <cstddef>
 
 #include "geo/body.h"
+#include "streaming/http/http_headers.h"
 
 namespace terrella {
 namespace {
 
 constexpr std::size_t kMaxHeaders = 64;
-constexpr std::size_t kMaxHeaderBytes = 8192;
 constexpr std::size_t kMaxSubdomains = 64;
 
 void prefer(std::string& said, const std::string& otherwise) {
@@ -24,18 +24,6 @@ void prefer(std::optional<T>& said, const std::optional<T>& otherwise) {
 }
 
 bool is_letter_or_digit(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// RFC 9110: a name is a token. A line break in a value would begin a header of its own.
-bool is_header(const std::string& header) {
-  const std::size_t colon = header.find(':');
-  if (colon == std::string::npos || colon == 0 || header.size() > kMaxHeaderBytes) return false;
-  const auto name_ends = header.begin() + static_cast<std::ptrdiff_t>(colon);
-  const bool token = std::all_of(header.begin(), name_ends, [](char c) {
-    return is_letter_or_digit(c) || std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
-  });
-  return token && std::all_of(name_ends, header.end(),
-                              [](char c) { return (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\t'; });
-}
 
 bool is_subdomain(const std::string& name) {
   return !name.empty() && name.size() <= 63 &&
@@ -82,8 +70,8 @@ Status check_options(const RemoteOptions& options, const std::string& where) {
     return Error{fmt::format("{}: {} headers, at most {} are sent", where, options.headers.size(), kMaxHeaders)};
   }
   for (std::size_t i = 0; i < options.headers.size(); ++i) {
-    if (is_header(options.headers[i])) continue;
-    return Error{fmt::format("{}: header {} is not of the form \"Name: value\" on one line", where, i + 1)};
+    const Status header = http::check_request_header(options.headers[i]);
+    if (!header) return Error{fmt::format("{}: header {}: {}", where, i + 1, header.error().message)};
   }
   if (options.subdomains.size() > kMaxSubdomains) {
     return Error{

@@ -40,10 +40,24 @@ bool is_secret(std::string_view parameter) {
          std::ranges::any_of(kParts, [&](std::string_view part) { return name.find(part) != std::string::npos; });
 }
 
-/// The template without fragment, user and password, and without the values of secret parameters.
-std::string without_secrets(std::string_view url) {
-  url = url.substr(0, url.find('#'));
-  std::string kept = for_people(url);
+}  // namespace
+
+Url tile_url(const RemoteTileSet& set, const TileId& id) {
+  assert(id.level >= 0 && id.level <= kMaxTileLevel);
+  std::string url;
+  std::string_view rest = set.url.with_secrets();
+  for (std::size_t at = rest.find('{'); at != std::string_view::npos; at = rest.find('{')) {
+    const std::size_t end = std::min(rest.find('}', at), rest.size() - 1);
+    url += rest.substr(0, at);
+    url += value_of(rest.substr(at + 1, end - at - 1), set, id);
+    rest.remove_prefix(end + 1);
+  }
+  return url.append(rest);
+}
+
+std::string without_secrets(const Url& whole) {
+  const std::string_view url = std::string_view(whole.with_secrets()).substr(0, whole.with_secrets().find('#'));
+  std::string kept = whole.without_query();
   std::size_t at = url.find('?');
   while (at != std::string_view::npos) {
     const std::size_t next = url.find_first_of("&;", at + 1);
@@ -54,21 +68,6 @@ std::string without_secrets(std::string_view url) {
     at = next;
   }
   return kept;
-}
-
-}  // namespace
-
-std::string tile_url(const RemoteTileSet& set, const TileId& id) {
-  assert(id.level >= 0 && id.level <= kMaxTileLevel);
-  std::string url;
-  std::string_view rest = set.url;
-  for (std::size_t at = rest.find('{'); at != std::string_view::npos; at = rest.find('{')) {
-    const std::size_t end = std::min(rest.find('}', at), rest.size() - 1);
-    url += rest.substr(0, at);
-    url += value_of(rest.substr(at + 1, end - at - 1), set, id);
-    rest.remove_prefix(end + 1);
-  }
-  return url.append(rest);
 }
 
 std::string source_key(const RemoteTileSet& set) {

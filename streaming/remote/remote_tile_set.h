@@ -8,6 +8,7 @@
 
 #include "geo/result.h"
 #include "streaming/tile_source.h"
+#include "streaming/url.h"
 
 namespace terrella {
 
@@ -23,7 +24,7 @@ struct RemoteTileSet {
   TileSetInfo info{};
   /// With {z}, {x}, {y} (rows from the north) or {-y} (from the south), {s} (one of `subdomains`), and {row}, {col} as
   /// other names of {y} and {x}; {z} may stand for `level_names`.
-  std::string url{};
+  Url url{};
   std::vector<std::string> subdomains{};
   std::vector<std::string> level_names{};  ///< by level, where they are not the numbers (WMTS matrix identifiers)
   std::vector<TileShift> shifts{};         ///< by level; empty: none
@@ -34,10 +35,14 @@ struct RemoteTileSet {
 };
 
 /// The address of one tile of the grid. The same tile always goes to the same sub-domain. thread: any
-[[nodiscard]] std::string tile_url(const RemoteTileSet& set, const TileId& id);
+[[nodiscard]] Url tile_url(const RemoteTileSet& set, const TileId& id);
 
-/// What tells this set's cache from others': address template, sub-domains, level names and shifts; no
-/// headers, no password, and of a query no values of parameters named like key, token or signature. thread: any
+/// The address as a cache may keep it: without fragment, user and password, and of a query without the values of
+/// parameters named like key, token or signature. Other values stay: they may say which tiles are meant. thread: any
+[[nodiscard]] std::string without_secrets(const Url& url);
+
+/// What tells this set's cache from others': address template without secrets, sub-domains, level names and
+/// shifts; no headers. thread: any
 [[nodiscard]] std::string source_key(const RemoteTileSet& set);
 
 }  // namespace terrella

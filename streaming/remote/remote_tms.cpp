@@ -33,7 +33,7 @@ Status adjust(TileGrid& grid, const RemoteOptions& options, const std::string& w
 
 }  // namespace
 
-Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& address, const RemoteOptions& options,
+Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const Url& address, const RemoteOptions& options,
                                        const std::string& where) {
   Result<TmsDescription> tms = parse_tms_xml(xml, where);
   if (!tms) return tms.error();
@@ -41,7 +41,8 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& 
     return Error{where + ": " + same.error().message};
   }
   if (Status adjusted = adjust(tms->info.grid, options, where); !adjusted) return adjusted.error();
-  const std::string plain = encode_braces(address.substr(0, address.find('#')));
+  const std::string_view text = address.with_secrets();
+  const std::string plain = encode_braces(text.substr(0, text.find('#')));
   const std::size_t query = std::min(plain.find('?'), plain.size());
   const std::string folder = plain.substr(0, plain.rfind('/', query) + 1);
 
@@ -57,7 +58,7 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const std::string& 
   if (!options.name && !tms->info.name.empty()) rest.name = tms->info.name;
   // Level 0 of one root tile does not lie on the grid; that it was not left out is no wish of anybody's.
   if (!options.min_level && rest.min_level == 0) rest.min_level.reset();
-  const std::string url = folder + "{z}/{x}/{-y}." + tms->extension + plain.substr(query);
+  const Url url = folder + "{z}/{x}/{-y}." + tms->extension + plain.substr(query);
   Result<RemoteTileSet> set = template_tile_set(url, rest, true, where);
   if (!set) return set;
   set->level_names.resize(static_cast<std::size_t>(set->info.grid.max_level) + 1);

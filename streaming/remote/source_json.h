@@ -14,7 +14,7 @@ inline constexpr std::size_t kMaxSourceJsonBytes = 1UL << 20;
 struct SourceDescription {
   enum class Kind { url_template, wmts, tms };
   Kind kind = Kind::url_template;
-  std::string address;    ///< the template, or where the capabilities document or the tilemapresource.xml is
+  Url address;            ///< the template, or where the capabilities document or the tilemapresource.xml is
   RemoteOptions options;  ///< all its other fields
 };
 

@@ -63,7 +63,7 @@ std::string fault_of_names(const Scan& found) {
 }
 
 std::string fault_of(const RemoteTileSet& set, bool files) {
-  const std::string_view url = set.url;
+  const std::string_view url = set.url.with_secrets();
   if (url.size() > kMaxUrlBytes) return fmt::format("is longer than {} bytes", kMaxUrlBytes);
   const auto is_printable = [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7f; };
   if (!std::ranges::all_of(url, is_printable)) return "holds a space or a control character; write %20 for a space";
@@ -114,7 +114,7 @@ ImageFormat format_of_ending(const std::string& url) {
 Status check_url_template(const RemoteTileSet& set, bool files, const std::string& where) {
   const std::string fault = fault_of(set, files);
   if (fault.empty()) return Done{};
-  return Error{fmt::format("{}: the URL template {} {}", where, for_people(set.url), fault)};
+  return Error{fmt::format("{}: the URL template {} {}", where, set.url.redacted(), fault)};
 }
 
 void apply_options(RemoteTileSet& set, const RemoteOptions& options) {
@@ -136,12 +136,12 @@ void apply_options(RemoteTileSet& set, const RemoteOptions& options) {
   }
 }
 
-Result<RemoteTileSet> template_tile_set(const std::string& url, const RemoteOptions& options, bool files,
+Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& options, bool files,
                                         const std::string& where) {
   RemoteTileSet set;
   set.url = url;
   set.subdomains = options.subdomains;
-  if (set.subdomains.empty() && url.find("{s}") != std::string::npos) set.subdomains = {"a", "b", "c"};
+  if (set.subdomains.empty() && url.with_secrets().find("{s}") != std::string::npos) set.subdomains = {"a", "b", "c"};
   if (Status checked = check_options(options, where); !checked) return checked.error();
   if (Status checked = check_url_template(set, files, where); !checked) return checked.error();
   if (!options.max_level) {
@@ -155,12 +155,12 @@ Result<RemoteTileSet> template_tile_set(const std::string& url, const RemoteOpti
   grid.max_level = *options.max_level;
   grid.bounds = options.bounds.value_or(GeoRect{});
   if (Status checked = check_grid(grid, where); !checked) return checked.error();
-  if (url.find("{-y}") != std::string::npos) {
+  if (url.with_secrets().find("{-y}") != std::string::npos) {
     const bool level_said = options.min_level.value_or(0) > 0;
     if (Status fitted = fit_rows_from_south(grid, level_said, where); !fitted) return fitted.error();
   }
-  set.info.format = options.format.value_or(format_of_ending(url));
-  set.info.name = for_people(url);
+  set.info.format = options.format.value_or(format_of_ending(url.with_secrets()));
+  set.info.name = url.without_query();
   apply_options(set, options);
   return set;
 }

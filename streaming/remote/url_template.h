@@ -20,7 +20,7 @@ inline constexpr std::size_t kMaxUrlBytes = 8192;
 void apply_options(RemoteTileSet& set, const RemoteOptions& options);
 
 /// The set of a URL template and of what `options` say of its grid. thread: any
-[[nodiscard]] Result<RemoteTileSet> template_tile_set(const std::string& url, const RemoteOptions& options, bool files,
+[[nodiscard]] Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& options, bool files,
                                                       const std::string& where);
 
 }  // namespace terrella

@@ -34,9 +34,10 @@ void append_encoded(std::string& text, char c) {
 
 }  // namespace
 
-std::optional<WebAddress> parse_address(const std::string& url) {
+std::optional<WebAddress> parse_address(const Url& url) {
   const std::unique_ptr<CURLU, CleanUp> parsed(curl_url());
-  if (!parsed || curl_url_set(parsed.get(), CURLUPART_URL, url.c_str(), CURLU_NON_SUPPORT_SCHEME) != CURLUE_OK) {
+  if (!parsed ||
+      curl_url_set(parsed.get(), CURLUPART_URL, url.with_secrets().c_str(), CURLU_NON_SUPPORT_SCHEME) != CURLUE_OK) {
     return std::nullopt;
   }
   WebAddress address{.scheme = lower_case(part(parsed.get(), CURLUPART_SCHEME)),
@@ -85,17 +86,6 @@ std::string encode_braces(std::string_view url) {
     }
   }
   return encoded;
-}
-
-std::string for_people(std::string_view url) {
-  std::string shown(url.substr(0, std::min(url.find('?'), url.find('#'))));
-  const std::size_t scheme = shown.find("://");
-  if (scheme == std::string::npos) return shown;
-  const std::size_t host = scheme + 3;
-  const std::size_t path = std::min(shown.find('/', host), shown.size());
-  const std::size_t user = shown.rfind('@', path);
-  if (user != std::string::npos && user >= host) shown.erase(host, user + 1 - host);
-  return shown;
 }
 
 }  // namespace terrella

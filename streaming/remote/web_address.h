@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "streaming/url.h"
+
 namespace terrella {
 
 /// What of an address decides whom it belongs to.
@@ -15,7 +17,7 @@ struct WebAddress {
 };
 
 /// Reads an address as libcurl does, which will ask for it; nothing if it is none. thread: any
-[[nodiscard]] std::optional<WebAddress> parse_address(const std::string& url);
+[[nodiscard]] std::optional<WebAddress> parse_address(const Url& url);
 
 /// True for text that begins like "scheme://". thread: any
 [[nodiscard]] bool has_scheme(std::string_view text);
@@ -28,8 +30,5 @@ struct WebAddress {
 [[nodiscard]] std::string percent_encode(std::string_view text);
 /// Encodes braces alone, so that an address is no URL template. thread: any
 [[nodiscard]] std::string encode_braces(std::string_view url);
-
-/// An address without user, password and query, as messages show it. thread: any
-[[nodiscard]] std::string for_people(std::string_view url);
 
 }  // namespace terrella

@@ -179,7 +179,7 @@ TEST_F(Misbehaving, LineEndsInHeadersOrAddressesAreRefusedUnsent) {
   replies.get(request);
   request.id = 3;
   request.etag.clear();
-  request.url += " HTTP/1.1\r\nX-Other: secret";
+  request.url = request.url.with_secrets() + " HTTP/1.1\r\nX-Other: secret";
   replies.get(request);
   for (const std::uint64_t id : {1, 2, 3}) {
     const HttpReply reply = replies.wait(id);

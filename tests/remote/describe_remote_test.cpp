@@ -18,7 +18,8 @@ struct Web {
   Result<RemoteTileSet> describe(const std::string& tile_set, const RemoteOptions& options = {}) {
     return describe_remote(
         tile_set, options,
-        [&](const std::string& url, const std::vector<std::string>& sent) -> Result<std::vector<std::byte>> {
+        [&](const Url& address, const std::vector<std::string>& sent) -> Result<std::vector<std::byte>> {
+          const std::string& url = address.with_secrets();
           asked.push_back(url);
           headers = sent;
           if (!pages.contains(url)) return Error{url + ": 404"};
@@ -92,7 +93,7 @@ TEST(DescribeRemote, AJsonMayPointToACapabilitiesDocument) {
                                             "");
   const auto set = web.describe("https://a.org/s.json", {.time = "2013-01-01"});
   ASSERT_TRUE(set) << set.error().message;
-  EXPECT_NE(set->url.find("/2013-01-01/"), std::string::npos) << set->url;
+  EXPECT_NE(set->url.with_secrets().find("/2013-01-01/"), std::string::npos) << set->url.redacted();
   EXPECT_EQ(set->info.attribution, "me");
 }
 

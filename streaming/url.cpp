@@ -1,0 +1,104 @@
+#include "streaming/url.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace terrella {
+namespace {
+
+constexpr const char* kHidden = "***";
+constexpr std::string_view kEndsSentence = ".,:;)";
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// The place of `part`, which is in lower case, in a text of any case.
+std::size_t find_letters(std::string_view text, std::string_view part, std::size_t from) {
+  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(from, text.size()));
+  const auto found =
+      std::search(begin, text.end(), part.begin(), part.end(), [](char a, char b) { return lower(a) == b; });
+  return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
+}
+
+/// The place of the host, of user and password if there are any; npos for a path. Nobody writes a path that begins with
+/// "http:": that is an address with a slash too few.
+std::size_t authority_of(std::string_view text) {
+  const std::size_t scheme = text.find("://");
+  if (scheme != std::string_view::npos) return scheme + 3;
+  if (find_letters(text.substr(0, 5), "http:", 0) != 0 && find_letters(text.substr(0, 6), "https:", 0) != 0) {
+    return std::string_view::npos;
+  }
+  return std::min(text.find_first_not_of('/', text.find(':') + 1), text.size());
+}
+
+/// True for a description itself in the place of its file's name.
+bool is_json(std::string_view text) { return text.starts_with('{') && text.find('"') != std::string_view::npos; }
+
+/// False if what follows the host's colon is no port: a password that holds a "/", "?" or "#" looks like that.
+bool has_good_port(std::string_view host) {
+  const std::size_t bracket = host.rfind(']');
+  const std::size_t colon = host.find(':', bracket == std::string_view::npos ? 0 : bracket);
+  return colon == std::string_view::npos || host.find_first_not_of("0123456789", colon + 1) == std::string_view::npos;
+}
+
+/// Parameters of WMTS and WMS requests (OGC 07-057, 06-042) say which picture is meant, and no more.
+bool is_public(std::string_view parameter) {
+  constexpr std::string_view kPublic[] = {
+      "service", "request",     "version",       "layer",      "layers",     "style",   "styles",
+      "format",  "transparent", "tilematrixset", "tilematrix", "tilerow",    "tilecol", "time",
+      "width",   "height",      "bbox",          "elevation",  "exceptions", "crs",     "srs"};
+  return std::ranges::any_of(kPublic, [parameter](std::string_view known) {
+    return parameter.size() == known.size() && find_letters(parameter, known, 0) == 0;
+  });
+}
+
+std::string redacted_parameter(std::string_view parameter) {
+  const std::size_t value = parameter.find('=');
+  if (value == std::string_view::npos) return kHidden;
+  const std::string_view name = parameter.substr(0, value);
+  const std::string_view rest = parameter.substr(value + 1);
+  const bool is_placeholder = rest.starts_with('{') && rest.find('}') + 1 == rest.size();
+  return is_public(name) || is_placeholder ? std::string(parameter) : std::string(name) + "=" + kHidden;
+}
+
+}  // namespace
+
+std::string Url::without_query() const {
+  if (is_json(text_)) return kHidden;
+  const std::size_t authority = authority_of(text_);
+  if (authority == std::string::npos) return text_;
+  const std::string_view shown = std::string_view(text_).substr(0, text_.find_first_of("?#", authority));
+  const std::size_t path = std::min(shown.find('/', authority), shown.size());
+  std::string_view host = shown.substr(authority, path - authority);
+  host.remove_prefix(host.rfind('@') + 1);
+  const std::string scheme(shown.substr(0, authority));
+  return has_good_port(host) ? scheme + std::string(host) + std::string(shown.substr(path)) : scheme + kHidden;
+}
+
+std::string Url::redacted() const {
+  std::string shown = without_query();
+  const std::size_t authority = authority_of(text_);
+  if (authority == std::string::npos || shown.ends_with(kHidden)) return shown;
+  const std::string_view address = std::string_view(text_).substr(0, text_.find('#', authority));
+  for (std::size_t at = address.find('?', authority); at != std::string_view::npos;) {
+    const std::size_t next = address.find_first_of("&;", at + 1);
+    shown +=
+        address[at] + redacted_parameter(address.substr(at + 1, next == std::string_view::npos ? next : next - at - 1));
+    at = next;
+  }
+  return shown;
+}
+
+std::string redact_addresses(std::string_view text) {
+  std::string redacted;
+  for (std::size_t at = find_letters(text, "http", 0); at != std::string_view::npos;) {
+    std::size_t end = std::min(text.find_first_of(" \t\n\"'<>", at), text.size());
+    while (kEndsSentence.find(text[end - 1]) != std::string_view::npos) --end;
+    redacted += text.substr(0, at);
+    redacted += Url(std::string(text.substr(at, end - at))).redacted();
+    text.remove_prefix(end);
+    at = find_letters(text, "http", 0);
+  }
+  return redacted.append(text);
+}
+
+}  // namespace terrella

@@ -1,0 +1,39 @@
+#include "streaming/url.h"
+
+#include <gtest/gtest.h>
+
+namespace terrella {
+namespace {
+
+TEST(Url, ShowsWhatIsNoSecret) {
+  const auto shown = [](const char* text) { return Url(text).redacted(); };
+  EXPECT_EQ(shown("https://a.org:8443/t/{z}/{x}/{y}@2x.png"), "https://a.org:8443/t/{z}/{x}/{y}@2x.png");
+  EXPECT_EQ(shown("http://[::1]:80/a"), "http://[::1]:80/a");
+  EXPECT_EQ(shown("https://a.org/w?Service=WMTS&LAYER=a;b=c"), "https://a.org/w?Service=WMTS&LAYER=a;b=***");
+  EXPECT_EQ(shown("https://a.org/w?level={z}&k=1{z}"), "https://a.org/w?level={z}&k=***");
+  EXPECT_EQ(shown("https://me:word@a.org/x?hush#hush"), "https://a.org/x?***");
+  EXPECT_EQ(shown("https://hush@a.org?key=hush"), "https://a.org?key=***");
+  EXPECT_EQ(shown("https://me:w@rd@a.org/"), "https://a.org/");
+  EXPECT_EQ(shown("maps/what?.gpkg"), "maps/what?.gpkg");
+  EXPECT_EQ(shown("C:/maps/a@b.gpkg"), "C:/maps/a@b.gpkg");
+  EXPECT_EQ(shown(""), "");
+}
+
+// A password that is not percent-encoded makes an address that cannot be read, and is told in the message about it.
+TEST(Url, ShowsNoPartOfAPasswordThatBreaksTheAddress) {
+  for (const char* text : {"https://me:hu/sh@a.org/x", "https://me:hu?sh@a.org/x", "https://me:hu#sh@a.org/x",
+                           "https:/me:hush@a.org/x", "HTTP:me:hush@a.org/x", R"({"url": "https://me:hush@a.org/x"})"}) {
+    EXPECT_EQ(Url(text).redacted().find("hu"), std::string::npos) << Url(text).redacted();
+    EXPECT_EQ(Url(text).without_query().find("sh"), std::string::npos) << Url(text).without_query();
+  }
+}
+
+TEST(Url, IsRedactedInsideASentence) {
+  EXPECT_EQ(redact_addresses("is \"https://me:hush@a.org/x?key=hush\", or http://b.org/y?k=hush: right?"),
+            "is \"https://a.org/x?key=***\", or http://b.org/y?k=***: right?");
+  EXPECT_EQ(redact_addresses("http, https and file can; http"), "http, https and file can; http");
+  EXPECT_EQ(redact_addresses("a:b@c d?e=f"), "a:b@c d?e=f");
+}
+
+}  // namespace
+}  // namespace terrella
