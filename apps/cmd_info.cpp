@@ -12,6 +12,7 @@
 #include "apps/commands.h"
 #include "apps/console.h"
 #include "apps/open_imagery.h"
+#include "apps/picture_report.h"
 #include "apps/tile_set_report.h"
 #include "apps/verify_tiles.h"
 #include "streaming/cache/cache_report.h"
@@ -32,7 +33,8 @@ constexpr const char* kInfoExamples =
     "Examples:\n"
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
-    "  terrella info planet.gpkg --json      the same for a program to read";
+    "  terrella info planet.gpkg --json      the same for a program to read\n"
+    "  terrella info moon.tif                where a picture says that it lies, and how it is shown, or why not";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
   std::error_code error;
@@ -67,7 +69,16 @@ auto progress_lines() {
   };
 }
 
+int run_picture_info(const InfoOptions& options) {
+  const Result<std::string> report = picture_report(options.tile_set, options.json);
+  if (!report) return fail("info", report.error().message);
+  fmt::print("{}", *report);
+  return kDone;
+}
+
 int run_info(const InfoOptions& options) {
+  // A picture is cut only to have its tiles checked.
+  if (is_picture(options.tile_set) && !options.verify) return run_picture_info(options);
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
@@ -99,7 +110,8 @@ int run_info(const InfoOptions& options) {
 }  // namespace
 
 void add_info_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("info", "Say what a tile set holds, and check it.");
+  CLI::App* command =
+      app.add_subcommand("info", "Say what a tile set holds or what a picture says of its place, and check it.");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();

@@ -101,6 +101,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!elevation) return elevation.error();
   const Result<Body> body = scene_body(command.scene, (*imagery)->info());
   if (!body) return body.error();
+  SceneOptions layers = command.scene;
+  layers.body = *body;
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
   if (!context) return context.error();
   GlobeOptions options = globe_options(command.scene, *body);
@@ -112,8 +114,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
-  if (const Status overlaid = add_overlays(**globe, command.scene); !overlaid) return overlaid.error();
-  if (const Status layers = add_image_layers(**globe, command.scene); !layers) return layers.error();
+  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
+  if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();
   (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));

@@ -117,12 +117,12 @@ int view(const ViewOptions& options) {
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
   const TileSetInfo first = (*imagery)->info();
+  SceneOptions layers = options.scene;
+  layers.body = *body;
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
   if (!globe) return fail("view", globe.error().message);
-  if (const Status overlaid = add_overlays(**globe, options.scene); !overlaid)
-    return fail("view", overlaid.error().message);
-  if (const Status layers = add_image_layers(**globe, options.scene); !layers)
-    return fail("view", layers.error().message);
+  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return fail("view", overlaid.error().message);
+  if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
     return fail("view", added.error().message);
   (*window)->show();
@@ -131,7 +131,7 @@ int view(const ViewOptions& options) {
                                      .print_camera = options.print_camera,
                                      .layers = layer_rows(**globe, options.scene, first),
                                      .heights = *elevation,
-                                     .files = options.scene,
+                                     .files = layers,
                                      .kept = options.kept,
                                      .start = options.start,
                                      .first_run = options.first_run,

@@ -78,9 +78,12 @@ class ScratchSource : public TileSource {
   std::unique_ptr<TileSource> tiles_;
 };
 
+/// What is said of the picture's body and latitudes goes into the cut, which compares it with what the picture says.
 Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
-                                                 const CutProgress& told) {
+                                                 const SceneOptions& options, const CutProgress& told) {
   CutOptions cut;
+  if (options.body && options.body->name != earth().name) cut.body = options.body->name;
+  cut.latitude = options.latitude.value_or(cut.latitude);
   cut.images = {picture};
   cut.name = picture.stem().string();
   Progress progress("cutting " + picture.filename().string());
@@ -93,17 +96,18 @@ Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const 
   return open_tile_set(*tiles);
 }
 
-Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const std::string& cache,
+Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const SceneOptions& options,
                                                  const CutProgress& told) {
-  if (cache != "off") {
-    const auto folder = picture_cache_folder(cache);
-    auto kept = folder ? cut_and_open(picture, *folder, told) : Result<std::unique_ptr<TileSource>>(folder.error());
+  if (options.cache != "off") {
+    const auto folder = picture_cache_folder(options.cache);
+    auto kept =
+        folder ? cut_and_open(picture, *folder, options, told) : Result<std::unique_ptr<TileSource>>(folder.error());
     if (kept || (folder && can_write_into(*folder))) return kept;
     say_without_cache(kept.error());
   }
   auto scratch = make_scratch_folder();
   if (!scratch) return scratch.error();
-  auto tiles = cut_and_open(picture, (*scratch)->path(), told);
+  auto tiles = cut_and_open(picture, (*scratch)->path(), options, told);
   if (!tiles) return tiles.error();
   return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
 }
@@ -113,7 +117,7 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
-  auto tiles = is_picture(path) ? open_picture(path, options.cache, told) : open_tile_set(path, said_geodetic);
+  auto tiles = is_picture(path) ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }

@@ -67,6 +67,9 @@ struct CutSummary {
 /// same; the result is the same bytes.
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
+/// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output.
+[[nodiscard]] Status check_pictures(const CutOptions& options);
+
 /// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
 /// change.
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,

@@ -4,6 +4,7 @@
 #include "streaming/file_bytes.h"
 #include "streaming/geopackage_source.h"
 #include "streaming/mercator/mercator_source.h"
+#include "streaming/other_formats.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -17,12 +18,14 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
   if (is_sqlite_file(path)) return open_geopackage(path, geodetic_mbtiles);
-  const auto head = read_head(path, 1);
+  const auto head = read_head(path, kFormatHeadBytes);
   if (!head) return Error{head.error().message};
   if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
+  const std::string hint = convert_hint(path, {reinterpret_cast<const char*>(head->data()), head->size()});
+  if (!hint.empty()) return Error{fmt::format("{}: {}", path.string(), hint)};
   return Error{
-      fmt::format("{}: not a tile set. Accepted are a directory of tiles with tileset.json or tilemapresource.xml, "
-                  "a GeoPackage in EPSG:4326 or EPSG:3857, and MBTiles",
+      fmt::format("{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, TIFF), a GeoPackage in "
+                  "EPSG:4326 or EPSG:3857, MBTiles, and a directory of tiles with tileset.json or tilemapresource.xml",
                   path.string())};
 }
 

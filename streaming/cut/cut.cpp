@@ -115,15 +115,23 @@ Result<CutSummary> join_shards(const Job& job) {
 
 fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
 
+/// `placed` becomes the options with the bounds that the pictures say.
+Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, CutOptions& placed) {
+  placed = options;
+  if (!placed.bounds) placed.bounds = input.bounds;
+  auto plan = plan_cut(input.rows->info(), placed);
+  if (plan || options.bounds || input.resample_command.empty()) return plan;
+  return Error{fmt::format("{}; or resample it: {}", plan.error().message, input.resample_command)};
+}
+
 Result<Job> prepare(const CutOptions& options) {
   if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG or TIFF file"};
   if (Status sane = check_shard(options); !sane) return sane.error();
   const fs::path output = without_trailing_slash(options.output);
   auto input = open_input(options);
   if (!input) return input.error();
-  CutOptions placed = options;
-  if (!placed.bounds) placed.bounds = input->bounds;
-  const auto plan = plan_cut(input->rows->info(), placed);
+  CutOptions placed;
+  const auto plan = plan_input(options, *input, placed);
   if (!plan) return plan.error();
   if (Status may = check_output(output); !may) return may.error();
   const auto key = cut_key(placed);
@@ -145,6 +153,15 @@ Result<CutSummary> cut(const CutOptions& options) {
     return Error{fmt::format("{}: not enough memory to cut a picture {} pixels wide; give a smaller --tile-size",
                              options.images.front().string(), job->input.rows->info().width_px)};
   }
+}
+
+Status check_pictures(const CutOptions& options) {
+  const auto input = open_input(options);
+  if (!input) return input.error();
+  CutOptions placed;
+  const auto plan = plan_input(options, *input, placed);
+  if (!plan) return plan.error();
+  return Done{};
 }
 
 }  // namespace terrella

@@ -2,6 +2,7 @@
 
 #include "geo/hash_mix.h"
 #include "streaming/cut.h"
+#include "streaming/cut/cut_input.h"
 #include "streaming/cut/cut_key.h"
 
 namespace terrella {
@@ -26,7 +27,12 @@ Result<std::string> cache_name(const CutOptions& options) {
 
 Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
   if (options.images.size() != 1) return Error{"one picture is cut into the cache at a time"};
-  const auto name = cache_name(options);
+  // What a file beside the picture says is no part of the picture's own size and time.
+  const auto said = said_bounds(options);
+  if (!said) return said.error();
+  CutOptions placed = options;
+  if (!placed.bounds) placed.bounds = *said;
+  const auto name = cache_name(placed);
   if (!name) return name.error();
   CutOptions into = options;
   into.output = cache_dir / *name;

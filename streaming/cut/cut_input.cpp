@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "geo/body.h"
 #include "streaming/cut/height_input.h"
 #include "streaming/cut/mosaic_rows.h"
+#include "streaming/georeference/placement.h"
 
 namespace terrella {
 namespace {
@@ -14,16 +18,59 @@ bool is_planet(const GeoRect& rect) {
   return rect.west.deg() == -180.0 && rect.east.deg() == 180.0 && rect.south.deg() == -90.0 && rect.north.deg() == 90.0;
 }
 
-/// What one picture says of itself, if it says so in degrees.
-Result<std::optional<GeoRect>> bounds_of(const fs::path& image, const PictureInfo& info) {
-  const auto place = read_georeference(image);
-  if (!place) return std::optional<GeoRect>{};
-  const auto bounds = covered_by(*place, info.width_px, info.height_px);
-  if (bounds) return is_planet(*bounds) ? std::optional<GeoRect>{} : bounds;
-  return Error{
-      fmt::format("{}: says that it covers all longitudes from {:.9g} degrees on; it must begin at -180 (gdalwarp "
-                  "-te -180 -90 180 90), or give --bounds",
-                  image.string(), place->west_deg)};
+Result<Body> body_of(const CutOptions& options) { return options.body.empty() ? earth() : parse_body(options.body); }
+
+/// What a picture says of its place, checked against what is said of its body.
+Result<PlacedPicture> placed(const CutOptions& options, const PictureFile& picture) {
+  auto place = place_picture(picture);
+  if (!place) return place;
+  const auto body = body_of(options);
+  if (!body) return body.error();
+  if (Status fits = check_figure(picture, *place, *body, options.latitude); !fits) return fits.error();
+  return place;
+}
+
+/// The nodes of a planet by nodes lie at the middles of pixels that reach half a pixel beyond it.
+bool lies_on_nodes(const Placement& place, const PictureFile& picture) {
+  const double step = 360.0 / static_cast<double>(picture.width_px);
+  const auto near = [step](double a, double b) { return std::abs(a - b) <= 0.01 * step; };
+  const auto height = static_cast<double>(picture.height_px);
+  return near(place.west_deg, -180.0 - 0.5 * step) && near(place.north_deg, 90.0 + 0.5 * step) &&
+         near(place.pixel_width_deg * static_cast<double>(picture.width_px), 360.0) &&
+         near(place.pixel_height_deg * height, step * height);
+}
+
+/// The bounds of one picture, and whether it is a planet by nodes.
+struct SaidPlace {
+  std::optional<GeoRect> bounds;
+  bool nodes = false;
+  std::string resample_command;
+};
+
+Result<SaidPlace> said_place(const CutOptions& options, const PictureFile& picture) {
+  const bool node_sides = options.elevation && is_node_planet(picture.width_px, picture.height_px);
+  if (options.bounds) {
+    // Only what is said besides of the body counts; what cannot be understood is what the bounds are given for.
+    const auto place = place_picture(picture);
+    const auto body = body_of(options);
+    if (!body) return body.error();
+    if (!place) return SaidPlace{};
+    if (Status fits = check_figure(picture, *place, *body, options.latitude); !fits) return fits.error();
+    return SaidPlace{};
+  }
+  const auto place = placed(options, picture);
+  if (!place) return place.error();
+  if (!place->placement) return SaidPlace{.bounds = {}, .nodes = node_sides, .resample_command = {}};
+  if (node_sides && lies_on_nodes(*place->placement, picture)) {
+    return SaidPlace{.bounds = {}, .nodes = true, .resample_command = {}};
+  }
+  const std::string command = resample_command(picture, *place);
+  const auto bounds = covered_by(picture, *place->placement);
+  if (!bounds) return Error{fmt::format("{}; resample it: {}", bounds.error().message, command)};
+  SaidPlace said{.bounds = *bounds, .nodes = false, .resample_command = command};
+  // A planet without bounds may have an odd width, whose half is no whole number of rows.
+  if (is_planet(*bounds)) said.bounds.reset();
+  return said;
 }
 
 Result<CutInput> open_one(const CutOptions& options, const OpenRows& open) {
@@ -31,14 +78,12 @@ Result<CutInput> open_one(const CutOptions& options, const OpenRows& open) {
   if (!reader) return reader.error();
   const PictureInfo info = (*reader)->info();
   CutInput input{.rows = *std::move(reader), .bounds = {}, .elevation = {}};
-  if (options.bounds) return input;
-  if (options.elevation && is_node_planet(info.width_px, info.height_px)) {
-    input.rows = between_nodes(std::move(input.rows));
-    return input;
-  }
-  const auto bounds = bounds_of(options.images.front(), info);
-  if (!bounds) return bounds.error();
-  input.bounds = *bounds;
+  const auto said =
+      said_place(options, {.path = options.images.front(), .width_px = info.width_px, .height_px = info.height_px});
+  if (!said) return said.error();
+  if (said->nodes) input.rows = between_nodes(std::move(input.rows));
+  input.bounds = said->bounds;
+  input.resample_command = said->resample_command;
   return input;
 }
 
@@ -49,11 +94,12 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open) {
     const auto reader = open(image);
     if (!reader) return reader.error();
     const PictureInfo& part = (*reader)->info();
-    parts.push_back({.path = image,
-                     .width_px = part.width_px,
-                     .height_px = part.height_px,
-                     .place = options.mosaic ? std::nullopt : read_georeference(image)});
+    parts.push_back({.path = image, .width_px = part.width_px, .height_px = part.height_px, .place = {}});
     info.has_alpha = info.has_alpha || part.has_alpha;
+    if (options.bounds && options.mosaic) continue;
+    const auto place = placed(options, {.path = image, .width_px = part.width_px, .height_px = part.height_px});
+    if (!place) return place.error();
+    parts.back().place = place->placement;
   }
   auto layout = lay_out(parts, options.mosaic);
   if (!layout) return layout.error();
@@ -82,6 +128,16 @@ Result<CutInput> open_input(const CutOptions& options) {
   auto input = several ? open_mosaic(options, open) : open_one(options, open);
   if (input && heights) input->elevation = heights->elevation;
   return input;
+}
+
+Result<std::optional<GeoRect>> said_bounds(const CutOptions& options) {
+  const auto reader = open_rows(options.images.front());
+  if (!reader) return reader.error();
+  const PictureInfo& info = (*reader)->info();
+  const auto said =
+      said_place(options, {.path = options.images.front(), .width_px = info.width_px, .height_px = info.height_px});
+  if (!said) return said.error();
+  return said->bounds;
 }
 
 }  // namespace terrella

@@ -119,8 +119,8 @@ Result<MosaicLayout> by_names(const std::vector<MosaicPart>& parts, const std::v
 
 /// A part's corner in pixels of the first part, from the first part's.
 Result<Cell> pixel_of(const std::vector<MosaicPart>& parts, std::size_t index) {
-  const Georeference& origin = *parts[0].place;
-  const Georeference& place = *parts[index].place;
+  const Placement& origin = *parts[0].place;
+  const Placement& place = *parts[index].place;
   const auto off = [](double a, double b, std::int64_t pixels) {
     return std::abs(a / b - 1.0) * static_cast<double>(pixels);
   };
@@ -185,23 +185,71 @@ Result<MosaicLayout> by_places(const std::vector<MosaicPart>& parts) {
   if (Status touching = check_touching(parts, corners, layout); !touching) return touching.error();
   auto done = measured(std::move(layout), parts);
   if (!done) return done;
-  Georeference whole = *parts[0].place;
-  const std::size_t first = done->rows.front().parts.front();
-  whole.west_deg = parts[first].place->west_deg;
-  whole.north_deg = parts[first].place->north_deg;
-  done->bounds = covered_by(whole, done->width_px, done->height_px);
   return done;
+}
+
+// ---- what parts say beside the layout
+
+/// Where the mosaic begins by what one of its parts says; none if no part says a place. All must say the same.
+Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& parts, const MosaicLayout& layout) {
+  std::optional<Placement> origin;
+  std::int64_t y = 0;
+  for (const MosaicRow& row : layout.rows) {
+    std::int64_t x = 0;
+    for (const std::size_t index : row.parts) {
+      if (const auto& place = parts[index].place) {
+        Placement said = *place;
+        said.west_deg -= static_cast<double>(x) * said.pixel_width_deg;
+        said.north_deg += static_cast<double>(y) * said.pixel_height_deg;
+        if (!origin) origin = said;
+        const double slack = kAlignment_px * origin->pixel_width_deg;
+        const double west_off = std::remainder(said.west_deg - origin->west_deg, 360.0);
+        if (std::abs(west_off) > slack || std::abs(said.north_deg - origin->north_deg) > slack) {
+          return Error{
+              fmt::format("{}: says that it lies {:.6g} degrees east and {:.6g} north of its place in the "
+                          "mosaic; leave out --mosaic, or say where the whole lies with --bounds",
+                          named(parts[index], index), west_off, said.north_deg - origin->north_deg)};
+        }
+      }
+      x += parts[index].width_px;
+    }
+    y += row.height_px;
+  }
+  return origin;
+}
+
+/// Sets the bounds that the parts say; what their names say must be the same.
+Result<MosaicLayout> with_said_bounds(MosaicLayout layout, const std::vector<MosaicPart>& parts) {
+  const auto origin = said_origin(parts, layout);
+  if (!origin) return origin.error();
+  if (!*origin) return layout;
+  const auto bounds = covered_by({parts.front().path, layout.width_px, layout.height_px}, **origin);
+  if (!bounds) return bounds.error();
+  const GeoRect named_bounds = layout.bounds.value_or(*bounds);
+  const double slack = kAlignment_px * (*origin)->pixel_width_deg;
+  if (std::abs(named_bounds.west.deg() - bounds->west.deg()) > slack ||
+      std::abs(named_bounds.north.deg() - bounds->north.deg()) > slack) {
+    return Error{
+        fmt::format("{}: its name puts the mosaic's corner at {:.9g}, {:.9g} degrees, and its georeference at "
+                    "{:.9g}, {:.9g}; rename the parts, or say where they lie with --mosaic and --bounds",
+                    named(parts.front(), 0), named_bounds.west.deg(), named_bounds.north.deg(), bounds->west.deg(),
+                    bounds->north.deg())};
+  }
+  layout.bounds = *bounds;
+  return layout;
 }
 
 }  // namespace
 
 Result<MosaicLayout> lay_out(const std::vector<MosaicPart>& parts, const std::optional<MosaicGrid>& grid) {
-  if (grid) return by_order(parts, *grid);
   std::vector<Cell> cells;
   for (const MosaicPart& part : parts) {
     if (const auto cell = cell_by_name(part.path)) cells.push_back(*cell);
   }
-  return cells.size() == parts.size() ? by_names(parts, cells) : by_places(parts);
+  auto layout = grid                           ? by_order(parts, *grid)
+                : cells.size() == parts.size() ? by_names(parts, cells)
+                                               : by_places(parts);
+  return layout ? with_said_bounds(*std::move(layout), parts) : layout;
 }
 
 }  // namespace terrella

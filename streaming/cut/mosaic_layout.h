@@ -7,7 +7,7 @@
 
 #include "geo/result.h"
 #include "streaming/cut.h"
-#include "streaming/cut/georeference.h"
+#include "streaming/georeference/placement.h"
 
 namespace terrella {
 
@@ -16,7 +16,7 @@ struct MosaicPart {
   std::filesystem::path path;
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  std::optional<Georeference> place = {};
+  std::optional<Placement> place = {};
 };
 
 /// Parts that lie side by side from the west, all of one height.

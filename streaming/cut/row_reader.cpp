@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "streaming/cut/row_formats.h"
+#include "streaming/other_formats.h"
 
 namespace terrella {
 namespace {
-
-/// TIFF and BigTIFF in either byte order.
-bool begins_as_tiff(std::string_view head) {
-  using namespace std::string_view_literals;
-  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  for (const std::string_view start : kHeads) {
-    if (head.starts_with(start)) return true;
-  }
-  return false;
-}
 
 /// A half row that an odd planet lacks at its south pole.
 class PaddedRows : public RowReader {
@@ -70,6 +61,12 @@ Status RowReader::skip_rows(std::int64_t rows) {
   return Done{};
 }
 
+bool begins_as_tiff(std::string_view head) {
+  using namespace std::string_view_literals;
+  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::ranges::any_of(kHeads, [head](std::string_view start) { return head.starts_with(start); });
+}
+
 std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {
   if (reader->info().height_px == rows) return reader;
   return std::make_unique<PaddedRows>(std::move(reader), rows);
@@ -102,11 +99,16 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
                                             const std::optional<HeightCoding>& heights) {
   const std::string name = path.string();
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return Error{fmt::format("{}: is a folder, not a picture", name)};
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) return Error{fmt::format("{}: is a folder, not a picture", name)};
+  // A pipe would keep its reader waiting for a writer.
+  if (std::filesystem::is_other(status)) {
+    return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", name)};
+  }
   File file(std::fopen(name.c_str(), "rb"));
   if (!file && errno == ENOENT) return Error{fmt::format("{}: no such file", name)};
   if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};
-  std::array<char, 8> bytes{};
+  std::array<char, kFormatHeadBytes> bytes{};
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (head.empty()) return Error{fmt::format("{}: is empty", name)};
   std::rewind(file.get());
@@ -115,7 +117,9 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   if (jpeg) return open_jpeg_rows(std::move(file), name);
   if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name, heights);
   if (begins_as_tiff(head)) return open_tiff_rows(name, heights);
-  return Error{fmt::format("{}: is not a picture that can be cut; it takes JPEG, PNG, TIFF and BigTIFF", name)};
+  const std::string hint = convert_hint(path, head);
+  return Error{
+      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, TIFF or BigTIFF" : hint)};
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(OpenTileSet, SaysWhatWouldBeAccepted) {
               {"the directory is empty", "tileset.json", "tilemapresource.xml", "terrella cut"});
   test::write_text(folder / "notes/readme.txt", "hello");
   expect_says(error_of(folder / "notes"), {"holds no tileset.json", "tilemapresource.xml"});
-  expect_says(error_of(folder / "notes/readme.txt"), {"readme.txt", "not a tile set", "GeoPackage"});
+  expect_says(error_of(folder / "notes/readme.txt"), {"readme.txt", "neither a picture nor a tile set", "GeoPackage"});
   test::write_text(folder / "zero.gpkg", "");
   expect_says(error_of(folder / "zero.gpkg"), {"zero.gpkg", "empty"});
 }

@@ -1,0 +1,184 @@
+#include "streaming/georeference/crs.h"
+
+#include <fmt/format.h>
+#include <proj.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "geo/body.h"
+
+namespace terrella {
+namespace {
+
+/// PROJ takes figures this near to each other for one body's, and transforms between their datums.
+constexpr double kOneBody = 0.005;
+
+ProjHandle wrap(PJconsts* object) { return ProjHandle(object); }
+
+std::string_view word(const char* text) { return text == nullptr ? std::string_view() : text; }
+
+/// The system of the map alone: without heights, and without a transformation that is bound to it.
+ProjHandle horizontal(PJ_CONTEXT* context, ProjHandle crs) {
+  for (int depth = 0; crs && depth < 4; ++depth) {
+    const PJ_TYPE type = proj_get_type(crs.get());
+    if (type == PJ_TYPE_COMPOUND_CRS) {
+      crs = wrap(proj_crs_get_sub_crs(context, crs.get(), 0));
+    } else if (type == PJ_TYPE_BOUND_CRS) {
+      crs = wrap(proj_get_source_crs(context, crs.get()));
+    } else {
+      return crs;
+    }
+  }
+  return crs;
+}
+
+void read_axes(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
+  const ProjHandle axes = wrap(proj_crs_get_coordinate_system(context, crs));
+  if (!axes) return;
+  for (int i = 0; i < proj_cs_get_axis_count(context, axes.get()); ++i) {
+    const char* name = nullptr;
+    double unit = 0.0;
+    if (proj_cs_get_axis_info(context, axes.get(), i, &name, nullptr, nullptr, &unit, nullptr, nullptr, nullptr) == 0) {
+      continue;
+    }
+    facts.centric = facts.centric || word(name).find("centric") != std::string_view::npos;
+    if (facts.geographic) facts.unit_deg = unit * 180.0 / M_PI;
+  }
+}
+
+void read_projection(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
+  const ProjHandle conversion = wrap(proj_crs_get_coordoperation(context, crs));
+  if (!conversion) return;
+  const char* name = nullptr;
+  if (proj_coordoperation_get_method_info(context, conversion.get(), &name, nullptr, nullptr) != 0) {
+    facts.method = word(name);
+  }
+  for (int i = 0; i < proj_coordoperation_get_param_count(context, conversion.get()); ++i) {
+    double value = 0.0, unit = 1.0;
+    const int read = proj_coordoperation_get_param(context, conversion.get(), i, &name, nullptr, nullptr, &value,
+                                                   nullptr, &unit, nullptr, nullptr, nullptr, nullptr);
+    if (read != 0 && word(name).starts_with("Longitude of")) facts.central_meridian_deg = value * unit * 180.0 / M_PI;
+  }
+}
+
+Status read_figure(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
+  const ProjHandle figure = wrap(proj_get_ellipsoid(context, crs));
+  if (figure && proj_ellipsoid_get_parameters(context, figure.get(), &facts.a_m, &facts.b_m, nullptr, nullptr) != 0 &&
+      std::isfinite(facts.a_m) && std::isfinite(facts.b_m) && facts.a_m > 0.0 && facts.b_m > 0.0) {
+    return Done{};
+  }
+  return Error{"its coordinate system names no body"};
+}
+
+/// How degrees of longitude and latitude come from a system's own.
+struct OwnDegrees {
+  double unit_deg = 1.0;
+  double prime_meridian_deg = 0.0;
+  bool west_positive = false;
+
+  [[nodiscard]] CrsPoint of(CrsPoint own) const {
+    return {(west_positive ? -own.x : own.x) * unit_deg + prime_meridian_deg, own.y * unit_deg};
+  }
+};
+
+OwnDegrees own_degrees(PJ_CONTEXT* context, const PJconsts* geodetic) {
+  OwnDegrees own;
+  const ProjHandle axes = wrap(proj_crs_get_coordinate_system(context, geodetic));
+  for (int i = 0; axes && i < proj_cs_get_axis_count(context, axes.get()); ++i) {
+    const char* direction = nullptr;
+    double unit = 0.0;
+    proj_cs_get_axis_info(context, axes.get(), i, nullptr, nullptr, &direction, &unit, nullptr, nullptr, nullptr);
+    own.west_positive = own.west_positive || word(direction) == "west";
+    if (i < 2) own.unit_deg = unit * 180.0 / M_PI;
+  }
+  const ProjHandle meridian = wrap(proj_get_prime_meridian(context, geodetic));
+  double longitude = 0.0, unit = 0.0;
+  if (meridian && proj_prime_meridian_get_parameters(context, meridian.get(), &longitude, &unit, nullptr) != 0) {
+    own.prime_meridian_deg = longitude * unit * 180.0 / M_PI;
+  }
+  return own;
+}
+
+ProjHandle path_between(PJ_CONTEXT* context, const PJconsts* from, const PJconsts* to) {
+  if (to == nullptr) return nullptr;
+  const ProjHandle path = wrap(proj_create_crs_to_crs_from_pj(context, const_cast<PJconsts*>(from),
+                                                              const_cast<PJconsts*>(to), nullptr, nullptr));
+  return path ? wrap(proj_normalize_for_visualization(context, path.get())) : nullptr;
+}
+
+}  // namespace
+
+void FreeProjContext::operator()(pj_ctx* context) const { proj_context_destroy(context); }
+void FreeProj::operator()(PJconsts* object) const { proj_destroy(object); }
+
+ProjContext make_proj_context() {
+  ProjContext context(proj_context_create());
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);
+  return context;
+}
+
+Result<Crs> Crs::open(const std::string& text) {
+  Crs made;
+  made.context_ = make_proj_context();
+  PJ_CONTEXT* context = made.context_.get();
+  made.crs_ = horizontal(context, wrap(proj_create(context, text.c_str())));
+  if (!made.crs_ || proj_is_crs(made.crs_.get()) == 0) {
+    return Error{"its coordinate system is not one that PROJ knows"};
+  }
+  const PJ_TYPE type = proj_get_type(made.crs_.get());
+  CrsFacts& facts = made.facts_;
+  facts.geographic =
+      type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS || type == PJ_TYPE_GEODETIC_CRS;
+  facts.name = word(proj_get_name(made.crs_.get()));
+  if (!facts.geographic && type != PJ_TYPE_PROJECTED_CRS) {
+    return Error{fmt::format("its coordinate system ({}) is neither geographic nor projected", facts.name)};
+  }
+  const char* code = proj_get_id_code(made.crs_.get(), 0);
+  const char* authority = proj_get_id_auth_name(made.crs_.get(), 0);
+  if (code != nullptr && authority != nullptr) facts.code = fmt::format("{}:{}", authority, code);
+  if (Status read = read_figure(context, made.crs_.get(), facts); !read) return read.error();
+  read_axes(context, made.crs_.get(), facts);
+  if (!facts.geographic) {
+    read_projection(context, made.crs_.get(), facts);
+    const ProjHandle base = wrap(proj_crs_get_geodetic_crs(context, made.crs_.get()));
+    if (base) read_axes(context, base.get(), facts);
+  }
+  return made;
+}
+
+bool Crs::is_earth() const {
+  const double earth_m = earth().ellipsoid.a_m();
+  return std::abs(facts_.a_m - earth_m) < kOneBody * earth_m;
+}
+
+std::string Crs::degrees_text() const {
+  if (is_earth()) return "EPSG:4326";
+  return fmt::format("+proj=longlat +a={:.17g} +b={:.17g} +no_defs", facts_.a_m, facts_.b_m);
+}
+
+Result<std::vector<CrsPoint>> Crs::places(std::vector<CrsPoint> points) const {
+  PJ_CONTEXT* context = context_.get();
+  ProjHandle path;
+  OwnDegrees own;
+  if (is_earth()) path = path_between(context, crs_.get(), wrap(proj_create(context, "EPSG:4326")).get());
+  if (!path) {
+    const ProjHandle geodetic = wrap(proj_crs_get_geodetic_crs(context, crs_.get()));
+    path = path_between(context, crs_.get(), geodetic.get());
+    if (path) own = own_degrees(context, geodetic.get());
+  }
+  if (!path) return Error{fmt::format("there is no way from {} to longitudes and latitudes", facts_.name)};
+  for (CrsPoint& point : points) {
+    PJ_COORD at = proj_coord(point.x, point.y, 0.0, HUGE_VAL);
+    at = proj_trans(path.get(), PJ_FWD, at);
+    point = own.of({at.xy.x, at.xy.y});
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      point = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    }
+  }
+  return points;
+}
+
+}  // namespace terrella

@@ -1,0 +1,92 @@
+#include "streaming/georeference/gdal_advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "streaming/georeference/geo_tags.h"
+#include "streaming/other_formats.h"
+
+namespace terrella {
+namespace {
+
+/// Rounding that moves no grid line, in pixels.
+constexpr double kGridSlack_px = 1e-3;
+
+std::string with_ending(const PictureFile& picture, const char* ending) {
+  const auto name = picture.path.stem().string() + ending;
+  return shell_word((picture.path.parent_path() / name).string());
+}
+
+std::string numbers(const DegreeGrid& grid) {
+  return fmt::format("{:.14g} {:.14g} {:.14g} {:.14g}", grid.west_deg, grid.south_deg, grid.east_deg, grid.north_deg);
+}
+
+/// How pixels are made, and what stands where the picture has none.
+std::string pixel_options(const PictureFile& picture) {
+  const auto tags = read_geo_tags(picture.path);
+  if (!tags || !*tags) return "-r bilinear -dstalpha";
+  if ((*tags)->has_palette) return "-r near";
+  switch ((*tags)->samples) {
+    case SampleKind::colours:
+      return "-r bilinear -dstalpha";
+    case SampleKind::uint16:
+      return "-r bilinear -dstnodata 65535";
+    case SampleKind::int16:
+      return "-r bilinear -dstnodata -32768";
+    case SampleKind::floats:
+      return "-r bilinear -dstnodata nan";
+  }
+  return "-r bilinear";
+}
+
+}  // namespace
+
+DegreeGrid grid_over(double west_deg, double south_deg, double east_deg, double north_deg, double pixel_deg) {
+  const double exact = 180.0 / pixel_deg;
+  const double nearest = std::round(exact);
+  const bool is_whole = std::abs(exact - nearest) < kGridSlack_px;
+  const double pixel = 180.0 / std::max(1.0, is_whole ? nearest : std::ceil(exact));
+  const double x0 = std::floor((west_deg + 180.0) / pixel + kGridSlack_px);
+  const double x1 = std::ceil((east_deg + 180.0) / pixel - kGridSlack_px);
+  const double y0 = std::max(0.0, std::floor((90.0 - north_deg) / pixel + kGridSlack_px));
+  const double y1 = std::min(180.0 / pixel, std::ceil((90.0 - south_deg) / pixel - kGridSlack_px));
+  return {.west_deg = -180.0 + x0 * pixel,
+          .south_deg = 90.0 - y1 * pixel,
+          .east_deg = -180.0 + x1 * pixel,
+          .north_deg = 90.0 - y0 * pixel,
+          .columns = std::llround(x1 - x0),
+          .rows = std::llround(y1 - y0)};
+}
+
+std::string warp_command(const PictureFile& picture, const WarpAdvice& advice) {
+  std::string from = shell_word(picture.path.string());
+  std::string command;
+  if (advice.relabelled) {
+    const std::string between = with_ending(picture, "-relabelled.tif");
+    const DegreeGrid& at = *advice.relabelled;
+    command =
+        fmt::format("gdal_translate -a_srs {} -a_ullr {:.14g} {:.14g} {:.14g} {:.14g} {} {} && ",
+                    shell_word(advice.to_crs), at.west_deg, at.north_deg, at.east_deg, at.south_deg, from, between);
+    from = between;
+  }
+  command += "gdalwarp";
+  if (!advice.from_crs.empty() && !advice.relabelled) command += " -s_srs " + shell_word(advice.from_crs);
+  command += " -t_srs " + shell_word(advice.to_crs);
+  if (advice.grid)
+    command += fmt::format(" -te {} -ts {} {}", numbers(*advice.grid), advice.grid->columns, advice.grid->rows);
+  return fmt::format("{} {} {} {}", command, pixel_options(picture), from, with_ending(picture, "-degrees.tif"));
+}
+
+std::string assign_command(const PictureFile& picture) {
+  return fmt::format("gdal_translate -a_srs EPSG:CODE -a_ullr WEST NORTH EAST SOUTH {} {}",
+                     shell_word(picture.path.string()), with_ending(picture, "-placed.tif"));
+}
+
+std::string own_word_command(const PictureFile& picture) {
+  return fmt::format("gdal_translate --config GDAL_GEOREF_SOURCES INTERNAL {} {}", shell_word(picture.path.string()),
+                     with_ending(picture, "-own.tif"));
+}
+
+}  // namespace terrella

@@ -1,0 +1,223 @@
+#include "streaming/georeference/geo_keys.h"
+
+#include <fmt/format.h>
+#include <geo_normalize.h>
+#include <geo_simpletags.h>
+#include <geotiff.h>
+#include <geovalues.h>
+#include <proj.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include "streaming/georeference/crs.h"
+
+namespace terrella {
+namespace {
+
+/// libgeotiff counts what it allocates in 16 bits, and no file says where it lies in more.
+constexpr std::size_t kMostKeyShorts = 4 * 1024;
+constexpr std::size_t kMostKeyNumbers = 4096;
+constexpr std::size_t kMostKeyText = 60'000;
+constexpr double kSameFigure = 1e-6;  // a radius or unit that the keys and EPSG's register both give
+
+struct FreeSimpleTags {
+  void operator()(ST_TIFF* tags) const { ST_Destroy(tags); }
+};
+struct FreeGeoKeys {
+  void operator()(GTIF* keys) const { GTIFFree(keys); }
+};
+using GeoKeyHandle = std::unique_ptr<GTIF, FreeGeoKeys>;
+
+std::optional<int> short_key(GTIF* keys, geokey_t key) {
+  unsigned short value = 0;
+  if (GTIFKeyGetSHORT(keys, key, &value, 0, 1) != 1) return {};
+  return value;
+}
+
+std::string text_key(GTIF* keys, geokey_t key) {
+  std::array<char, 4096> text{};
+  if (GTIFKeyGetASCII(keys, key, text.data(), static_cast<int>(text.size())) < 1) return {};
+  return text.data();
+}
+
+/// A key that is there must have the type that the standard gives it; libgeotiff passes over one of another.
+Status check_key_types(GTIF* keys) {
+  constexpr std::array kShortKeys = {GTModelTypeGeoKey,       GTRasterTypeGeoKey,    GeographicTypeGeoKey,
+                                     ProjectedCSTypeGeoKey,   ProjCoordTransGeoKey,  GeogAngularUnitsGeoKey,
+                                     GeogPrimeMeridianGeoKey, ProjLinearUnitsGeoKey, GeogEllipsoidGeoKey};
+  constexpr std::array kDoubleKeys = {GeogSemiMajorAxisGeoKey,     GeogSemiMinorAxisGeoKey, GeogInvFlatteningGeoKey,
+                                      GeogPrimeMeridianLongGeoKey, ProjNatOriginLongGeoKey, ProjCenterLongGeoKey};
+  tagtype_t type = TYPE_UNKNOWN;
+  int size = 0;
+  for (const auto key : kShortKeys) {
+    const int count = GTIFKeyInfo(keys, key, &size, &type);
+    if (count != 0 && (count != 1 || type != TYPE_SHORT)) return Error{fmt::format("GeoKey {} is damaged", int(key))};
+  }
+  for (const auto key : kDoubleKeys) {
+    double value = 0.0;
+    const int count = GTIFKeyInfo(keys, key, &size, &type);
+    if (count == 0) continue;
+    const bool read = type == TYPE_DOUBLE && GTIFKeyGetDOUBLE(keys, key, &value, 0, 1) == 1;
+    if (!read || !std::isfinite(value)) return Error{fmt::format("GeoKey {} is damaged", int(key))};
+  }
+  return Done{};
+}
+
+/// A geographic system of the keys' own: figure, prime meridian and unit.
+std::string own_geographic(const GTIFDefn& defn, const std::string& title) {
+  const bool round = defn.SemiMajor == defn.SemiMinor;
+  const double inverse_flattening = round ? 0.0 : defn.SemiMajor / (defn.SemiMajor - defn.SemiMinor);
+  std::string name = title.empty() ? std::string("unknown") : title;
+  std::erase_if(name, [](char c) { return c == '"' || static_cast<unsigned char>(c) < ' '; });
+  const std::string unit = fmt::format("ANGLEUNIT[\"degree\",{:.17g}]", M_PI / 180.0);
+  const std::string own_unit = fmt::format("ANGLEUNIT[\"unit\",{:.17g}]", defn.UOMAngleInDegrees * M_PI / 180.0);
+  return fmt::format(
+      "GEOGCRS[\"{}\",DATUM[\"unknown\",ELLIPSOID[\"unknown\",{:.17g},{:.17g},LENGTHUNIT[\"metre\",1]]],"
+      "PRIMEM[\"of the file\",{:.17g},{}],CS[ellipsoidal,2],AXIS[\"longitude\",east],AXIS[\"latitude\",north],{}]",
+      name, defn.SemiMajor, inverse_flattening, defn.PMLongToGreenwich, unit, own_unit);
+}
+
+Status check_figure(const GTIFDefn& defn) {
+  const bool plausible = std::isfinite(defn.SemiMajor) && std::isfinite(defn.SemiMinor) && defn.SemiMajor >= 1.0 &&
+                         defn.SemiMajor <= 1e10 && defn.SemiMinor > 0.0 && defn.SemiMinor <= defn.SemiMajor * 1.5;
+  if (plausible) return Done{};
+  return Error{fmt::format("its GeoKeys give the body radii of {:g} and {:g} metres", defn.SemiMajor, defn.SemiMinor)};
+}
+
+/// Keys that say again what EPSG's register says of a code must say the same.
+Status check_against_register(GTIF* keys, const GTIFDefn& defn, const std::string& code) {
+  const auto crs = Crs::open(code);
+  if (!crs) return Error{fmt::format("its GeoKeys name {}, which is not known", code)};
+  const auto differs = [](double a, double b) { return std::abs(a - b) > kSameFigure * std::abs(b); };
+  const CrsFacts& facts = crs->facts();
+  const bool figure =
+      defn.SemiMajor > 0.0 && (differs(defn.SemiMajor, facts.a_m) || differs(defn.SemiMinor, facts.b_m));
+  const bool unit =
+      facts.geographic && short_key(keys, GeogAngularUnitsGeoKey) && differs(defn.UOMAngleInDegrees, facts.unit_deg);
+  if (!figure && !unit) return Done{};
+  return Error{fmt::format("its GeoKeys contradict each other: {} ({}), and {} that {} does not have", code, facts.name,
+                           figure ? fmt::format("radii of {:.9g} and {:.9g} m", defn.SemiMajor, defn.SemiMinor)
+                                  : fmt::format("a unit of {:.9g} degrees", defn.UOMAngleInDegrees),
+                           code)};
+}
+
+Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
+  const auto code = short_key(keys, ProjectedCSTypeGeoKey).value_or(KvUserDefined);
+  const bool has_own = short_key(keys, ProjCoordTransGeoKey).has_value();
+  if (code != KvUserDefined && code != 0) {
+    if (has_own) {
+      return Error{fmt::format("its GeoKeys name EPSG:{} and give a projection of their own besides", code)};
+    }
+    const std::string text = fmt::format("EPSG:{}", code);
+    if (Status same = check_against_register(keys, defn, text); !same) return same.error();
+    return text;
+  }
+  constexpr std::string_view kEsriText = "ESRI PE String = ";
+  for (const geokey_t key : {PCSCitationGeoKey, GTCitationGeoKey}) {
+    const std::string citation = text_key(keys, key);
+    if (citation.starts_with(kEsriText)) return citation.substr(kEsriText.size());
+  }
+  if (!has_own && defn.CTProjection == KvUserDefined) return Error{"its GeoKeys say that it is projected, and not how"};
+  if (Status plausible = check_figure(defn); !plausible) return plausible.error();
+  const std::unique_ptr<char, void (*)(char*)> text(GTIFGetProj4Defn(&defn), GTIFFreeMemory);
+  if (!text || std::string_view(text.get()).find("+proj=unknown") != std::string_view::npos ||
+      std::string_view(text.get()).find("+proj=") == std::string_view::npos) {
+    return Error{fmt::format("its GeoKeys name a projection that is not known (ProjCoordTrans {})", defn.CTProjection)};
+  }
+  std::string whole = text.get();
+  if (defn.PMLongToGreenwich != 0.0 && whole.find("+pm=") == std::string::npos) {
+    whole += fmt::format(" +pm={:.17g}", defn.PMLongToGreenwich);
+  }
+  return whole + " +type=crs";
+}
+
+Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std::string& title) {
+  const auto code = short_key(keys, GeographicTypeGeoKey).value_or(KvUserDefined);
+  if (code != KvUserDefined && code != 0) {
+    const std::string text = fmt::format("EPSG:{}", code);
+    if (Status same = check_against_register(keys, defn, text); !same) return same.error();
+    return text;
+  }
+  if (Status plausible = check_figure(defn); !plausible) return plausible.error();
+  if (!(defn.UOMAngleInDegrees > 1e-9 && defn.UOMAngleInDegrees < 360.0)) {
+    return Error{fmt::format("its GeoKeys count angles in units of {:g} degrees", defn.UOMAngleInDegrees)};
+  }
+  return own_geographic(defn, title);
+}
+
+/// The first line of the citations, without what GDAL puts before it.
+std::string title_of(GTIF* keys) {
+  std::string title;
+  for (const geokey_t key : {PCSCitationGeoKey, GTCitationGeoKey, GeogCitationGeoKey}) {
+    if (title.empty()) title = text_key(keys, key);
+  }
+  title = title.substr(0, title.find_first_of("|\n"));
+  for (const std::string_view before : {"GCS Name = ", "PCS Name = "}) {
+    if (title.starts_with(before)) title.erase(0, before.size());
+  }
+  return title.substr(0, 100);
+}
+
+Result<GeoKeys> interpret(GTIF* keys) {
+  if (Status sound = check_key_types(keys); !sound) return sound.error();
+  GeoKeys said{.crs = {}, .title = title_of(keys), .pixel_is_point = false};
+  const auto raster = short_key(keys, GTRasterTypeGeoKey);
+  if (raster && *raster != RasterPixelIsArea && *raster != RasterPixelIsPoint) {
+    return Error{fmt::format("its GeoKeys have a raster type {} that is not known", *raster)};
+  }
+  said.pixel_is_point = raster == RasterPixelIsPoint;
+  GTIFDefn defn{};
+  if (GTIFGetDefn(keys, &defn) != 1) return said;
+  const auto model = short_key(keys, GTModelTypeGeoKey);
+  const bool names_projected = short_key(keys, ProjectedCSTypeGeoKey) || short_key(keys, ProjCoordTransGeoKey) ||
+                               short_key(keys, ProjectionGeoKey);
+  const bool names_geographic = short_key(keys, GeographicTypeGeoKey) || defn.SemiMajor > 0.0;
+  if (!model && !names_projected && !names_geographic) return said;
+  if (model == ModelTypeGeographic && names_projected) {
+    return Error{"its GeoKeys contradict each other: the model is geographic, and a projection is named"};
+  }
+  if (model && *model != ModelTypeGeographic && *model != ModelTypeProjected && *model != 0 &&
+      *model != KvUserDefined) {
+    return Error{fmt::format("its GeoKeys say that it is geocentric, or a model {} that is not known", *model)};
+  }
+  const bool projected = model == ModelTypeProjected || names_projected;
+  if (!projected && !names_geographic) return Error{"its GeoKeys name neither a body nor a coordinate system"};
+  auto text = projected ? projected_text(keys, defn) : geographic_text(keys, defn, said.title);
+  if (!text) return text.error();
+  said.crs = *std::move(text);
+  return said;
+}
+
+}  // namespace
+
+Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
+  if (tags.key_directory.empty()) return GeoKeys{};
+  const auto& directory = tags.key_directory;
+  if (directory.size() < 4 || directory.size() < 4 + 4 * std::size_t{directory[3]} || directory[0] != 1) {
+    return Error{"its GeoKey directory is damaged"};
+  }
+  if (directory.size() > kMostKeyShorts || tags.key_numbers.size() > kMostKeyNumbers ||
+      tags.key_text.size() > kMostKeyText) {
+    return Error{"its GeoKey directory is larger than any coordinate system needs"};
+  }
+  const std::unique_ptr<ST_TIFF, FreeSimpleTags> simple(ST_Create());
+  // libgeotiff copies what it is given.
+  const auto set = [&](int tag, std::size_t count, int type, const void* data) {
+    if (count > 0) ST_SetKey(simple.get(), tag, static_cast<int>(count), type, const_cast<void*>(data));
+  };
+  set(34735, directory.size(), STT_SHORT, directory.data());
+  set(34736, tags.key_numbers.size(), STT_DOUBLE, tags.key_numbers.data());
+  // The text ends with a 0 of its own.
+  set(34737, tags.key_text.size() + 1, STT_ASCII, tags.key_text.c_str());
+  const GeoKeyHandle keys(GTIFNewSimpleTags(simple.get()));
+  if (!keys) return Error{"its GeoKey directory is damaged"};
+  const ProjContext context = make_proj_context();
+  GTIFAttachPROJContext(keys.get(), context.get());
+  return interpret(keys.get());
+}
+
+}  // namespace terrella

@@ -1,0 +1,83 @@
+"""Pictures with a georeference, made by GDAL's programs, and where GDAL says that their pixels lie."""
+
+import pathlib
+import re
+import struct
+import subprocess
+
+# A pixel may lie this much beside gdaltransform's answer, pixels: what coordinates with few decimals leave.
+PLACED_PX = 0.01
+
+
+def gdal(*arguments, stdin=None):
+    done = subprocess.run([str(a) for a in arguments], input=stdin, capture_output=True, text=True, timeout=60)
+    if done.returncode != 0:
+        raise AssertionError(f"{arguments}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def pgm(path, width, height):
+    """A gray picture whose columns and rows differ."""
+    rows = bytes(max(1, (x * 7 + y * 13) % 256) for y in range(height) for x in range(width))
+    pathlib.Path(path).write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+
+
+def make(path, width, height, *options):
+    """A picture that gdal_translate gives a place."""
+    path = pathlib.Path(path)
+    base = path.with_name("base.pgm")
+    pgm(base, width, height)
+    gdal("gdal_translate", "-q", *options, base, path)
+    base.unlink()
+    return path
+
+
+def places(path, pixels, crs, source_crs=()):
+    """Longitude and latitude that gdaltransform gives each pixel."""
+    told = gdal("gdaltransform", *source_crs, "-t_srs", crs, path, stdin="".join(f"{x} {y}\n" for x, y in pixels))
+    return [tuple(map(float, line.split()[:2])) for line in told.splitlines()]
+
+
+def commands_in(message):
+    """The GDAL command line that a message ends with."""
+    found = re.search(r"\b(gdalwarp|gdal_translate) .*$", message.strip(), re.MULTILINE)
+    return found.group(0) if found else None
+
+
+# ---- TIFF written by hand: what GDAL would not write
+
+def tiff(width, height, tags):
+    """A gray picture with extra tags, (number, type, values): 2 ASCII, 3 SHORT, 12 DOUBLE."""
+    sizes, codes = {1: 1, 2: 1, 3: 2, 4: 4, 12: 8}, {1: "B", 2: "c", 3: "H", 4: "I", 12: "d"}
+    base = [(256, 4, [width]), (257, 4, [height]), (258, 3, [8]), (259, 3, [1]), (262, 3, [1]), (273, 4, [0]),
+            (277, 3, [1]), (278, 4, [height]), (279, 4, [width * height])]
+    entries = sorted(base + list(tags))
+    data_at = 8 + 2 + 12 * len(entries) + 4
+    directory, data = struct.pack("<H", len(entries)), b""
+    pixels_at = data_at + sum(sizes[t] * len(v) for n, t, v in entries if sizes[t] * len(v) > 4)
+    for number, kind, values in entries:
+        if number == 273:
+            values = [pixels_at]
+        raw = values if isinstance(values, bytes) else struct.pack(f"<{len(values)}{codes[kind]}", *values)
+        count = len(values)
+        if len(raw) > 4:
+            directory += struct.pack("<HHII", number, kind, count, data_at + len(data))
+            data += raw
+        else:
+            directory += struct.pack("<HHI", number, kind, count) + raw.ljust(4, b"\0")
+    pixels = bytes((x * 7 + y * 13) % 255 + 1 for y in range(height) for x in range(width))
+    return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0) + data + pixels
+
+
+def geo_keys(*keys):
+    """A GeoKey directory of short keys, (key, value), or whole entries (key, tag, count, value)."""
+    entries = [(k[0], 0, 1, k[1]) if len(k) == 2 else k for k in keys]
+    return (34735, 3, [1, 1, 0, len(entries)] + [n for e in entries for n in e])
+
+
+SCALE, TIES, MATRIX, DOUBLES = 33550, 33922, 34264, 34736
+DEGREES = geo_keys((1024, 2), (1025, 1), (2048, 4326))
+
+
+def placed_at(west, north, pixel_x, pixel_y):
+    return [(SCALE, 12, [pixel_x, pixel_y, 0.0]), (TIES, 12, [0.0, 0.0, 0.0, west, north, 0.0])]
