@@ -233,10 +233,10 @@ class NoPlaceForTheCacheTest(PyramidTest):
 
     def test_tiles_from_a_server(self):
         with servers.nginx(self.pyramid) as server:
-            tiles = server.template, "--max-level", str(LEVELS - 1)
-            expected = self.draw(*tiles, "--cache", "file/cache.gpkg")
-            self.assertEqual(self.draw(*tiles, "--overlay", server.template, environment={"XDG_CACHE_HOME": str(self.folder / "file")}),
-                             expected)
+            source = self.write("source.json", json.dumps({"url": server.template, "max_level": LEVELS - 1}).encode())
+            expected = self.draw(source, "--cache", "file/cache.gpkg")
+            in_a_file = {"XDG_CACHE_HOME": str(self.folder / "file")}
+            self.assertEqual(self.draw(source, "--overlay", source, environment=in_a_file), expected)
 
     def test_a_picture_that_is_cut(self):
         self.draw(BLUE_MARBLE, environment={"XDG_CACHE_HOME": str(self.folder / "file")})
