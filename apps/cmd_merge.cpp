@@ -30,7 +30,7 @@ constexpr const char* kMergeExamples =
     "Examples:\n"
     "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
     "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
-    "Of two records of a tile the one stored later is kept.";
+    "A tile wins over an absence, else the record stored later. Levels may differ; pinned tiles stay pinned.";
 
 void print_summary(const MergeCommand& command, const MergeSummary& summary) {
   if (command.json) {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cache/cache_test_support.h"
+#include "streaming/cache/open_cache.h"
 
 namespace terrella {
 namespace {
@@ -132,6 +133,23 @@ TEST_F(CacheDamage, ANewNameOrAttributionIsTheSameSource) {
   TileSetInfo renamed = planet();
   renamed.attribution = "Somebody else";
   EXPECT_TRUE(TileCache::open(file_, renamed, test::kSource));
+}
+
+TEST(CacheSource, NamesOfMoreLevelsAreTheSameSource) {
+  const std::string coarse = R"({"url":"https://t.example/{z}","levels":["a","b"],"shifts":[[1,0,4],[2,0,8]]})";
+  const std::string fine =
+      R"({"url":"https://t.example/{z}","levels":["a","b","c"],"shifts":[[1,0,4],[2,0,8],[4,0,16]]})";
+  const std::string others[] = {
+      R"({"url":"https://t.example/{z}","levels":["a","x","c"],"shifts":[[1,0,4],[2,0,8],[4,0,16]]})",
+      R"({"url":"https://t.example/{z}","levels":["a","b"],"shifts":[]})",
+      R"({"url":"https://u.example/{z}","levels":["a","b"],"shifts":[[1,0,4],[2,0,8]]})", "file:/a", ""};
+  EXPECT_TRUE(same_source(coarse, fine));
+  EXPECT_TRUE(same_source(fine, coarse));
+  EXPECT_TRUE(same_source("file:/a", "file:/a"));
+  for (const std::string& other : others) {
+    EXPECT_FALSE(same_source(coarse, other)) << other;
+    EXPECT_FALSE(same_source(other, fine)) << other;
+  }
 }
 
 TEST_F(CacheDamage, ForeignFilesAreRefusedAndLeftAlone) {

@@ -216,6 +216,10 @@ class NoServerTest(ProgramTest):
                               says=["0/0/0", "404", "none of the", "nothing was written"])
         self.assertFalse((self.folder / "x.png").exists())
 
+    def test_a_template_without_a_place_for_the_level_is_wrong(self):
+        self.assert_fails(1, "render", "http://127.0.0.1:9/{x}/{y}.jpg", "-o", "x.png", says=["{z}"])
+
+
 
 class NoPlaceForTheCacheTest(PyramidTest):
     """One goes on without, and it is said once. A file's name as a folder stops root, too."""
@@ -233,10 +237,10 @@ class NoPlaceForTheCacheTest(PyramidTest):
 
     def test_tiles_from_a_server(self):
         with servers.nginx(self.pyramid) as server:
-            tiles = server.template, "--max-level", str(LEVELS - 1)
-            expected = self.draw(*tiles, "--cache", "file/cache.gpkg")
-            self.assertEqual(self.draw(*tiles, "--overlay", server.template, environment={"XDG_CACHE_HOME": str(self.folder / "file")}),
-                             expected)
+            source = self.write("source.json", json.dumps({"url": server.template, "max_level": LEVELS - 1}).encode())
+            expected = self.draw(source, "--cache", "file/cache.gpkg")
+            in_a_file = {"XDG_CACHE_HOME": str(self.folder / "file")}
+            self.assertEqual(self.draw(source, "--overlay", source, environment=in_a_file), expected)
 
     def test_a_picture_that_is_cut(self):
         self.draw(BLUE_MARBLE, environment={"XDG_CACHE_HOME": str(self.folder / "file")})
@@ -246,6 +250,3 @@ class NoPlaceForTheCacheTest(PyramidTest):
             self.assert_done("render", one.template, "--max-level", "2", "-o", "x.png", *VIEW, "--cache", "c.gpkg")
             self.assert_fails(1, "render", other.template, "--max-level", "2", "-o", "x.png", *VIEW, "--cache", "c.gpkg",
                               says=["c.gpkg", "name another file"])
-
-    def test_a_template_without_a_place_for_the_level_is_wrong(self):
-        self.assert_fails(1, "render", "http://127.0.0.1:9/{x}/{y}.jpg", "-o", "x.png", says=["{z}"])
