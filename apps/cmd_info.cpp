@@ -72,7 +72,7 @@ auto progress_lines() {
 int run_picture_info(const InfoOptions& options) {
   const Result<std::string> report = picture_report(options.tile_set, options.json);
   if (!report) return fail("info", report.error().message);
-  fmt::print("{}", *report);
+  print_result("{}", *report);
   return kDone;
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/console.h"
+#include "apps/eye_place.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
 #include "apps/scene_layers.h"
@@ -94,6 +95,23 @@ Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& l
   return Error{message};
 }
 
+/// Renders until all tiles have come, or until time is up. The eye follows the ground as heights raise it.
+void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
+  constexpr int kMostMoves = 4;  // finer heights move the ground less and less
+  const auto limit =
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  const bool may_be_under = may_be_underground(command.scene);
+  Camera camera = out_of_ground(wanted, 0.0, may_be_under);
+  for (int move = 0; move < kMostMoves; ++move) {
+    globe.set_camera(camera);
+    globe.render_until_settled(framebuffer, command.scene.size, deadline);
+    camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
+    if (camera.eye.height_m == globe.camera().eye.height_m) break;
+  }
+  tell_of_move("render", wanted, globe.camera());
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
@@ -103,6 +121,9 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!body) return body.error();
   SceneOptions layers = command.scene;
   layers.body = *body;
+  if (const Status eye = check_eye(command.scene, *body, command.scene.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
   if (!context) return context.error();
   GlobeOptions options = globe_options(command.scene, *body);
@@ -118,11 +139,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();
-  (*globe)->set_camera(first_camera(command.scene, *body, command.scene.size));
   const OffscreenTarget target(command.scene.size);
-  const auto limit =
-      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
-  (*globe)->render_until_settled(target.framebuffer(), command.scene.size, std::chrono::steady_clock::now() + limit);
+  render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
   const Status written = write_png(command.output, command.scene.size, target.read());

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/console.h"
+#include "apps/eye_place.h"
 #include "apps/open_imagery.h"
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
@@ -113,6 +114,9 @@ int view(const ViewOptions& options) {
   if (!elevation) return fail("view", elevation.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
+  if (const Status eye = check_eye(options.scene, *body, options.scene.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
@@ -127,7 +131,11 @@ int view(const ViewOptions& options) {
     return fail("view", added.error().message);
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
-  const ViewerOptions viewer_options{.camera = first_camera(options.scene, *body, (*window)->framebuffer()),
+  const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());
+  // Heights that come later raise the eye with the ground, as everywhere in the window.
+  const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
+  tell_of_move("view", wanted, start);
+  const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .layers = layer_rows(**globe, options.scene, first),
                                      .heights = *elevation,

@@ -18,7 +18,11 @@ void add_camera_options(CLI::App& command, SceneOptions& options) {
       .add_option_function<std::string>(
           "--camera",
           [&options](const std::string& text) { options.camera = parsed_or_throw("--camera", parse_camera(text)); },
-          "Where the eye is and looks: degrees and metres; straight down and 40 degrees of view unless said")
+          "Where the eye is and looks: degrees and metres; straight down and 40 degrees of view unless said. ALT is "
+          "over "
+          "the ellipsoid: an eye in the ground, or under opaque ground without --objects, is put 1 m over it; at most "
+          "as "
+          "far out as the planet is a pixel wide")
       ->type_name("LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]");
   command
       .add_option_function<std::string>(

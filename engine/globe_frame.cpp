@@ -4,6 +4,7 @@
 #include <random>
 
 #include "engine/globe_impl.h"
+#include "scene/far_side_curtain.h"
 
 // A frame: what it takes from the loaders, what it selects, what it asks for, what it draws.
 namespace terrella {

@@ -75,8 +75,4 @@ int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip) const {
   return 1;
 }
 
-double inner_sphere_radius_m(double a_m, double b_m, double below_m) {
-  return std::clamp(a_m - below_m * (a_m / kEarthEquator_m), 0.0, 0.98 * b_m);
-}
-
 }  // namespace terrella

@@ -63,4 +63,8 @@ std::vector<glm::vec3> far_side_curtain(const View& view, const Ellipsoid& ellip
   return strip;
 }
 
+double inner_sphere_radius_m(double a_m, double b_m, double below_m) {
+  return std::clamp(a_m - below_m * (a_m / kEarthEquator_m), 0.0, 0.98 * b_m);
+}
+
 }  // namespace terrella

@@ -17,4 +17,8 @@ namespace terrella {
 [[nodiscard]] std::vector<glm::vec3> far_side_curtain(const View& view, const Ellipsoid& ellipsoid,
                                                       double inner_radius_m, double lowest_m);
 
+/// Radius of the inner sphere: so far under the equator, in metres of Earth, scaled to the body and at most 0.98 of its
+/// shortest axis. Source: paper 2, 2.1, where it is the equator's radius - 1000 km. thread: any
+[[nodiscard]] double inner_sphere_radius_m(double a_m, double b_m, double below_m);
+
 }  // namespace terrella

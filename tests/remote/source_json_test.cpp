@@ -58,6 +58,9 @@ TEST(SourceJson, PointsToAWmtsOrATms) {
 
 TEST(SourceJson, RefusesByFileAndField) {
   expect_json_refused("", "not JSON");
+  expect_json_refused(R"({"url": "u", "elevation": 3})", "\"elevation\" must be an object");
+  expect_json_refused(R"({"url": "u", "elevation": {"scale": 0, "offset": 0}})", "scale of 0");
+  expect_json_refused(R"({"url": "u", "format": "jpg", "elevation": {"scale": 1, "offset": 0}})", "\"png\"");
   expect_json_refused("[]", "one JSON object");
   expect_json_refused("{}", "\"url\" is missing");
   expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the three");
