@@ -21,11 +21,6 @@ constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 
 // Longest wait for a tile before a look at what is due by the clock: retries.
 constexpr std::chrono::milliseconds kLook{100};
 
-bool same(const Camera& a, const Camera& b) {
-  return a.eye.lat == b.eye.lat && a.eye.lon == b.eye.lon && a.eye.height_m == b.eye.height_m &&
-         a.heading == b.heading && a.pitch == b.pitch && a.fov_y == b.fov_y;
-}
-
 bool has_context() { return glGetString(GL_VERSION) != nullptr; }
 
 Status check_context() {
@@ -213,7 +208,7 @@ bool Globe::has_relief() const { return impl_->relief != nullptr; }
 
 void Globe::set_camera(const Camera& camera) {
   if (!impl_->may_call("Globe::set_camera")) return;
-  if (same(camera, impl_->camera)) return;  // callers set it every frame: what a view gave way in stays found
+  if (camera == impl_->camera) return;  // callers set it every frame: what a view gave way in stays found
   impl_->camera = camera;
   impl_->restore_detail();
 }

@@ -20,8 +20,6 @@ glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
 
-bool same_size(Viewport a, Viewport b) { return a.width_px == b.width_px && a.height_px == b.height_px; }
-
 }  // namespace
 
 // The lowest layer that is drawn must be opaque: where it is not, a plain colour lies under it.
@@ -180,7 +178,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   stats = {};
   ++frame;
   changed = false;
-  if (!same_size(viewport, drawn)) restore_detail();
+  if (viewport != drawn) restore_detail();
   drawn = viewport;
   stats.uploaded_bytes = take_finished();
   stats.objects_cut = std::exchange(objects_cut, 0);

@@ -1,7 +1,7 @@
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/globe_impl.h"
+#include "geo/longitudes.h"
 #include "scene/daylight.h"
 
 // What is under a pixel.
@@ -11,9 +11,7 @@ namespace {
 bool holds(const TileGrid& grid, const Ellipsoid& ellipsoid, const Geodetic& place) {
   const double row = row_latitude_deg(grid, ellipsoid, Ellipsoid::normal(place.lat, place.lon));
   if (row < grid.bounds.south.deg() || row > grid.bounds.north.deg()) return false;
-  const double west = grid.bounds.west.deg(), lon = place.lon.deg();
-  const double width = grid.bounds.east.deg() - west, turn = width < 0.0 ? width + 360.0 : width;
-  return turn >= 360.0 || lon - west - 360.0 * std::floor((lon - west) / 360.0) <= turn;
+  return meets_longitudes(grid.bounds, place.lon.deg(), 0.0);
 }
 
 }  // namespace

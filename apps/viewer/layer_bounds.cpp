@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "apps/viewer/layer_panel.h"
+#include "geo/longitudes.h"
 
 namespace terrella {
 namespace {
@@ -25,10 +26,7 @@ double wrapped_deg(double lon_deg) { return lon_deg - 360.0 * std::floor((lon_de
 
 }  // namespace
 
-Angle width_of(const GeoRect& bounds) {
-  const double width_deg = bounds.east.deg() - bounds.west.deg();
-  return Angle::degrees(width_deg < 0.0 ? width_deg + 360.0 : width_deg);
-}
+Angle width_of(const GeoRect& bounds) { return Angle::degrees(width_deg(bounds)); }
 
 std::optional<GeoRect> if_a_part(const GeoRect& bounds) {
   if (width_of(bounds).deg() > kMostOfPlanet_deg) return {};

@@ -131,8 +131,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
 
 void Viewer::draw_globe(Viewport framebuffer) {
   globe_.set_camera(navigator_.camera());
-  const bool resized =
-      !picture_ || picture_size_.width_px != framebuffer.width_px || picture_size_.height_px != framebuffer.height_px;
+  const bool resized = !picture_ || picture_size_ != framebuffer;
   if (resized) picture_.emplace(picture_size_ = framebuffer);
   if (resized || globe_.needs_frame()) stats_ = globe_.render(picture_->framebuffer(), framebuffer);
   glBlitNamedFramebuffer(picture_->framebuffer(), 0, 0, 0, framebuffer.width_px, framebuffer.height_px, 0, 0,

@@ -52,10 +52,7 @@ void Viewer::draw_layer_panel() {
 }
 
 void Viewer::take_look(LayerRow& row, const ImageLook& look) {
-  const bool same = look.shown == row.look.shown && look.opacity == row.look.opacity &&
-                    look.min_level == row.look.min_level && look.max_level == row.look.max_level &&
-                    look.daylight == row.look.daylight && look.alpha == row.look.alpha;
-  if (same) return;
+  if (look == row.look) return;
   Status set = Done{};
   if (row.kind == LayerKind::imagery) set = globe_.set_look(row.id, look);
   if (row.kind == LayerKind::objects) set = globe_.show_objects(row.id, look.shown);

@@ -19,15 +19,6 @@ namespace {
 constexpr int kPanelFrames = 3;  // a panel shows an event one frame later
 constexpr double kFoot = 3.4;    // of the text's height, that the panels below take
 
-bool same(const SurfaceLook& a, const SurfaceLook& b) {
-  return a.alpha == b.alpha && a.blend == b.blend && a.inner_sphere_below_m == b.inner_sphere_below_m &&
-         a.from_below == b.from_below && a.horizon_culling == b.horizon_culling;
-}
-
-bool same(const StereoLook& a, const StereoLook& b) {
-  return a.mode == b.mode && a.eye_separation_m == b.eye_separation_m;
-}
-
 }  // namespace
 
 void Viewer::toggle_panel() {
@@ -53,8 +44,8 @@ void Viewer::draw_settings() {
   if (ask == ViewAsk::picture) toggle_picture_panel();
   if (ask == ViewAsk::help) help_ = !help_;
   // What is set makes another frame, changed or not.
-  if (!same(settings_.surface, options.surface)) globe_.set_surface(settings_.surface);
-  if (!same(settings_.stereo, options.stereo)) globe_.set_stereo(settings_.stereo);
+  if (settings_.surface != options.surface) globe_.set_surface(settings_.surface);
+  if (settings_.stereo != options.stereo) globe_.set_stereo(settings_.stereo);
   if (settings_.sky != sky_) globe_.set_sky(sky_ = settings_.sky);
   if (settings_.under_ground != under_ground()) toggle_underground();
   if (settings_.exaggeration != options.exaggeration) globe_.set_exaggeration(settings_.exaggeration);

@@ -19,6 +19,7 @@ struct Camera {
   Angle heading{};
   Angle pitch = Angle::degrees(-90.0);
   Angle fov_y = Angle::degrees(40.0);  ///< vertical field of view, (0°, 170°]
+  bool operator==(const Camera&) const = default;
 };
 
 /// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses what is not finite, |LAT| > 90, |PITCH| >
@@ -29,6 +30,7 @@ struct Camera {
 struct Viewport {
   int width_px = 1;
   int height_px = 1;
+  bool operator==(const Viewport&) const = default;
 };
 
 /// A camera bound to a body and a picture size, in double: what selection, picking and drawing share.

@@ -24,6 +24,7 @@ struct Geodetic {
   Angle lat;              ///< geodetic, [-90°, 90°]
   Angle lon;              ///< east positive; any turn, normalised where it is returned to (-180°, 180°]
   double height_m = 0.0;  ///< over the ellipsoid, along the surface normal
+  bool operator==(const Geodetic&) const = default;
 };
 
 /// A position in ECEF metres.
@@ -42,6 +43,7 @@ struct GeoRect {
   Angle south = Angle::degrees(-90.0);
   Angle east = Angle::degrees(180.0);
   Angle north = Angle::degrees(90.0);
+  bool operator==(const GeoRect&) const = default;
 };
 
 }  // namespace terrella

@@ -78,13 +78,6 @@ std::size_t TileIdHash::operator()(const TileId& id) const {
   return mix_bits(row + static_cast<std::uint64_t>(id.x) + (static_cast<std::uint64_t>(id.squeeze) << 48U));
 }
 
-bool TileGrid::operator==(const TileGrid& other) const {
-  return root_span_deg == other.root_span_deg && tile_px == other.tile_px && min_level == other.min_level &&
-         max_level == other.max_level && projection == other.projection && latitude == other.latitude &&
-         bounds.west == other.bounds.west && bounds.south == other.bounds.south && bounds.east == other.bounds.east &&
-         bounds.north == other.bounds.north && reduced == other.reduced;
-}
-
 double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.root_span_deg, -level); }
 
 std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, grid, level); }

@@ -53,7 +53,7 @@ struct TileGrid {
   LatitudeKind latitude = LatitudeKind::graphic;
   GeoRect bounds{};      ///< where there is data, in row latitude (web_mercator: latitude); whole planet by default
   bool reduced = false;  ///< rows near the poles are there squeezed as well (squeeze_of_row())
-  bool operator==(const TileGrid&) const;
+  bool operator==(const TileGrid&) const = default;
 };
 
 /// Continuous tile coordinates of a level: x east from -180° in tiles, y south from +90° in tiles.

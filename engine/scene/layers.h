@@ -31,6 +31,7 @@ struct ImageLook {
   int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
+  bool operator==(const ImageLook&) const = default;
 };
 
 }  // namespace terrella

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geo/longitudes.h"
 #include "geo/scaled_space.h"
 #include "scene/relief.h"
 
@@ -268,10 +269,8 @@ class Selector {
   // What further imagery has of a patch; nothing where it is not drawn.
   [[nodiscard]] static PatchNode* node_of(const FurtherImagery& imagery, const PatchNode& node) {
     const GeoRect& bounds = imagery.tree->grid().bounds;
-    const double width = bounds.east.deg() - bounds.west.deg(), turn = width < 0.0 ? width + 360.0 : width;
-    const double east = node.lon_center_deg + node.west_deg - bounds.west.deg();
-    const double from = east - 360.0 * std::floor(east / 360.0);
-    if (turn < 360.0 && from > turn && from + std::max(0.0, node.east_deg - node.west_deg) < 360.0) return nullptr;
+    const double wide_deg = std::max(0.0, node.east_deg - node.west_deg);
+    if (!meets_longitudes(bounds, node.lon_center_deg + node.west_deg, wide_deg)) return nullptr;
     PatchNode& own = imagery.tree->node(node.id);
     if (own.north_row_deg < bounds.south.deg() || own.south_row_deg > bounds.north.deg()) return nullptr;
     own.sphere = node.sphere;

@@ -40,6 +40,7 @@ struct SurfaceLook {
   std::optional<double> inner_sphere_below_m = 1.0e6;
   SurfaceFromBelow from_below = SurfaceFromBelow::opaque;
   HorizonCulling horizon_culling = HorizonCulling::automatic;
+  bool operator==(const SurfaceLook&) const = default;
 };
 
 enum class Stereo {
@@ -53,6 +54,7 @@ enum class Stereo {
 struct StereoLook {
   Stereo mode = Stereo::off;
   std::optional<double> eye_separation_m{};  ///< none: a thirtieth of the distance to what is in the picture's middle
+  bool operator==(const StereoLook&) const = default;
 };
 
 }  // namespace terrella

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "geo/longitudes.h"
 #include "streaming/elevation/height_decoder.h"
 
 namespace terrella {
@@ -16,17 +16,6 @@ constexpr std::int64_t kMaxLookedAt = 64;
 std::string text_of(const GeoRect& rect) {
   return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", rect.west.deg(), rect.south.deg(), rect.east.deg(),
                      rect.north.deg());
-}
-
-/// Degrees east from `west`, in [0, 360).
-double degrees_east(double lon_deg, double west_deg) {
-  const double turn = std::fmod(lon_deg - west_deg, 360.0);
-  return turn < 0.0 ? turn + 360.0 : turn;
-}
-
-double width_deg(const GeoRect& rect) {
-  const double width = rect.east.deg() - rect.west.deg();
-  return width > 0.0 ? width : width + 360.0;
 }
 
 bool holds(const GeoRect& outer, const GeoRect& inner, double slack_deg) {

@@ -60,11 +60,6 @@ struct Hand {
   Seconds now{100.0};
 };
 
-bool same(const Camera& a, const Camera& b) {
-  return a.eye.lat == b.eye.lat && a.eye.lon == b.eye.lon && a.eye.height_m == b.eye.height_m &&
-         a.heading == b.heading && a.pitch == b.pitch && a.fov_y == b.fov_y;
-}
-
 struct DragCase {
   const char* what;
   Camera start;
@@ -296,8 +291,8 @@ TEST(RightDrag, IsTheSameAsLeftWithControl) {
   Hand left(camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0));
   right.drag({500.0, 500.0}, {420.0, 450.0}, PointerButton::right);
   left.drag({500.0, 500.0}, {420.0, 450.0}, PointerButton::left, true);
-  EXPECT_TRUE(same(right.navigator.camera(), left.navigator.camera()));
-  EXPECT_FALSE(same(right.navigator.camera(), camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0)));
+  EXPECT_TRUE(right.navigator.camera() == left.navigator.camera());
+  EXPECT_FALSE(right.navigator.camera() == camera_at(46.0, 7.0, 3.0e5, 80.0, -60.0));
 }
 
 TEST(RightDrag, StopsAboveTheGroundAndStraightDown) {
@@ -413,7 +408,7 @@ TEST(Robustness, EventsThatAreNotFiniteAreIgnored) {
   n.pointer_move({kNan, kNan}, hand.now);
   n.pointer_move({520.0, 384.0}, Seconds(kNan));
   n.pointer_up(PointerButton::left, hand.now);
-  EXPECT_TRUE(same(n.camera(), start));
+  EXPECT_TRUE(n.camera() == start);
   EXPECT_TRUE(n.at_rest());
 }
 
@@ -425,7 +420,7 @@ TEST(Robustness, AClockThatJumpsMovesNothingFar) {
   EXPECT_GT(hand.navigator.camera().eye.height_m, 2.0e6);
   const Camera before = hand.navigator.camera();
   hand.navigator.advance(hand.now - Seconds(1.0e9));
-  EXPECT_TRUE(same(hand.navigator.camera(), before));
+  EXPECT_TRUE(hand.navigator.camera() == before);
   hand.settle();
   EXPECT_NEAR(hand.navigator.camera().eye.height_m, 1.2e6, 1.0);
 }
