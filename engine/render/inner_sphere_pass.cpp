@@ -15,7 +15,6 @@ namespace {
 
 // Quads from pole to pole, and twice as many around: the mesh sags by 1/1900 of the radius, 3 km on Earth.
 constexpr int kRows = 48;
-constexpr double kEarthEquator_m = 6378137.0;
 
 }  // namespace
 

@@ -11,6 +11,7 @@ namespace {
 // Chords round the planet sag by 1/3300 of its radius, 2 km on Earth; chords across by a tenth of that.
 constexpr int kColumns = 128;
 constexpr int kRings = 12;
+constexpr double kEarthEquator_m = 6378137.0;
 
 /// Scaled space, where the ellipsoid is the unit sphere: the eye's distance and three axes, the first to the eye.
 struct EyeAxes {
