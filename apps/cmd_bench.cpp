@@ -5,12 +5,14 @@
 #include <CLI/Formatter.hpp>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "apps/bench/benches.h"
 #include "apps/bench/report_files.h"
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
+#include "apps/stop_signals.h"
 
 namespace terrella {
 namespace {
@@ -63,7 +65,12 @@ int run(const BenchCommand& command) {
   const Result<fs::path> cache = picture_cache_folder(command.work);
   if (!cache) return fail("bench", cache.error().message);
   options.work = command.work.empty() ? *cache / "bench" : *cache;
-  options.progress = [&](const std::string& doing) { fmt::print(stderr, "bench {}: {}\n", chosen.name, doing); };
+  const StopSignals signals;
+  options.goes_on = [] { return !StopSignals::came(); };
+  options.progress = [&](const std::string& doing) {
+    if (StopSignals::came()) throw std::runtime_error("stopped; nothing was written");
+    fmt::print(stderr, "bench {}: {}\n", chosen.name, doing);
+  };
   // Not after minutes of measuring.
   if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
   const Result<bench::Report> report = chosen.run(options);

@@ -13,6 +13,7 @@
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/scene_overlays.h"
+#include "apps/stop_signals.h"
 #include "apps/write_file.h"
 #include "engine/globe.h"
 #include "render/offscreen.h"
@@ -74,7 +75,26 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   if (stats.heights_lacked > 0) fmt::print("{}: {} tiles of heights lacked\n", command.output, stats.heights_lacked);
 }
 
+/// Looks for a signal a few times a second.
+void wait_for_tiles(Globe& globe, const OffscreenTarget& target, Viewport size,
+                    std::chrono::steady_clock::time_point limit) {
+  constexpr std::chrono::milliseconds kBetweenLooks{200};
+  while (!StopSignals::came() && std::chrono::steady_clock::now() < limit) {
+    const auto until = std::min(limit, std::chrono::steady_clock::now() + kBetweenLooks);
+    if (globe.render_until_settled(target.framebuffer(), size, until)) return;
+  }
+}
+
+std::vector<std::string> inputs_of(const SceneOptions& scene) {
+  std::vector<std::string> inputs = {scene.tile_set, scene.elevation, scene.night, scene.clouds.tile_set,
+                                     scene.objects};
+  for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set);
+  return inputs;
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
+  const std::vector<std::string> inputs = inputs_of(command.scene);
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
   Result<std::optional<ElevationSource>> elevation = open_elevation(command.scene);
@@ -100,8 +120,11 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const OffscreenTarget target(command.scene.size);
   const auto limit =
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
-  (*globe)->render_until_settled(target.framebuffer(), command.scene.size, std::chrono::steady_clock::now() + limit);
+  wait_for_tiles(**globe, target, command.scene.size, std::chrono::steady_clock::now() + limit);
+  if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  // Rendering takes its time: another file may have come under the name.
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
   const auto& lacking = (*globe)->lacking();
@@ -111,6 +134,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
 }
 
 int run(const RenderCommand& command) {
+  const StopSignals signals;
   const Result<Rendered> rendered = render_picture(command);
   if (!rendered) {
     return fail("render", rendered.error().message);

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "geo/hash_mix.h"
+
 namespace terrella {
 namespace {
 
@@ -40,6 +42,7 @@ Result<std::string> cut_key(const CutOptions& options) {
   for (const auto& image : options.images) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {
+      if (errno == ENOENT) return Error{fmt::format("{}: no such file", image.string())};
       return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
     }
     key += fmt::format("\n{}|{}|{}.{}", image.filename().string(), found.st_size, found.st_mtim.tv_sec,
@@ -47,6 +50,8 @@ Result<std::string> cut_key(const CutOptions& options) {
   }
   return key;
 }
+
+std::string cut_mark(const std::string& key) { return fmt::format("{:016x}", name_hash(key)); }
 
 std::string last_change_of(const std::vector<std::filesystem::path>& images) {
   std::time_t newest = 0;
