@@ -9,6 +9,7 @@
 #include "apps/commands.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
+#include "apps/process.h"
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
@@ -85,6 +86,15 @@ void wait_for_tiles(Globe& globe, const OffscreenTarget& target, Viewport size,
   }
 }
 
+/// By trials with Mesa's software driver, which 600 MB of address space ended with SIGSEGV, and 800 MB did not.
+Status check_drawing_memory(Viewport size) {
+  constexpr std::size_t kDriver_bytes = 600'000'000;
+  constexpr std::size_t kBytesAPixel = 32;
+  const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  return check_memory(kDriver_bytes + kBytesAPixel * pixels,
+                      fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
+}
+
 std::vector<std::string> inputs_of(const SceneOptions& scene) {
   std::vector<std::string> inputs = {scene.tile_set, scene.elevation, scene.night, scene.clouds.tile_set,
                                      scene.objects};
@@ -101,6 +111,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!elevation) return elevation.error();
   const Result<Body> body = scene_body(command.scene, (*imagery)->info());
   if (!body) return body.error();
+  if (const Status room = check_drawing_memory(command.scene.size); !room) return room.error();
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
   if (!context) return context.error();
   GlobeOptions options = globe_options(command.scene, *body);

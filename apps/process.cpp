@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
@@ -41,11 +42,12 @@ namespace {
   std::abort();
 }
 
+/// Input and output fail, as they would closed; messages go nowhere, since nobody wants them.
 void open_standard_streams() {
-  constexpr std::array kWrongWay{O_WRONLY, O_RDONLY, O_RDONLY};
+  constexpr std::array kModes{O_WRONLY, O_RDONLY, O_WRONLY};
   for (int stream = 0; stream < 3; ++stream) {
     // The lowest free number is the stream's own.
-    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", kWrongWay[stream]) != stream) _exit(1);
+    if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", kModes[stream]) != stream) _exit(1);
   }
 }
 
@@ -64,6 +66,17 @@ Status flush_standard_output() {
   if (std::fflush(stdout) == 0 && !lost_before) return Done{};
   return Error{fmt::format("standard output cannot be written{}; what should stand there is lost",
                            errno != 0 ? ": " + write_failure(errno) : "")};
+}
+
+Status check_memory(std::size_t bytes, const std::string& what) {
+  // Counted against a limit, but takes no memory.
+  void* const room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) {
+    return Error{fmt::format("{} needs {} MB of memory, which there are not; raise the limit (ulimit -v)", what,
+                             bytes / 1'000'000)};
+  }
+  munmap(room, bytes);
+  return Done{};
 }
 
 void tell_failure(const char* why) noexcept {

@@ -74,12 +74,16 @@ class LostOutput(ProgramTest):
         self.assertEqual(done.returncode, FAILED)
         self.assertIn("standard output", done.stderr)
 
+    def tiles(self):
+        servers.write_pyramid(self.folder / "tiles", 2)
+        return self.folder / "tiles"
+
     def test_lists_of_tiles(self):
-        with servers.nginx(NATURAL_EARTH) as server:
-            for option, levels in ("--stored", "0-1"), ("--missing", "0-9"):
+        with servers.misbehaving(self.tiles(), {"1/0/0.jpg": "403"}) as server:
+            for option in "--stored", "--missing":
                 with self.subTest(option):
-                    self.assert_fails(FAILED, "preload", server.template, "--levels", levels, "--bbox", "5,46,6,47", "-o",
-                                      "cache.gpkg", option, "/dev/full", says=["/dev/full", "No space left"])
+                    self.assert_fails(FAILED, "preload", server.template, "--levels", "0-1", "-o", f"{option}.gpkg",
+                                      f"{option}=/dev/full", says=["/dev/full", "No space left"])
 
     def test_lost_messages_do_not_abort(self):
         self.write("planet.png", png(128, 64))
@@ -120,7 +124,7 @@ class Memory(ProgramTest):
         width, height = 200_000, 64
         self.write("wide.png", png(width, height))
         side_deg = 180 / width * height
-        self.assert_ends_well((200, 300, 400, 600, 800, 1200, 2400), "cut", "wide.png", "-o", "wide.gpkg", "--force",
+        self.assert_ends_well((200, 300, 400, 600, 800, 1200, 2400), "cut", "wide.png", "-o", "wide.gpkg",
                               f"--bounds=-180,0,0,{side_deg}")
 
     def test_cut_of_a_picture_that_is_decoded_whole(self):
