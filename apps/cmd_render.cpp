@@ -86,9 +86,10 @@ void wait_for_tiles(Globe& globe, const OffscreenTarget& target, Viewport size,
   }
 }
 
-/// By trials with Mesa's software driver, which 600 MB of address space ended with SIGSEGV, and 800 MB did not.
+/// By trials with Mesa's software driver and its compiler, which end the program when memory runs out: limits up to
+/// 900 MB did so now and then.
 Status check_drawing_memory(Viewport size) {
-  constexpr std::size_t kDriver_bytes = 600'000'000;
+  constexpr std::size_t kDriver_bytes = 1'200'000'000;
   constexpr std::size_t kBytesAPixel = 32;
   const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
   return check_memory(kDriver_bytes + kBytesAPixel * pixels,

@@ -132,7 +132,9 @@ TEST_F(Output, FolderIsMissing) {
 }
 
 TEST_F(Output, SomethingElseIsThere) {
-  expect_not_written(picture_, "is a file");
+  expect_not_written(picture_, "is the picture");
+  write_bytes(folder_ / "file", {});
+  expect_not_written(folder_ / "file", "is a file");
   fs::create_directory(folder_ / "out.gpkg");
   expect_not_written(folder_ / "out.gpkg", "is a folder");
   fs::create_directory(folder_ / "letters");
