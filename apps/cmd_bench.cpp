@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "apps/bench/benches.h"
@@ -12,6 +13,7 @@
 #include "apps/commands.h"
 #include "apps/console.h"
 #include "apps/open_imagery.h"
+#include "apps/stop_signals.h"
 
 namespace terrella {
 namespace {
@@ -64,7 +66,12 @@ int run(const BenchCommand& command) {
   const Result<fs::path> cache = picture_cache_folder(command.work);
   if (!cache) return fail("bench", cache.error().message);
   options.work = command.work.empty() ? *cache / "bench" : *cache;
-  options.progress = [&](const std::string& doing) { print_message("bench {}: {}\n", chosen.name, doing); };
+  const StopSignals signals;
+  options.goes_on = [] { return !StopSignals::came(); };
+  options.progress = [&](const std::string& doing) {
+    if (StopSignals::came()) throw std::runtime_error("stopped; nothing was written");
+    print_message("bench {}: {}\n", chosen.name, doing);
+  };
   // Not after minutes of measuring.
   if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
   const Result<bench::Report> report = chosen.run(options);

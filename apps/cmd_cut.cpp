@@ -200,6 +200,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   add_input_options(sub, *command);
   add_description_options(sub, cut);
   add_work_options(sub, *command);
+  sub.add_flag("--force", cut.force, "Replace a tile set that was cut from other pictures; other files stay");
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.callback([command, &exit_code] { exit_code = run(*command); });
 }

@@ -13,10 +13,12 @@
 #include "apps/console.h"
 #include "apps/open_imagery.h"
 #include "apps/picture_report.h"
+#include "apps/stop_signals.h"
 #include "apps/tile_set_report.h"
 #include "apps/verify_tiles.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/tile_range.h"
+#include "streaming/tile_source.h"
 
 namespace terrella {
 namespace {
@@ -43,7 +45,8 @@ std::optional<std::uintmax_t> size_of(const fs::path& path) {
     return error ? std::nullopt : std::optional(size);
   }
   std::uintmax_t sum = 0;
-  for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end && !StopSignals::came();
+       entry.increment(error)) {
     std::error_code vanished;
     if (entry->is_regular_file(vanished)) sum += entry->file_size(vanished);
   }
@@ -59,14 +62,30 @@ std::vector<LevelReport> count_levels(TileSource& source) {
   return levels;
 }
 
-/// A line on standard error every second or so: results go to standard output alone.
+/// A line on standard error every second or so: results go to standard output alone. Stops on a signal.
 auto progress_lines() {
   return [last = std::chrono::steady_clock::now()](std::int64_t done, std::int64_t total) mutable {
+    if (StopSignals::came()) return false;
     const auto now = std::chrono::steady_clock::now();
-    if (now - last < std::chrono::seconds(1)) return;
+    if (now - last < std::chrono::seconds(1)) return true;
     last = now;
     print_message("{} of {} tiles read\n", done, total);
+    return true;
   };
+}
+
+/// Tiles are checked as they are stored: those of a set in Web Mercator, not what is made of them.
+Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSource> source, bool is_cache) {
+  if (source->info().made_of) {
+    auto stored = open_stored_tile_set(options.tile_set.with_secrets());
+    if (!stored) return stored.error();
+    source = *std::move(stored);
+  }
+  Result<VerifyReport> verified = verify_tiles(source, progress_lines());
+  if (!verified) return Error{options.tile_set.redacted() + ": " + verified.error().message};
+  // A cache is not meant to have all tiles of its source.
+  if (is_cache) verified->absent = 0;
+  return verified;
 }
 
 int run_picture_info(const InfoOptions& options) {
@@ -77,6 +96,7 @@ int run_picture_info(const InfoOptions& options) {
 }
 
 int run_info(const InfoOptions& options) {
+  const StopSignals signals;
   // A picture is cut only to have its tiles checked.
   if (is_picture(options.tile_set) && !options.verify) return run_picture_info(options);
   SceneOptions scene;
@@ -88,6 +108,9 @@ int run_info(const InfoOptions& options) {
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(path);
   report.levels = count_levels(**source);
+  if (StopSignals::came()) {
+    return fail("info", options.tile_set.redacted() + ": stopped before its tiles were counted");
+  }
   if (is_cache(path)) {
     const std::int64_t now_unix_s = std::time(nullptr);
     Result<CacheReport> cache = options.verify ? verify_cache(path, now_unix_s) : read_cache_report(path, now_unix_s);
@@ -95,10 +118,7 @@ int run_info(const InfoOptions& options) {
     report.cache = *std::move(cache);
   }
   if (options.verify) {
-    // A cache's grid may have a million times more places than it has tiles: what is there is what is checked.
-    Result<VerifyReport> verified = report.cache
-                                        ? verify_cached_tiles(*source, path, report.cache->tiles, progress_lines())
-                                        : verify_tiles(*source, progress_lines());
+    Result<VerifyReport> verified = verify(options, *source, report.cache.has_value());
     if (!verified) return fail("info", verified.error().message);
     report.verified = *std::move(verified);
   }

@@ -5,7 +5,6 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "apps/preload_room.h"
 #include "apps/preload_source.h"
 #include "apps/stop_signals.h"
+#include "apps/tile_list_file.h"
 #include "streaming/preload/wanted_tiles.h"
 
 namespace terrella {
@@ -38,9 +38,6 @@ constexpr int kMostSampled = 20;
 constexpr double kSampleRate = 10.0;      // requests a second
 constexpr int kQuestionsAConnection = 8;  // under way at once where a connection carries several
 constexpr std::chrono::hours kDay{24};
-
-/// A file of lines; none if it has no name.
-using LinesFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 HttpOptions network_options(const PreloadCommand& command) {
   HttpOptions http = command.http;
@@ -183,19 +180,13 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   if (const Status room = check_room(command, source, plan); !room) return fail("preload", room.error().message);
   auto lacks = LackReport::open(command.missing_file);
   if (!lacks) return fail("preload", lacks.error().message);
-  LinesFile stored(command.stored_file.empty() ? nullptr : std::fopen(command.stored_file.c_str(), "ae"), &std::fclose);
-  if (!stored && !command.stored_file.empty())
-    return fail("preload", command.stored_file + ": cannot be written; see --stored");
+  auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
+  if (!stored) return fail("preload", stored.error().message);
   const auto cache = open_cache(command, source);
   if (!cache) return fail("preload", cache.error().message);
   PreloadOptions options = preload_options(command, source);
   options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };
-  if (stored) {
-    options.on_stored = [&](const TileId& id) {
-      fmt::print(stored.get(), "{}/{}/{}\n", id.level, id.x, id.y);
-      std::fflush(stored.get());
-    };
-  }
+  if (!command.stored_file.empty()) options.on_stored = [&](const TileId& id) { stored->add(id); };
   const auto begun = std::chrono::steady_clock::now();
   Result<PreloadResult> result = Error{};
   {
@@ -211,7 +202,9 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const PreloadReport report{command.output, *result, lacks->groups(), seconds};
   print_result("{}", command.json ? to_json(report) : to_text(report));
-  if (const Status listed = lacks->close(); !listed) return fail("preload", listed.error().message);
+  for (const Status& listed : {lacks->close(), stored->close()}) {
+    if (!listed) return fail("preload", listed.error().message);
+  }
   return conclude(command, *result);
 }
 

@@ -12,10 +12,12 @@
 #include "apps/eye_place.h"
 #include "apps/open_imagery.h"
 #include "apps/option_checks.h"
+#include "apps/process.h"
 #include "apps/scene_layers.h"
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/scene_overlays.h"
+#include "apps/stop_signals.h"
 #include "apps/write_file.h"
 #include "engine/globe.h"
 #include "render/offscreen.h"
@@ -95,6 +97,15 @@ Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& l
   return Error{message};
 }
 
+/// Renders until settled, or until the deadline, and looks for a signal a few times a second.
+void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline) {
+  constexpr std::chrono::milliseconds kBetweenLooks{200};
+  while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
+    const auto until = std::min(deadline, std::chrono::steady_clock::now() + kBetweenLooks);
+    if (globe.render_until_settled(framebuffer, size, until)) return;
+  }
+}
+
 /// Renders until all tiles have come, or until time is up. The eye follows the ground as heights raise it.
 void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
   constexpr int kMostMoves = 4;  // finer heights move the ground less and less
@@ -105,14 +116,35 @@ void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted
   Camera camera = out_of_ground(wanted, 0.0, may_be_under);
   for (int move = 0; move < kMostMoves; ++move) {
     globe.set_camera(camera);
-    globe.render_until_settled(framebuffer, command.scene.size, deadline);
+    wait_for_tiles(globe, framebuffer, command.scene.size, deadline);
     camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
     if (camera.eye.height_m == globe.camera().eye.height_m) break;
   }
   tell_of_move("render", wanted, globe.camera());
 }
 
+/// By trials with Mesa's software driver and its compiler, which end the program when memory runs out: limits up to
+/// 900 MB did so now and then.
+Status check_drawing_memory(Viewport size) {
+  constexpr std::size_t kDriver_bytes = 1'200'000'000;
+  constexpr std::size_t kBytesAPixel = 32;
+  const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  return check_memory(kDriver_bytes + kBytesAPixel * pixels,
+                      fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
+}
+
+std::vector<std::string> inputs_of(const SceneOptions& scene) {
+  std::vector<std::string> inputs = {scene.objects};
+  for (const Url* url : {&scene.tile_set, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
+    inputs.push_back(url->with_secrets());
+  }
+  for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
+  return inputs;
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
+  const std::vector<std::string> inputs = inputs_of(command.scene);
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
   Result<std::optional<ElevationSource>> elevation = open_elevation(command.scene);
@@ -124,6 +156,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (const Status eye = check_eye(command.scene, *body, command.scene.size); !eye) {
     throw CLI::ValidationError("--camera", eye.error().message);
   }
+  if (const Status room = check_drawing_memory(command.scene.size); !room) return room.error();
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
   if (!context) return context.error();
   GlobeOptions options = globe_options(command.scene, *body);
@@ -141,8 +174,11 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!objects) return objects.error();
   const OffscreenTarget target(command.scene.size);
   render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
+  if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
+  // Rendering takes its time: another file may have come under the name.
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
   const auto& lacking = (*globe)->lacking();
@@ -152,6 +188,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
 }
 
 int run(const RenderCommand& command) {
+  const StopSignals signals;
   const Result<Rendered> rendered = render_picture(command);
   if (!rendered) {
     return fail("render", rendered.error().message);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "apps/scene_objects.h"
 #include "apps/scene_options.h"
 #include "apps/scene_overlays.h"
+#include "apps/stop_signals.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/remote/describe_remote.h"
 
@@ -108,6 +110,8 @@ int view(const ViewOptions& options) {
   // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail("view", window.error().message);
+  // A picture that is being cut must not be left half done; the window itself may be ended at any time.
+  std::optional<StopSignals> signals(std::in_place);
   auto imagery = open_imagery(options.scene);
   if (!imagery) return fail("view", imagery.error().message);
   auto elevation = open_elevation(options.scene);
@@ -129,6 +133,8 @@ int view(const ViewOptions& options) {
   if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
     return fail("view", added.error().message);
+  if (StopSignals::came()) return fail("view", "stopped");
+  signals.reset();
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
   const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 namespace terrella {
 namespace {
@@ -36,19 +34,15 @@ const char* lack_name(Lack kind) {
 }
 
 Result<LackReport> LackReport::open(const std::filesystem::path& file) {
+  auto list = TileListFile::open(file, TileListFile::Mode::begin);
+  if (!list) return list.error();
   LackReport report;
-  report.path_ = file;
-  if (file.empty()) return report;
-  report.file_.open(file, std::ios::trunc);
-  if (!report.file_) {
-    return Error{
-        fmt::format("{}: cannot be written: {}; --missing names a file to make", file.string(), std::strerror(errno))};
-  }
+  report.list_ = *std::move(list);
   return report;
 }
 
 void LackReport::add(const TileId& id, Lack kind, const std::string& why) {
-  if (file_.is_open()) file_ << fmt::format("{}/{}/{}\t{}\t{}\n", id.level, id.x, id.y, lack_name(kind), why);
+  list_.add(id, fmt::format("\t{}\t{}", lack_name(kind), why));
   std::string reason = reason_of(why);
   if (groups_.size() >= kMostReasons && !groups_.contains({kind, reason})) reason = "other reasons";
   Group& group = groups_[{kind, reason}];
@@ -64,13 +58,6 @@ std::vector<LackReport::Group> LackReport::groups() const {
   for (const auto& [key, group] : groups_) groups.push_back(group);
   std::ranges::stable_sort(groups, std::ranges::greater(), &Group::tiles);
   return groups;
-}
-
-Status LackReport::close() {
-  if (!file_.is_open()) return Done{};
-  file_.close();
-  if (file_.fail()) return Error{fmt::format("{}: could not be written to the end; is the disk full?", path_.string())};
-  return Done{};
 }
 
 }  // namespace terrella

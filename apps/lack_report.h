@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/tile_list_file.h"
 #include "geo/result.h"
 #include "streaming/preload/preloader.h"
 
@@ -34,11 +34,10 @@ class LackReport {
   /// Most tiles first; reasons beyond the first hundred different ones stand as one.
   [[nodiscard]] std::vector<Group> groups() const;
   /// Fails if the file could not be written.
-  [[nodiscard]] Status close();
+  [[nodiscard]] Status close() { return list_.close(); }
 
  private:
-  std::filesystem::path path_;
-  std::ofstream file_;
+  TileListFile list_;
   std::map<std::pair<Lack, std::string>, Group> groups_;
 };
 

@@ -4,10 +4,13 @@
 #include <CLI/Formatter.hpp>
 
 #include <exception>
+#include <new>
 #include <string>
+#include <system_error>
 
 #include "apps/commands.h"
 #include "apps/console.h"
+#include "apps/process.h"
 
 namespace {
 
@@ -55,7 +58,9 @@ int terrella::fail(const char* command, const std::string& why) {
   return kFailed;
 }
 
-int main(int argc, char** argv) {
+namespace {
+
+int run_program(int argc, char** argv) {
   CLI::App app("A globe for equirectangular pictures and tile sets of any planet.", "terrella");
   app.set_version_flag("--version", std::string("terrella ") + TERRELLA_VERSION);
   app.require_subcommand(1);
@@ -73,8 +78,30 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return report_parse(app, error);
-  } catch (const std::exception& error) {
-    print_message("terrella: {}\n", error.what());
-    return kFailed;
   }
+}
+
+int run_guarded(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    tell_failure(kOutOfMemory);
+  } catch (const std::system_error& error) {
+    const bool threads = error.code() == std::errc::resource_unavailable_try_again;
+    tell_failure(threads ? kOutOfThreads : error.what());
+  } catch (const std::exception& error) {
+    tell_failure(error.what());
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  prepare_process();
+  const int exit_code = run_guarded(argc, argv);
+  const Status printed = flush_standard_output();
+  if (printed) return exit_code;
+  tell_failure(printed.error().message.c_str());
+  return exit_code == kWrongUsage ? kWrongUsage : kFailed;
 }

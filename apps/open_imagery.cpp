@@ -13,6 +13,7 @@
 #include "apps/no_cache.h"
 #include "apps/open_remote.h"
 #include "apps/progress.h"
+#include "apps/stop_signals.h"
 #include "apps/user_folder.h"
 #include "streaming/cut.h"
 #include "streaming/remote/describe_remote.h"
@@ -89,7 +90,7 @@ Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const 
   Progress progress("cutting " + picture.filename().string());
   cut.progress = told ? told : [&progress](std::int64_t done, std::int64_t total) {
     progress.show(done, total);
-    return true;
+    return !StopSignals::came();
   };
   const auto tiles = cut_into_cache(cut, folder);
   if (!tiles) return tiles.error();
@@ -147,7 +148,9 @@ Error no_meaning(const Url& address, const char* field) {
       address.redacted(), field)};
 }
 
-bool starts_like_a_picture(const fs::path& path) {
+}  // namespace
+
+bool begins_as_picture(const fs::path& path) {
   std::array<char, 8> head{};
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());
@@ -158,8 +161,6 @@ bool starts_like_a_picture(const fs::path& path) {
   return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
 }
 
-}  // namespace
-
 bool is_picture(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return false;
@@ -167,7 +168,7 @@ bool is_picture(const fs::path& path) {
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
-  return std::ranges::find(kExtensions, extension) != kExtensions.end() || starts_like_a_picture(path);
+  return std::ranges::find(kExtensions, extension) != kExtensions.end() || begins_as_picture(path);
 }
 
 Result<fs::path> picture_cache_folder(const std::string& cache) {

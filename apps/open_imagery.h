@@ -39,6 +39,9 @@ using CutProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 /// True for a file that begins as a JPEG, PNG or TIFF does, or whose name ends as theirs do. thread: any
 [[nodiscard]] bool is_picture(const std::filesystem::path& path);
 
+/// True for a file that begins as a JPEG, PNG or TIFF does. thread: any
+[[nodiscard]] bool begins_as_picture(const std::filesystem::path& path);
+
 /// The folder that pictures are cut into, for --cache as given (not "off"). Empty: $XDG_CACHE_HOME/terrella or
 /// ~/.cache/terrella. A GeoPackage's name stands for the folder NAME-pictures beside it, anything else is the folder
 /// itself. thread: any

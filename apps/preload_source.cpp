@@ -1,10 +1,12 @@
 #include "apps/preload_source.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <future>
 #include <utility>
 
+#include "apps/stop_signals.h"
 #include "streaming/remote/describe_remote.h"
 
 namespace terrella {
@@ -57,6 +59,10 @@ Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url
   request.url = url;
   request.headers = headers;
   fetcher.submit(std::move(request));
+  constexpr std::chrono::milliseconds kBetweenLooks{100};
+  while (answer.wait_for(kBetweenLooks) != std::future_status::ready) {
+    if (StopSignals::came()) return Error{"stopped before it answered"};
+  }
   HttpReply reply = answer.get();
   if (reply.outcome != HttpOutcome::content) return Error{reply.why};
   return std::move(reply.body);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace terrella {
 
-/// While it lives, the first SIGINT or SIGTERM is noted rather than obeyed; the second one ends the program as ever.
-/// One at a time. thread: main
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP is noted rather than obeyed; the second one of a kind ends the
+/// program at once. A SIGHUP that was ignored at the start, as under nohup, stays ignored. One at a time. thread: main
 class StopSignals {
  public:
   StopSignals();
@@ -16,8 +17,8 @@ class StopSignals {
   [[nodiscard]] static bool came();  ///< thread: any
 
  private:
-  struct sigaction interrupt_before_ {};
-  struct sigaction terminate_before_ {};
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 }  // namespace terrella

@@ -1,12 +1,14 @@
 #include "apps/verify_tiles.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
 #include <thread>
 #include <utility>
 
-#include "streaming/cache/cache_report.h"
+#include "streaming/tile_lister.h"
 #include "streaming/tile_loader.h"
 #include "streaming/tile_range.h"
 
@@ -67,7 +69,12 @@ std::int64_t count_all(const TileGrid& grid) {
   return total;
 }
 
-using VerifyProgress = std::function<void(std::int64_t done, std::int64_t total)>;
+std::int64_t count_listed(TileSource& source) {
+  const TileGrid& grid = source.info().grid;
+  std::int64_t total = 0;
+  for (int level = grid.min_level; level <= grid.max_level; ++level) total += source.count_tiles(level).value_or(0);
+  return total;
+}
 
 /// Takes tiles one by one and loads them in batches.
 class Verifier {
@@ -75,14 +82,16 @@ class Verifier {
   Verifier(const std::shared_ptr<TileSource>& source, std::int64_t total, const VerifyProgress& progress)
       : loader_(source, options()), total_(total), progress_(progress) {}
 
+  /// False once the progress has asked to stop.
   bool take(const TileId& id) {
     batch_.push_back({id, 0.0});
     if (batch_.size() == kBatch) flush();
-    return true;
+    return !stopped_;
   }
 
-  VerifyReport finish() {
-    flush();
+  Result<VerifyReport> finish() {
+    if (!stopped_) flush();
+    if (stopped_) return Error{fmt::format("stopped after {} tiles; {} of them are broken", done_, report_.bad)};
     const auto before = [](const BadTile& a, const BadTile& b) { return a.id < b.id; };
     std::sort(report_.first_bad.begin(), report_.first_bad.end(), before);
     return std::move(report_);
@@ -100,37 +109,48 @@ class Verifier {
     load(loader_, batch_, report_);
     done_ += static_cast<std::int64_t>(batch_.size());
     batch_.clear();
-    progress_(done_, std::max(done_, total_));
+    stopped_ = !progress_(done_, std::max(done_, total_));
   }
 
   TileLoader loader_;
   const std::int64_t total_;
   const VerifyProgress& progress_;
   std::int64_t done_ = 0;
+  bool stopped_ = false;
   std::vector<TileRequest> batch_;
   VerifyReport report_;
 };
 
-}  // namespace
+Result<VerifyReport> verify_listed(const std::shared_ptr<TileSource>& source, TileLister& lister,
+                                   const VerifyProgress& progress) {
+  Verifier verifier(source, count_listed(*source), progress);
+  const Status listed = lister.for_each_tile([&](const TileId& id) { return verifier.take(id); });
+  if (!listed) return listed.error();
+  Result<VerifyReport> report = verifier.finish();
+  if (!report) return report;
+  const std::int64_t found = report->good + report->blank + report->bad;
+  report->absent = std::max<std::int64_t>(0, count_all(source->info().grid) - found);
+  return report;
+}
 
-VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source, const VerifyProgress& progress) {
+Result<VerifyReport> verify_places(const std::shared_ptr<TileSource>& source, const VerifyProgress& progress) {
   const TileGrid& grid = source->info().grid;
   Verifier verifier(source, count_all(grid), progress);
+  const auto take = [&](const TileId& id) { return verifier.take(id); };
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
-    for_each_place(grid, level, [&](const TileId& id) { return verifier.take(id); });
+    for_each_place(grid, level, take);
     for_each_squeezed_row(grid, level, [&](std::int64_t y, int squeeze, std::int64_t tiles) {
-      for (std::int64_t x = 0; x < tiles; ++x) verifier.take({level, x, y, squeeze});
+      for (std::int64_t x = 0; x < tiles && take({level, x, y, squeeze});) ++x;
     });
   }
   return verifier.finish();
 }
 
-Result<VerifyReport> verify_cached_tiles(const std::shared_ptr<TileSource>& source, const std::filesystem::path& cache,
-                                         std::int64_t total, const VerifyProgress& progress) {
-  Verifier verifier(source, total, progress);
-  const Status listed = for_each_cached_tile(cache, [&](const TileId& id) { return verifier.take(id); });
-  if (!listed) return listed.error();
-  return verifier.finish();
+}  // namespace
+
+Result<VerifyReport> verify_tiles(const std::shared_ptr<TileSource>& source, const VerifyProgress& progress) {
+  if (auto* lister = dynamic_cast<TileLister*>(source.get())) return verify_listed(source, *lister, progress);
+  return verify_places(source, progress);
 }
 
 }  // namespace terrella

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -8,13 +7,13 @@
 
 namespace terrella {
 
-/// Reads and decodes every tile within the bounds, on several threads. `progress` is called from time to time with
-/// tiles asked for so far and in all. thread: main
-[[nodiscard]] VerifyReport verify_tiles(const std::shared_ptr<TileSource>& source,
-                                        const std::function<void(std::int64_t done, std::int64_t total)>& progress);
-/// The same for the tiles that a cache holds, which are `total` or so: what it lacks is not counted as absent.
-[[nodiscard]] Result<VerifyReport> verify_cached_tiles(
-    const std::shared_ptr<TileSource>& source, const std::filesystem::path& cache, std::int64_t total,
-    const std::function<void(std::int64_t done, std::int64_t total)>& progress);
+/// Called from time to time with tiles read so far and in all; false asks to stop.
+using VerifyProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+/// Reads and decodes every tile that is there, on several threads. The time and memory depend on the tiles, not on the
+/// grid's places: a source that is no TileLister alone is asked for each place. Places without a tile are absent. An
+/// error if the source cannot list its tiles, or if `progress` asked to stop. thread: main
+[[nodiscard]] Result<VerifyReport> verify_tiles(const std::shared_ptr<TileSource>& source,
+                                                const VerifyProgress& progress);
 
 }  // namespace terrella

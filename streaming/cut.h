@@ -50,6 +50,7 @@ struct CutOptions {
   int jobs = 0;                        ///< encoders; 0: as many as cores
   std::optional<CutShard> shard = {};  ///< cut that part alone, into OUTPUT.shard-I-of-N
   bool join = false;                   ///< make the output of the shards that lie beside it
+  bool force = false;                  ///< replaces a tile set that was cut from other pictures, too
   /// Called from the calling thread with rows done and rows in all; false asks to stop.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
 };
@@ -63,7 +64,8 @@ struct CutSummary {
 /// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory
 /// does not grow with its height), the source's own pixels at the finest level (root span = tile_px · pixel size ·
 /// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
-/// under its name only when it is whole. What a killed run has left is gone on with if options and pictures are the
+/// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
+/// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
 /// same; the result is the same bytes.
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 

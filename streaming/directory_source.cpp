@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 
+#include "geo/number.h"
 #include "streaming/file_bytes.h"
+#include "streaming/tile_lister.h"
 #include "streaming/tileset_json.h"
 #include "streaming/tms_roots.h"
 #include "streaming/tms_xml.h"
@@ -14,7 +18,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DirectorySource : public TileSource {
+/// Numbers of columns and rows stay below it at every level.
+constexpr double kMostTilesAcross = 1e15;
+
+/// The whole number that a name is, written as tiles' names are; nothing for any other name.
+std::optional<std::int64_t> number_named(const std::string& name) {
+  const auto number = read_number(name);
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kMostTilesAcross) return {};
+  const auto whole = static_cast<std::int64_t>(*number);
+  return std::to_string(whole) == name ? std::optional(whole) : std::nullopt;
+}
+
+class DirectorySource : public TileSource, public TileLister {
  public:
   DirectorySource(TileSetInfo info, DirectoryLayout layout) : info_(std::move(info)), layout_(std::move(layout)) {}
 
@@ -43,11 +58,63 @@ class DirectorySource : public TileSource {
     return count;
   }
 
+  [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
+    for (const auto& [level, folder] : layout_.folder) {
+      for (const bool squeezed : {false, true}) {
+        if (squeezed && !info_.grid.reduced) continue;
+        const Result<bool> more = list_level(level, squeezed, call);
+        if (!more) return more.error();
+        if (!*more) return Done{};
+      }
+    }
+    return Done{};
+  }
+
  private:
+  using Call = std::function<bool(const TileId&)>;
+
+  [[nodiscard]] fs::path levels(bool squeezed) const {
+    return squeezed ? layout_.root / kSqueezedFolder : layout_.root;
+  }
+
+  /// False if the call wants no more. A level without a folder has no tiles.
+  [[nodiscard]] Result<bool> list_level(int level, bool squeezed, const Call& call) const {
+    const fs::path folder = levels(squeezed) / layout_.folder.at(level);
+    std::error_code failed;
+    for (fs::directory_iterator column(folder, failed), end; !failed && column != end; column.increment(failed)) {
+      const auto x = number_named(column->path().filename().string());
+      std::error_code vanished;
+      if (!x || !column->is_directory(vanished)) continue;
+      const Result<bool> more = list_column(column->path(), {.level = level, .x = *x}, squeezed, call);
+      if (!more || !*more) return more;
+    }
+    if (failed && failed != std::errc::no_such_file_or_directory) return cannot_list(folder, failed);
+    return true;
+  }
+
+  [[nodiscard]] Result<bool> list_column(const fs::path& folder, TileId id, bool squeezed, const Call& call) const {
+    std::error_code failed;
+    for (fs::directory_iterator tile(folder, failed), end; !failed && tile != end; tile.increment(failed)) {
+      const auto row = number_named(tile->path().stem().string());
+      if (!row || tile->path().extension() != "." + layout_.extension) continue;
+      id.y = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - *row : *row;
+      id.squeeze =
+          squeezed && id.y >= 0 && id.y < rows(info_.grid, id.level) ? squeeze_of_row(info_.grid, id.level, id.y) : 0;
+      if ((id.squeeze > 0) != squeezed || !exists(info_.grid, id)) continue;
+      if (!call(id)) return false;
+    }
+    if (failed) return cannot_list(folder, failed);
+    return true;
+  }
+
+  static Error cannot_list(const fs::path& folder, const std::error_code& why) {
+    return Error{fmt::format("{}: cannot be listed: {}; check the folder's rights", folder.string(), why.message())};
+  }
+
   [[nodiscard]] fs::path path_of(const TileId& id) const {
     const std::int64_t row = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - id.y : id.y;
-    const fs::path levels = id.squeeze == 0 ? layout_.root : layout_.root / kSqueezedFolder;
-    return levels / layout_.folder.at(id.level) / std::to_string(id.x) / fmt::format("{}.{}", row, layout_.extension);
+    return levels(id.squeeze != 0) / layout_.folder.at(id.level) / std::to_string(id.x) /
+           fmt::format("{}.{}", row, layout_.extension);
   }
 
   static TileFailure failure(const FileError& error) {

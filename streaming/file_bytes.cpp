@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -78,6 +79,23 @@ Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path&
   const Result<std::size_t, FileError> size = size_of(file, path);
   if (!size) return size.error();
   return read_bytes(file, path, std::min(*size, max_bytes));
+}
+
+std::string write_failure(int error_number) {
+  if (error_number == 0) return "unknown reason";
+  rlimit limit{};
+  const bool limited = error_number == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  if (!limited) return std::strerror(error_number);
+  return fmt::format("{}: a limit of {} bytes on the size of files is in force (ulimit -f)",
+                     std::strerror(error_number), limit.rlim_cur);
+}
+
+std::string why_not_written(int error_number) {
+  const char* advice = "; check that the folder exists and may be written to";
+  if (error_number == ENOSPC || error_number == EDQUOT) advice = "; make room, or name an output on another disk";
+  if (error_number == EFBIG) advice = "; raise the limit, or name an output on a file system that takes larger files";
+  if (error_number == 0) advice = "";
+  return write_failure(error_number) + advice;
 }
 
 }  // namespace terrella

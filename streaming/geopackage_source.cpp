@@ -13,6 +13,7 @@
 #include "streaming/mbtiles_source.h"
 #include "streaming/sqlite_reader.h"
 #include "streaming/sqlite_tiles.h"
+#include "streaming/tile_lister.h"
 #include "streaming/tileset_json.h"
 
 namespace terrella {
@@ -22,10 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
-class GeoPackageSource : public TileSource {
+class GeoPackageSource : public TileSource, public TileLister {
  public:
-  GeoPackageSource(GeoPackageTiles tiles, std::unique_ptr<SqliteTiles> table, std::unique_ptr<SqliteTiles> squeezed)
-      : tiles_(std::move(tiles)), table_(std::move(table)), squeezed_(std::move(squeezed)) {}
+  GeoPackageSource(fs::path path, GeoPackageTiles tiles, std::unique_ptr<SqliteTiles> table,
+                   std::unique_ptr<SqliteTiles> squeezed)
+      : path_(std::move(path)), tiles_(std::move(tiles)), table_(std::move(table)), squeezed_(std::move(squeezed)) {}
 
   [[nodiscard]] const TileSetInfo& info() const override { return tiles_.info; }
 
@@ -45,7 +47,39 @@ class GeoPackageSource : public TileSource {
     return found == tiles_.levels.end() ? 0 : table_->count(found->second.zoom);
   }
 
+  [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
+    for (const auto& [level, place] : tiles_.levels) {
+      auto more = table_->for_each(place.zoom, [&, at = place, level = level](std::int64_t column, std::int64_t row) {
+        if (column < 0 || column >= at.columns || row < 0 || row >= at.rows) return true;
+        const TileId id = tile_at(at, level, column, row);
+        return !exists(tiles_.info.grid, id) || call(id);
+      });
+      if (more && *more && squeezed_) {
+        more = squeezed_->for_each(place.zoom, [&, level = level](std::int64_t column, std::int64_t row) {
+          const TileId id = squeezed_tile_at(level, column, row);
+          return id.squeeze == 0 || !exists(tiles_.info.grid, id) || call(id);
+        });
+      }
+      if (!more) return Error{fmt::format("{}: its tiles cannot be listed: {}", path_.string(), more.error().message)};
+      if (!*more) return Done{};
+    }
+    return Done{};
+  }
+
  private:
+  /// The inverse of place_of().
+  static TileId tile_at(const GeoPackageLevel& at, int level, std::int64_t column, std::int64_t row) {
+    const std::int64_t x = column + at.first_column;
+    const bool beyond = at.turn_columns > 0 && x >= at.turn_columns;
+    return {.level = level, .x = beyond ? x - at.turn_columns : x, .y = row + at.first_row};
+  }
+
+  [[nodiscard]] TileId squeezed_tile_at(int level, std::int64_t column, std::int64_t row) const {
+    const TileGrid& grid = tiles_.info.grid;
+    const bool on_grid = row >= 0 && row < rows(grid, level);
+    return {.level = level, .x = column, .y = row, .squeeze = on_grid ? squeeze_of_row(grid, level, row) : 0};
+  }
+
   static std::optional<std::pair<std::int64_t, std::int64_t>> place_of(const GeoPackageLevel& level, const TileId& id) {
     std::int64_t column = id.x - level.first_column;
     if (column < 0) column += level.turn_columns;
@@ -54,6 +88,7 @@ class GeoPackageSource : public TileSource {
     return std::pair(column, row);
   }
 
+  const fs::path path_;
   const GeoPackageTiles tiles_;
   const std::unique_ptr<SqliteTiles> table_;
   const std::unique_ptr<SqliteTiles> squeezed_;  ///< there if the grid is reduced
@@ -101,7 +136,7 @@ Result<std::unique_ptr<TileSource>> open_geopackage(const fs::path& path, bool g
     squeezed = *std::move(opened);
   }
   return std::unique_ptr<TileSource>(
-      std::make_unique<GeoPackageSource>(*std::move(tiles), *std::move(table), std::move(squeezed)));
+      std::make_unique<GeoPackageSource>(path, *std::move(tiles), *std::move(table), std::move(squeezed)));
 }
 
 }  // namespace terrella

@@ -142,7 +142,8 @@ std::string tile_table_sql(const std::string& name) {
          "tile_row INTEGER NOT NULL, tile_data BLOB NOT NULL, UNIQUE (zoom_level, tile_column, tile_row))";
 }
 
-std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change) {
+std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change,
+                                            const std::string& cut_key) {
   const TileGrid& grid = info.grid;
   std::vector<SqlStatement> all;
   // 'GPKG', and version 1.3.0.
@@ -156,8 +157,8 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back(matrix_set(grid));
   for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix_row(grid, level));
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
-  all.push_back(
-      {std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)", {kTileSetKey, to_tileset_json(info)}});
+  all.push_back({std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)",
+                 {kTileSetKey, to_tileset_json(info, cut_key)}});
   if (info.elevation) describe_heights(*info.elevation, all);
   if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;

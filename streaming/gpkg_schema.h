@@ -32,7 +32,9 @@ inline constexpr double kMercatorDegree_m = 6378137.0 * 3.14159265358979323846 /
 /// planet; what there is stands in gpkg_contents, with all longitudes if it crosses ±180°, as an extent cannot.
 /// Heights make it a tiled gridded coverage (OGC 17-066r1). Squeezed tiles of a reduced grid have the table
 /// kSqueezedTable, laid out as `tiles` and not named in gpkg_contents: a reader that knows nothing of it finds one tile
-/// table, with every tile of the full grid. `last_change` goes to gpkg_contents; empty: now.
-[[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change = {});
+/// table, with every tile of the full grid. `last_change` goes to gpkg_contents; empty: now. `cut_key`: as of
+/// to_tileset_json().
+[[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change = {},
+                                                          const std::string& cut_key = {});
 
 }  // namespace terrella

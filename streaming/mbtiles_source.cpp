@@ -13,6 +13,7 @@
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sqlite_tiles.h"
+#include "streaming/tile_lister.h"
 #include "streaming/tileset_check.h"
 
 namespace terrella {
@@ -22,10 +23,10 @@ constexpr std::size_t kMaxMetadata = 1000;
 constexpr std::size_t kMaxValueBytes = 16384;
 using Metadata = std::map<std::string, std::string>;
 
-class MbtilesSource : public TileSource {
+class MbtilesSource : public TileSource, public TileLister {
  public:
-  MbtilesSource(TileSetInfo info, std::unique_ptr<SqliteTiles> tiles)
-      : info_(std::move(info)), tiles_(std::move(tiles)) {}
+  MbtilesSource(std::filesystem::path path, TileSetInfo info, std::unique_ptr<SqliteTiles> tiles)
+      : path_(std::move(path)), info_(std::move(info)), tiles_(std::move(tiles)) {}
 
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
@@ -36,7 +37,21 @@ class MbtilesSource : public TileSource {
 
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count(level); }
 
+  [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
+    for (int level = info_.grid.min_level; level <= info_.grid.max_level; ++level) {
+      const auto more = tiles_->for_each(level, [&](std::int64_t column, std::int64_t row) {
+        if (row < 0 || row >= rows(info_.grid, level)) return true;
+        const TileId id{.level = level, .x = column, .y = rows(info_.grid, level) - 1 - row};
+        return !exists(info_.grid, id) || call(id);
+      });
+      if (!more) return Error{fmt::format("{}: its tiles cannot be listed: {}", path_.string(), more.error().message)};
+      if (!*more) return Done{};
+    }
+    return Done{};
+  }
+
  private:
+  const std::filesystem::path path_;
   const TileSetInfo info_;
   const std::unique_ptr<SqliteTiles> tiles_;
 };
@@ -268,7 +283,7 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   if (Status placed = place(finest, info.grid, where); !placed) return placed.error();
   Result<std::unique_ptr<SqliteTiles>, SqlError> tiles = SqliteTiles::open(path, "tiles");
   if (!tiles) return broken(tiles.error());
-  return std::unique_ptr<TileSource>(std::make_unique<MbtilesSource>(std::move(info), *std::move(tiles)));
+  return std::unique_ptr<TileSource>(std::make_unique<MbtilesSource>(path, std::move(info), *std::move(tiles)));
 }
 
 }  // namespace terrella

@@ -12,13 +12,6 @@ namespace {
 constexpr int kStepsPerCheck = 1'000;
 constexpr int kBusyTimeoutMs = 5'000;
 
-/// Processor time: a busy machine must not make an honest file slow.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 void allow(RowAllowance& allowance, std::int64_t max_steps) {
   allowance = {.steps = max_steps, .until_s = thread_seconds() + kMaxRowSeconds};
 }
@@ -51,6 +44,12 @@ int distrust(sqlite3* database, std::size_t max_value_bytes) {
 }
 
 }  // namespace
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 void SqliteQuery::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 void SqliteReader::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }

@@ -30,6 +30,9 @@ struct SqlError {
   std::string message;  ///< SQLite's words, without the path
 };
 
+/// The calling thread's processor time: a busy machine must not make an honest file slow.
+[[nodiscard]] double thread_seconds();
+
 /// What is left of a row's allowance.
 struct RowAllowance {
   std::int64_t steps = 0;

@@ -26,6 +26,30 @@ std::string select_tile(const std::string& quoted_table, TileExtras extras) {
          " t LEFT JOIN gpkg_2d_gridded_tile_ancillary a ON a.tpudt_name = ?4 AND a.tpudt_id = t.id" + place;
 }
 
+/// Bounds a list of rows. A row takes more than a byte, and some microseconds to step to: only a hostile view has more
+/// rows than the file has bytes, or takes a thousand times as long for many of them.
+class ListAllowance {
+ public:
+  explicit ListAllowance(const std::filesystem::path& path) {
+    std::error_code failed;
+    const auto bytes = std::filesystem::file_size(path, failed);
+    rows_left_ = failed ? 0 : static_cast<std::int64_t>(bytes);
+  }
+
+  Result<bool, SqlError> step(SqliteQuery& query) {
+    const double begun_s = thread_seconds();
+    const Result<bool, SqlError> more = query.step();
+    seconds_left_ += kSecondsPerRow - (thread_seconds() - begun_s);
+    if (--rows_left_ >= 0 && seconds_left_ > 0.0) return more;
+    return SqlError{SqlProblem::too_long, "listing its rows takes too long (a hostile view)"};
+  }
+
+ private:
+  static constexpr double kSecondsPerRow = 1e-3;
+  std::int64_t rows_left_ = 0;
+  double seconds_left_ = kMaxRowSeconds;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<SqliteTiles>, SqlError> SqliteTiles::open(std::filesystem::path path, std::string table,
@@ -72,6 +96,24 @@ std::optional<std::int64_t> SqliteTiles::count(std::int64_t zoom) {
   connection->count.reset();
   give_back(*std::move(connection));
   return count;
+}
+
+Result<bool, SqlError> SqliteTiles::for_each(std::int64_t zoom,
+                                             const std::function<bool(std::int64_t, std::int64_t)>& call) const {
+  Result<SqliteReader, SqlError> reader = SqliteReader::open(path_, kMaxTileBytes);
+  if (!reader) return reader.error();
+  Result<SqliteQuery, SqlError> query =
+      reader->prepare("SELECT tile_column, tile_row FROM " + quote_identifier(table_) + " WHERE zoom_level = ?1");
+  if (!query) return query.error();
+  query->bind(1, zoom);
+  ListAllowance allowance(path_);
+  Result<bool, SqlError> more = allowance.step(*query);
+  for (; more && *more; more = allowance.step(*query)) {
+    const auto column = query->integer(0), row = query->integer(1);
+    if (column && row && !call(*column, *row)) return false;
+  }
+  if (!more) return more.error();
+  return true;
 }
 
 /// What never ends for one tile does not end for the next: a file is given one such chance.

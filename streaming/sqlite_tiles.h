@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -37,6 +38,9 @@ class SqliteTiles {
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const SqlitePlace& place);
   [[nodiscard]] std::optional<std::int64_t> count(std::int64_t zoom);
+  /// Calls with the column and row of each tile of a level, until the call returns false. True: it has seen all.
+  [[nodiscard]] Result<bool, SqlError> for_each(std::int64_t zoom,
+                                                const std::function<bool(std::int64_t, std::int64_t)>& call) const;
 
  private:
   /// A connection and its two queries; used by one thread at a time.

@@ -11,8 +11,10 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <thread>
 #include <unordered_map>
 #include <unordered_set>
@@ -43,7 +45,14 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
 
   // thread: main
   void start(int workers) {
-    for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { work(); });
+    for (int i = 0; i < workers; ++i) {
+      try {
+        workers_.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {
+        if (workers_.empty()) throw;
+        return;  // the system has no more threads: fewer will do
+      }
+    }
   }
   void stop();  ///< joins the workers; what was not started is dropped
   void request(std::span<const TileRequest> wanted);
@@ -73,6 +82,10 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   void work();
   void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
   [[nodiscard]] Encoded read(const TileId& id);
+  [[nodiscard]] static TileFailure failure_of(const std::exception& error) {
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    return {Absence::failed, memory ? "not enough memory" : error.what()};
+  }
   void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
   [[nodiscard]] Result<Decoded, TileFailure> decoded(const Arrived& tile) const;
   [[nodiscard]] bool may_start() const {
@@ -258,7 +271,7 @@ typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const Tile
   try {
     return source_->read(id);
   } catch (const std::exception& error) {
-    return TileFailure{Absence::failed, error.what()};
+    return failure_of(error);
   }
 }
 
@@ -284,7 +297,7 @@ Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile
   try {
     return decode_(tile.id, *tile.encoded);
   } catch (const std::exception& error) {
-    return TileFailure{Absence::failed, error.what()};
+    return failure_of(error);
   }
 }
 

@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kVersion = 1;
+constexpr const char* kCutKeyField = "cut_key";
 
 // An angle that was given as 45 comes back from radians as 45.000000000000007; 1e-11 degrees is a micrometre on Earth.
 double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; }
@@ -59,7 +60,7 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
 
 }  // namespace
 
-std::string to_tileset_json(const TileSetInfo& info) {
+std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key) {
   const TileGrid& grid = info.grid;
   nlohmann::ordered_json object;
   object["version"] = kVersion;
@@ -80,7 +81,15 @@ std::string to_tileset_json(const TileSetInfo& info) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
     if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
   }
+  if (!cut_key.empty()) object[kCutKeyField] = cut_key;
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> read_cut_key(std::string_view text) {
+  const Result<json> object = parse_json_object(text, kMaxTileSetJsonBytes, {});
+  if (!object) return {};
+  const auto key = object->find(kCutKeyField);
+  return key != object->end() && key->is_string() ? std::optional(key->get<std::string>()) : std::nullopt;
 }
 
 Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,8 +21,11 @@ inline constexpr const char* kSqueezedFolder = "squeezed";
 inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
 
 /// The description of a tile set as JSON text, fields as in streaming/README.md. Bytes that are not UTF-8 in a name are
-/// replaced by U+FFFD. thread: any
-[[nodiscard]] std::string to_tileset_json(const TileSetInfo& info);
+/// replaced by U+FFFD. A `cut_key` that is not empty marks the set as written by `cut`. thread: any
+[[nodiscard]] std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key = {});
+
+/// The `cut_key` of a description; nothing if `cut` did not write it. thread: any
+[[nodiscard]] std::optional<std::string> read_cut_key(std::string_view text);
 
 /// Reads it back and checks every field. `where` (a path) begins the error, which names the field and what it may be.
 /// Unknown fields are passed over. thread: any

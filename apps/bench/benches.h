@@ -24,6 +24,7 @@ struct BenchOptions {
   std::string only = {};                          ///< views or flights whose name has this; empty: all
   std::optional<ShaderFunctions> functions = {};  ///< of the self-test's shaders; none: what the engine chooses
   std::function<void(const std::string& doing)> progress = [](const std::string&) {};
+  std::function<bool()> goes_on = [] { return true; };  ///< asked while pictures are cut; false stops
 
   [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
 };

@@ -35,6 +35,7 @@ CutOptions cut_options(const BenchOptions& options) {
   cut.images = {picture_file(options)};
   cut.format = ImageFormat::png;
   cut.name = "noise planet";
+  cut.progress = [goes_on = options.goes_on](auto, auto) { return goes_on(); };
   return cut;
 }
 

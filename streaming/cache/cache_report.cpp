@@ -166,15 +166,4 @@ Result<CacheReport> verify_cache(const fs::path& path, std::int64_t now_unix_s) 
   return report;
 }
 
-Status for_each_cached_tile(const fs::path& path, const std::function<bool(const TileId&)>& call) {
-  Questions questions(path);
-  questions.ask("SELECT zoom_level, tile_column, tile_row FROM tiles ORDER BY zoom_level, tile_column, tile_row",
-                [&](const SqliteQuery& query) {
-                  return call({static_cast<int>(query.integer(0).value_or(0)), query.integer(1).value_or(0),
-                               query.integer(2).value_or(0)});
-                });
-  if (questions.error()) return *questions.error();
-  return Done{};
-}
-
 }  // namespace terrella

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,9 +34,5 @@ struct CacheReport {
 
 /// The same, and reads every page of the database (PRAGMA integrity_check): seconds for each gigabyte.
 [[nodiscard]] Result<CacheReport> verify_cache(const std::filesystem::path& path, std::int64_t now_unix_s);
-
-/// Calls for each tile that is there, level by level, until the call returns false.
-[[nodiscard]] Status for_each_cached_tile(const std::filesystem::path& path,
-                                          const std::function<bool(const TileId&)>& call);
 
 }  // namespace terrella

@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "streaming/file_bytes.h"
+
 namespace terrella {
 namespace {
 
@@ -34,7 +36,7 @@ WriteError error_of(sqlite3* database, int code, int system_error) {
   const bool full =
       code == SQLITE_FULL ||
       (code == SQLITE_IOERR && (system_error == ENOSPC || system_error == EFBIG || system_error == EDQUOT));
-  if (full) return {WriteProblem::full, std::strerror(system_error == 0 ? ENOSPC : system_error)};
+  if (full) return {WriteProblem::full, write_failure(system_error == 0 ? ENOSPC : system_error)};
   if (code == SQLITE_IOERR && system_error != 0) return {WriteProblem::other, std::strerror(system_error)};
   const std::string words = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
   switch (code) {

@@ -86,11 +86,13 @@ class BandMaker {
   Status rows_kept_ = Done{};
 };
 
+std::int64_t rows_in(const BandWork& work) { return work.plan.finest.y1 - work.plan.finest.y0; }
+
 Status stopped(const BandWork& work) { return Error{fmt::format("{}: cutting was stopped", work.output.string())}; }
 
 /// Rows [from, to) of the picture.
 Status stream_rows(const BandWork& work, RowReader& reader, std::int64_t from, std::int64_t to, BandMaker& maker) {
-  const std::int64_t total = work.plan.finest.y1 - work.plan.finest.y0;
+  const std::int64_t total = rows_in(work);
   for (std::int64_t y = from; y < to; ++y) {
     if (Status read = maker.read_row(reader); !read) return read;
     if ((y + 1) % kRowsPerProgress != 0 && y + 1 != total) continue;
@@ -227,6 +229,7 @@ Result<TileCounts> join_bands(const BandWork& work, const std::vector<fs::path>&
   TileCounts counts;
   for (const fs::path& band : bands) {
     if (Status copied = copy_tiles(band.string() + ".tiles", writer, counts); !copied) return copied.error();
+    if (const std::int64_t all = rows_in(work); work.progress && !work.progress(all, all)) return stopped(work).error();
   }
   if (work.layout.coarsest == 0) return counts;
   if (Status made = make_coarse_levels(work, bands, writer, counts); !made) return made.error();

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "streaming/cut/bands.h"
 #include "streaming/cut/cut_input.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
+#include "streaming/cut/output_claim.h"
 #include "streaming/cut/shards.h"
 #include "streaming/cut/tile_writer.h"
 #include "streaming/cut/work_folder.h"
@@ -36,7 +38,7 @@ std::optional<std::uint16_t> nodata_of(const CutInput& input) {
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
   const bool needs_png = input.rows->info().has_alpha || input.elevation;
-  return {.name = options.name.empty() ? options.images.front().stem().string() : options.name,
+  return {.name = options.name,
           .attribution = options.attribution,
           .body = options.body,
           .grid = plan.grid,
@@ -47,7 +49,7 @@ TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutIn
 /// One call of cut(), its pictures opened and its output checked.
 struct Job {
   const CutOptions& options;
-  fs::path output;
+  OutputClaim claim;
   CutInput input;
   CutPlan plan;
   TileSetInfo info;
@@ -61,16 +63,19 @@ struct Job {
             .nodata = nodata_of(input),
             .coding = {.format = info.format, .quality = options.quality, .heights = input.elevation.has_value()},
             .jobs = encoder_count(options.jobs),
-            .output = output,
+            .output = claim.output,
             .progress = options.progress};
   }
 };
 
 Result<CutSummary> join(const Job& job, const std::vector<fs::path>& bands, const WorkFolder& folder) {
-  auto writer = make_tile_writer({.output = job.output,
-                                  .part = folder / "output",
-                                  .info = job.info,
-                                  .last_change = last_change_of(job.options.images)});
+  auto writer = make_tile_writer(
+      {.output = job.claim.output,
+       .part = folder / "output",
+       .info = job.info,
+       .last_change = last_change_of(job.options.images),
+       .mark = job.claim.mark,
+       .may_replace = [&claim = job.claim](const fs::path& there) { return may_replace(claim, there); }});
   if (!writer) return writer.error();
   const auto counts = join_bands(job.work(), bands, **writer);
   if (!counts) return counts.error();
@@ -79,7 +84,7 @@ Result<CutSummary> join(const Job& job, const std::vector<fs::path>& bands, cons
 }
 
 Result<CutSummary> cut_whole(const Job& job) {
-  const auto folder = WorkFolder::beside(job.output, job.key);
+  const auto folder = WorkFolder::beside(job.claim.output, job.key);
   if (!folder) return folder.error();
   const BandWork work = job.work();
   if (Status made = make_bands(work, *job.input.rows, 0, work.layout.count, *folder); !made) return made.error();
@@ -91,7 +96,7 @@ Result<CutSummary> cut_whole(const Job& job) {
 Result<CutSummary> cut_shard(const Job& job) {
   const BandWork work = job.work();
   const BandRange mine = bands_of_shard(*job.options.shard, work.layout.count);
-  auto folder = WorkFolder::named(shard_folder(job.output, *job.options.shard), job.key);
+  auto folder = WorkFolder::named(shard_folder(job.claim.output, *job.options.shard), job.key);
   if (!folder) return folder.error();
   if (Status made = make_bands(work, *job.input.rows, mine.begin, mine.end, *folder); !made) return made.error();
   const auto counts = count_bands(*folder, mine);
@@ -100,9 +105,9 @@ Result<CutSummary> cut_shard(const Job& job) {
 }
 
 Result<CutSummary> join_shards(const Job& job) {
-  const auto shards = find_shards(job.output, job.key, bands_of(job.plan).count);
+  const auto shards = find_shards(job.claim.output, job.key, bands_of(job.plan).count);
   if (!shards) return shards.error();
-  const auto folder = WorkFolder::beside(job.output, job.key);
+  const auto folder = WorkFolder::beside(job.claim.output, job.key);
   if (!folder) return folder.error();
   auto summary = join(job, shards->bands, *folder);
   if (!summary) return summary;
@@ -124,34 +129,56 @@ Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, Cut
   return Error{fmt::format("{}; or resample it: {}", plan.error().message, input.resample_command)};
 }
 
+/// Before any work: what the output would replace may be known to stay.
+Result<OutputClaim> claim_output(const CutOptions& options) {
+  if (options.output.empty()) return Error{"no output is named; give a file that ends in .gpkg, or a folder"};
+  const auto key = cut_key(options);
+  if (!key) return key.error();
+  OutputClaim claim{.output = without_trailing_slash(options.output),
+                    .images = options.images,
+                    .mark = cut_mark(*key),
+                    .force = options.force};
+  if (Status may = may_replace(claim, claim.output); !may) return may.error();
+  return claim;
+}
+
 Result<Job> prepare(const CutOptions& options) {
   if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG or TIFF file"};
   if (Status sane = check_shard(options); !sane) return sane.error();
-  const fs::path output = without_trailing_slash(options.output);
+  auto claim = claim_output(options);
+  if (!claim) return claim.error();
   auto input = open_input(options);
   if (!input) return input.error();
   CutOptions placed;
   const auto plan = plan_input(options, *input, placed);
   if (!plan) return plan.error();
-  if (Status may = check_output(output); !may) return may.error();
   const auto key = cut_key(placed);
   if (!key) return key.error();
   input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
   TileSetInfo info = describe(options, *plan, *input);
-  return Job{options, output, *std::move(input), *plan, std::move(info), *key};
+  return Job{options, *std::move(claim), *std::move(input), *plan, std::move(info), *key};
+}
+
+Result<CutSummary> run(const CutOptions& options) {
+  const auto job = prepare(options);
+  if (!job) return job.error();
+  if (options.shard) return cut_shard(*job);
+  return options.join ? join_shards(*job) : cut_whole(*job);
 }
 
 }  // namespace
 
-Result<CutSummary> cut(const CutOptions& options) {
-  const auto job = prepare(options);
-  if (!job) return job.error();
+Result<CutSummary> cut(const CutOptions& asked) {
+  CutOptions options = asked;
+  if (options.name.empty() && !options.images.empty()) options.name = options.images.front().stem().string();
   try {
-    if (options.shard) return cut_shard(*job);
-    return options.join ? join_shards(*job) : cut_whole(*job);
+    return run(options);
   } catch (const std::bad_alloc&) {
-    return Error{fmt::format("{}: not enough memory to cut a picture {} pixels wide; give a smaller --tile-size",
-                             options.images.front().string(), job->input.rows->info().width_px)};
+    return Error{fmt::format("{}: not enough memory to cut it; give fewer --jobs or a smaller --tile-size",
+                             options.images.front().string())};
+  } catch (const std::system_error& error) {
+    return Error{
+        fmt::format("{}: cannot be cut: {}; give fewer --jobs", options.images.front().string(), error.what())};
   }
 }
 

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "geo/hash_mix.h"
+
 namespace terrella {
 namespace {
 
@@ -40,12 +42,17 @@ Result<std::string> cut_key(const CutOptions& options) {
   for (const auto& image : options.images) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {
+      if (errno == ENOENT) return Error{fmt::format("{}: no such file", image.string())};
       return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
     }
     key += fmt::format("\n{}|{}|{}.{}", image.filename().string(), found.st_size, found.st_mtim.tv_sec,
                        found.st_mtim.tv_nsec);
   }
   return key;
+}
+
+std::string cut_mark(const std::string& key) {
+  return fmt::format("{:016x}", name_hash(key.substr(key.find('\n') + 1)));
 }
 
 std::string last_change_of(const std::vector<std::filesystem::path>& images) {

@@ -15,6 +15,9 @@ namespace terrella {
 /// found. thread: any
 [[nodiscard]] Result<std::string> cut_key(const CutOptions& options);
 
+/// The mark of a tile set cut from these pictures, with any options; see read_cut_key(). thread: any
+[[nodiscard]] std::string cut_mark(const std::string& key);
+
 /// When the pictures were changed last, as "2026-01-31T12:00:00.000Z". thread: any
 [[nodiscard]] std::string last_change_of(const std::vector<std::filesystem::path>& images);
 

@@ -1,6 +1,6 @@
 #include "streaming/cut/encode_pool.h"
 
-#include <new>
+#include <system_error>
 
 #include "streaming/cut/squeeze.h"
 
@@ -17,8 +17,18 @@ TileId tile_of(const Strip& strip, std::int64_t index) {
 
 EncodePool::EncodePool(int jobs, TileCoding coding, TileWriter& writer, std::int64_t already)
     : writer_(writer), already_(static_cast<std::uint64_t>(already)), next_to_write_(already_) {
-  for (int i = 0; i < jobs; ++i) threads_.emplace_back([this, coding] { run_encoder(coding); });
-  threads_.emplace_back([this] { run_writer(); });
+  try {
+    threads_.emplace_back([this] { run_guarded([this] { run_writer(); }); });
+    for (int i = 0; i < jobs; ++i) {
+      threads_.emplace_back([this, coding] { run_guarded([&] { run_encoder(coding); }); });
+    }
+  } catch (const std::system_error&) {
+    // One encoder is enough.
+    if (threads_.size() > 1) return;
+    fail(Error{"stopped"});
+    join();
+    throw;
+  }
 }
 
 EncodePool::~EncodePool() {
@@ -49,6 +59,7 @@ Result<TileCounts> EncodePool::finish() {
     closed_ = true;
   }
   join();
+  if (thrown_) std::rethrow_exception(thrown_);
   if (error_) return *error_;
   return counts_;
 }
@@ -70,6 +81,19 @@ void EncodePool::join() {
   encoded_.notify_all();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
+}
+
+/// An exception that leaves a thread ends the program: finish() throws it where it can be caught.
+void EncodePool::run_guarded(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception&) {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!thrown_) thrown_ = std::current_exception();
+    }
+    fail(Error{"stopped"});
+  }
 }
 
 // ---- encoder threads

@@ -3,6 +3,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -40,7 +42,8 @@ class EncodePool {
 
   void submit(const std::shared_ptr<const Strip>& strip);
   [[nodiscard]] bool failed() const;
-  /// Waits until everything is written, or tells the first failure. Nothing can be submitted after it.
+  /// Waits until everything is written, or tells the first failure. Throws what a thread has thrown (std::bad_alloc).
+  /// Nothing can be submitted after it.
   [[nodiscard]] Result<TileCounts> finish();
 
  private:
@@ -55,6 +58,7 @@ class EncodePool {
     std::vector<std::byte> bytes;
   };
 
+  void run_guarded(const std::function<void()>& work);
   void run_encoder(const TileCoding& coding);
   void run_writer();
   void fail(const Error& error);
@@ -70,6 +74,7 @@ class EncodePool {
   std::uint64_t next_to_write_ = 0;
   bool closed_ = false;
   std::optional<Error> error_;
+  std::exception_ptr thrown_;
   TileCounts counts_;
   std::vector<std::thread> threads_;
 };

@@ -35,8 +35,9 @@ class FolderWriter : public TileWriter {
   explicit FolderWriter(const WriterSetup& setup)
       : output_(setup.output),
         part_(setup.part.string() + ".new"),
-        old_(setup.part.string() + ".old"),
-        info_(setup.info) {}
+        info_(setup.info),
+        mark_(setup.mark),
+        may_replace_(setup.may_replace) {}
   ~FolderWriter() override {
     std::error_code ignored;
     fs::remove_all(part_, ignored);
@@ -67,7 +68,7 @@ class FolderWriter : public TileWriter {
   }
 
   [[nodiscard]] Status finish() override {
-    const std::string description = to_tileset_json(info_);
+    const std::string description = to_tileset_json(info_, mark_);
     if (const int failed = write_file(part_ / kTileSetFile, std::as_bytes(std::span(description))); failed != 0) {
       return cannot_write(output_, failed);
     }
@@ -77,28 +78,15 @@ class FolderWriter : public TileWriter {
       close(folder);
       if (failed != 0) return cannot_write(output_, failed);
     }
-    return replace_output();
+    return take_name(part_, output_, may_replace_);
   }
 
  private:
-  /// A folder cannot replace one that is not empty, so the old one steps aside first and is removed at last.
-  [[nodiscard]] Status replace_output() {
-    std::error_code failed;
-    if (!fs::exists(output_, failed)) return take_name(part_, output_);
-    fs::rename(output_, old_, failed);
-    if (failed) return cannot_write(output_, failed.value());
-    if (Status taken = take_name(part_, output_); !taken) {
-      fs::rename(old_, output_, failed);
-      return taken;
-    }
-    fs::remove_all(old_, failed);
-    return Done{};
-  }
-
   fs::path output_;
   fs::path part_;
-  fs::path old_;
   TileSetInfo info_;
+  std::string mark_;
+  MayReplace may_replace_;
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
 
 class GpkgWriter : public TileWriter {
  public:
-  explicit GpkgWriter(const WriterSetup& setup) : output_(setup.output), part_(setup.part.string() + ".gpkg") {}
+  explicit GpkgWriter(const WriterSetup& setup)
+      : output_(setup.output), part_(setup.part.string() + ".gpkg"), may_replace_(setup.may_replace) {}
   ~GpkgWriter() override {
     insert_.reset();
     insert_squeezed_.reset();
@@ -55,7 +56,7 @@ class GpkgWriter : public TileWriter {
                                "PRAGMA locking_mode = EXCLUSIVE", "PRAGMA page_size = 8192"}) {
       if (!run({pragma, {}})) return failure();
     }
-    const auto schema = geopackage_schema(setup.info, setup.last_change);
+    const auto schema = geopackage_schema(setup.info, setup.last_change, setup.mark);
     // The first two are pragmas that a transaction would hold back.
     for (std::size_t i = 0; i < schema.size(); ++i) {
       if (i == 2 && !run({"BEGIN", {}})) return failure();
@@ -96,7 +97,7 @@ class GpkgWriter : public TileWriter {
     if (!run({"COMMIT", {}})) return failure();
     database_.reset();
     if (Status synced = sync_to_disk(part_); !synced) return synced;
-    return take_name(part_, output_);
+    return take_name(part_, output_, may_replace_);
   }
 
  private:
@@ -136,6 +137,7 @@ class GpkgWriter : public TileWriter {
 
   fs::path output_;
   fs::path part_;
+  MayReplace may_replace_;
   Database database_;
   Statement insert_;
   Statement insert_squeezed_;  ///< none unless the grid is reduced

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geo/result.h"
+#include "streaming/cut/part_name.h"
 #include "streaming/tile_source.h"
 
 namespace terrella {
@@ -17,12 +18,9 @@ class TileWriter {
  public:
   virtual ~TileWriter() = default;
   [[nodiscard]] virtual Status put(const TileId& id, std::span<const std::byte> bytes) = 0;
-  /// Everything is on the disk, then the output appears under its name; what had that name is replaced.
+  /// Writes everything to the disk, then gives the output its name by take_name().
   [[nodiscard]] virtual Status finish() = 0;
 };
-
-/// Refuses to replace what is neither a file that was a GeoPackage by name nor a directory that is empty or a tile set.
-[[nodiscard]] Status check_output(const std::filesystem::path& output);
 
 /// What a writer is told beside the tiles.
 struct WriterSetup {
@@ -30,7 +28,12 @@ struct WriterSetup {
   std::filesystem::path part;  ///< temporary names begin with it; on the output's file system; what is there is removed
   TileSetInfo info;
   std::string last_change;  ///< "2026-01-31T12:00:00.000Z"
+  std::string mark;         ///< cut_mark()
+  MayReplace may_replace;
 };
+
+/// True if an output of this name is a GeoPackage, false if it is a folder.
+[[nodiscard]] bool is_gpkg_name(const std::filesystem::path& output);
 
 /// A GeoPackage if the name ends in .gpkg, else a directory {z}/{x}/{y}.jpg|png with tileset.json. The same tiles in
 /// the same order give the same bytes.

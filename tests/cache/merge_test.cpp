@@ -9,6 +9,7 @@
 #include "cache/cache_test_support.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/merge_caches.h"
+#include "streaming/tile_lister.h"
 
 namespace terrella {
 namespace {
@@ -252,7 +253,11 @@ TEST_F(Merge, ReportsCountAndFindDamage) {
     EXPECT_TRUE(report->problems->empty());
   }
   int listed = 0;
-  ASSERT_TRUE(for_each_cached_tile(a_, [&](const TileId& id) { return id.level == 8 && ++listed < 150; }));
+  const auto tiles = open_tile_set(a_);
+  ASSERT_TRUE(tiles) << tiles.error().message;
+  auto* lister = dynamic_cast<TileLister*>(tiles->get());
+  ASSERT_NE(lister, nullptr);
+  ASSERT_TRUE(lister->for_each_tile([&](const TileId& id) { return id.level == 8 && ++listed < 150; }));
   EXPECT_EQ(listed, 150);
   std::fstream file(a_, std::ios::binary | std::ios::in | std::ios::out);
   file.seekp(static_cast<std::streamoff>(fs::file_size(a_) / 4096 * 3 / 4 * 4096));

@@ -61,13 +61,13 @@ class ProgramTest(unittest.TestCase):
 
 
 def _limiter(file_size_limit):
-    """A full disk without one: no file may grow over the limit, and the write that would returns an error."""
+    """A full disk without one: no file may grow over the limit. SIGXFSZ, which Python ignores, is as a shell leaves it."""
     if file_size_limit is None:
         return None
 
     def limit():
         import resource
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
         resource.setrlimit(resource.RLIMIT_FSIZE, (file_size_limit, file_size_limit))
     return limit
 

@@ -36,7 +36,7 @@ class BadHeights(ProgramTest):
 
     def cut(self, picture, *options, name="relief.gpkg"):
         self.write("in.png", picture)
-        self.assert_done("cut", "in.png", "--elevation", "--offset", "-32768", "-o", name, *options)
+        self.assert_done("cut", "in.png", "--elevation", "--offset", "-32768", "-o", name, "--force", *options)
 
     def spoil(self, sql, *values):
         with sqlite3.connect(self.folder / "relief.gpkg") as base:

@@ -79,7 +79,8 @@ class Elevation : public testing::Test {
  protected:
   [[nodiscard]] CutOptions options(const std::string& input, const CutElevation& elevation = {},
                                    const std::string& output = "out.gpkg") const {
-    return {.images = {folder_ / input}, .output = folder_ / output, .tile_px = 16, .elevation = elevation};
+    return {
+        .images = {folder_ / input}, .output = folder_ / output, .tile_px = 16, .elevation = elevation, .force = true};
   }
 
   [[nodiscard]] ElevationInfo described(const std::string& output = "out.gpkg") const {

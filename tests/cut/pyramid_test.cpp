@@ -201,7 +201,7 @@ TEST(PyramidTest, TransparentPicturesBecomePngsByThemselves) {
   const ScratchFolder folder;
   for (const bool alpha : {false, true}) {
     write_png(folder / "in.png", noise(64, 32, alpha));
-    ASSERT_TRUE(cut({.images = {folder / "in.png"}, .output = folder / "out", .tile_px = 16}));
+    ASSERT_TRUE(cut({.images = {folder / "in.png"}, .output = folder / "out", .tile_px = 16, .force = true}));
     EXPECT_EQ((*open_tile_set(folder / "out"))->info().format, alpha ? ImageFormat::png : ImageFormat::jpeg);
   }
 }

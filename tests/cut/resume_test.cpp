@@ -89,6 +89,7 @@ TEST_P(Resume, ChangedPicturesAndOptionsAreBegunAnewAndLeftoversRemoved) {
   EXPECT_EQ(first_row_of_next(), 16);
   killed_at(250);
   options_.quality = 50;
+  options_.force = true;
   EXPECT_EQ(first_row_of_next(), 16);
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"in.png", GetParam()}));
 }

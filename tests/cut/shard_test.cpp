@@ -61,11 +61,13 @@ TEST_F(Shards, TiffsAndMosaicsJumpToTheirRows) {
     CutOptions part = options(CutShard{index, 3});
     part.images = parts;
     part.mosaic = MosaicGrid{2, 2};
+    part.force = true;
     ASSERT_TRUE(must_cut(part));
   }
   CutOptions join = options({}, true);
   join.images = parts;
   join.mosaic = MosaicGrid{2, 2};
+  join.force = true;
   ASSERT_TRUE(must_cut(join));
   EXPECT_TRUE(all_tiles(folder_ / "out.gpkg") == expected);
 }
