@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <geo_normalize.h>
 #include <geo_simpletags.h>
+#include <geo_tiffp.h>
 #include <geotiff.h>
 #include <geovalues.h>
 #include <proj.h>
@@ -31,6 +32,8 @@ struct FreeGeoKeys {
   void operator()(GTIF* keys) const { GTIFFree(keys); }
 };
 using GeoKeyHandle = std::unique_ptr<GTIF, FreeGeoKeys>;
+
+void be_silent(GTIF*, int, const char*, ...) {}
 
 std::optional<int> short_key(GTIF* keys, geokey_t key) {
   unsigned short value = 0;
@@ -213,7 +216,9 @@ Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
   set(34736, tags.key_numbers.size(), STT_DOUBLE, tags.key_numbers.data());
   // The text ends with a 0 of its own.
   set(34737, tags.key_text.size() + 1, STT_ASCII, tags.key_text.c_str());
-  const GeoKeyHandle keys(GTIFNewSimpleTags(simple.get()));
+  TIFFMethod methods{};
+  GTIFSetSimpleTagsMethods(&methods);
+  const GeoKeyHandle keys(GTIFNewWithMethodsEx(simple.get(), &methods, be_silent, nullptr));
   if (!keys) return Error{"its GeoKey directory is damaged"};
   const ProjContext context = make_proj_context();
   GTIFAttachPROJContext(keys.get(), context.get());
