@@ -14,6 +14,7 @@
 #include "apps/progress.h"
 #include "apps/user_folder.h"
 #include "streaming/cut.h"
+#include "streaming/cut/row_reader.h"
 #include "streaming/remote/describe_remote.h"
 
 namespace terrella {
@@ -156,7 +157,7 @@ Status find_imagery(const SceneOptions& options) {
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set);
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
-  return Done{};
+  return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 
 Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {

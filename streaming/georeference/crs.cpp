@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <proj.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -118,6 +119,16 @@ ProjContext make_proj_context() {
   proj_log_level(context.get(), PJ_LOG_NONE);
   proj_context_set_enable_network(context.get(), 0);
   return context;
+}
+
+std::string wkt_only(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return {};
+  const std::size_t word_end = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_", begin);
+  const bool is_wkt = word_end != begin && word_end != std::string::npos && text[word_end] == '[';
+  return is_wkt ? text.substr(begin) : std::string();
 }
 
 Result<Crs> Crs::open(const std::string& text) {

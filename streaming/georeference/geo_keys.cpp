@@ -122,7 +122,10 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   constexpr std::string_view kEsriText = "ESRI PE String = ";
   for (const geokey_t key : {PCSCitationGeoKey, GTCitationGeoKey}) {
     const std::string citation = text_key(keys, key);
-    if (citation.starts_with(kEsriText)) return citation.substr(kEsriText.size());
+    if (!citation.starts_with(kEsriText)) continue;
+    const std::string text = wkt_only(citation.substr(kEsriText.size()));
+    if (text.empty()) return Error{"its GeoKeys hold a text for a coordinate system that is no WKT"};
+    return text;
   }
   if (!has_own && defn.CTProjection == KvUserDefined) return Error{"its GeoKeys say that it is projected, and not how"};
   if (Status plausible = check_figure(defn); !plausible) return plausible.error();
@@ -162,6 +165,7 @@ std::string title_of(GTIF* keys) {
   for (const std::string_view before : {"GCS Name = ", "PCS Name = "}) {
     if (title.starts_with(before)) title.erase(0, before.size());
   }
+  if (title == "unknown") return {};
   return title.substr(0, 100);
 }
 

@@ -12,6 +12,7 @@
 
 #include "geo/number.h"
 #include "streaming/file_bytes.h"
+#include "streaming/georeference/crs.h"
 
 namespace terrella {
 namespace {
@@ -108,7 +109,9 @@ Result<std::optional<SideClaim>> read_aux_xml(const fs::path& picture) {
   pugi::xml_document document;
   if (!document.load_buffer((*text)->data(), (*text)->size())) return damaged(file, "is not XML");
   const pugi::xml_node root = document.child("PAMDataset");
-  SideClaim claim{.file = file, .transform = {}, .crs = root.child_value("SRS"), .has_control_points = false};
+  const std::string crs = root.child_value("SRS");
+  SideClaim claim{.file = file, .transform = {}, .crs = wkt_only(crs), .has_control_points = false};
+  if (claim.crs.empty() && !crs.empty()) return damaged(file, "holds a coordinate system that is no WKT");
   claim.has_control_points = !root.child("GCPList").empty() || !root.select_node(".//SourceGCPs").node().empty();
   if (const pugi::xml_node transform = root.child("GeoTransform")) {
     const auto numbers = six_numbers(transform.child_value());
@@ -125,10 +128,9 @@ Result<std::optional<SideClaim>> read_prj(const fs::path& picture) {
     const auto text = side_text(file, kMostCrsBytes);
     if (!text) return text.error();
     if (!*text) continue;
-    // PROJ takes no blanks before the text.
-    const std::size_t begin = std::min((*text)->find_first_not_of(" \t\r\n"), (*text)->size());
-    return std::optional(
-        SideClaim{.file = file, .transform = {}, .crs = (*text)->substr(begin), .has_control_points = false});
+    const std::string crs = wkt_only(**text);
+    if (crs.empty()) return damaged(file, "holds no coordinate system as WKT");
+    return std::optional(SideClaim{.file = file, .transform = {}, .crs = crs, .has_control_points = false});
   }
   return std::optional<SideClaim>{};
 }

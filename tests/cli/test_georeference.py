@@ -171,7 +171,9 @@ class Drawn(GeoreferenceTest):
     def test_world_file_and_prj(self):
         self.picture("in.png", "-of", "PNG", size=(64, 32))
         self.write("in.pgw", b"0.25\n0\n0\n-0.25\n10.125\n49.875\n")
-        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt1_esri", "EPSG:4326").encode())
+        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt_esri", "EPSG:4326").encode())
+        self.assertEqual(self.info("in.png")["georeference"]["source"], "in.pgw, in.prj")
+        self.assertIn("WGS 84", self.info("in.png")["georeference"]["crs"]["name"])
         self.assert_drawn_as_gdal_says("in.png", "EPSG:4326", source_crs=("-s_srs", "EPSG:4326"))
 
     def test_gdals_own_file_beside(self):
@@ -350,7 +352,7 @@ class Refused(GeoreferenceTest):
     def test_prj_in_metres(self):
         self.picture("in.png", "-of", "PNG", size=(64, 32))
         self.write("in.pgw", b"10000\n0\n0\n-10000\n505000\n4645000\n")
-        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt1_esri", "EPSG:32633").encode())
+        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt_esri", "EPSG:32633").encode())
         message = self.assert_refused("in.png", "in.pgw, in.prj", "UTM", "-s_srs")
         self.run_command(commands_in(message))
         self.assert_drawn_as_gdal_says("in-degrees.tif", "EPSG:4326")
@@ -480,6 +482,9 @@ class Hostile(GeoreferenceTest):
                              b"1e308 0 0 -1e308 0 0", b"9" * 100000],
                   "in.png.aux.xml": [b"<PAMDataset>", b"<PAMDataset><GeoTransform>1,2</GeoTransform></PAMDataset>",
                                      b"<PAMDataset><SRS>nonsense</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>+proj=longlat +nadgrids=/dev/stdin</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>GEOGCS[</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>" + b"GEOGCS[" * 100000 + b"</SRS></PAMDataset>",
                                      b"<PAMDataset><GeoTransform>0,0,0,0,0,0</GeoTransform></PAMDataset>"]}
         for beside, contents in broken.items():
             for content in contents:
