@@ -147,6 +147,9 @@ Result<Crs> Crs::open(const std::string& text) {
   if (!facts.geographic && type != PJ_TYPE_PROJECTED_CRS) {
     return Error{fmt::format("its coordinate system ({}) is neither geographic nor projected", facts.name)};
   }
+  // GeoTIFF has no key for the kind of latitude: the IAU's names say it ("Mars (2015) / Ocentric").
+  const auto named = [&facts](const char* kind) { return facts.name.find(kind) != std::string::npos; };
+  facts.centric = named("Ocentric") || named("lanetocentric");
   const char* code = proj_get_id_code(made.crs_.get(), 0);
   const char* authority = proj_get_id_auth_name(made.crs_.get(), 0);
   if (code != nullptr && authority != nullptr) facts.code = fmt::format("{}:{}", authority, code);

@@ -165,7 +165,7 @@ std::string title_of(GTIF* keys) {
   for (const std::string_view before : {"GCS Name = ", "PCS Name = "}) {
     if (title.starts_with(before)) title.erase(0, before.size());
   }
-  if (title == "unknown") return {};
+  if (title == "unknown" || title.starts_with("ESRI PE String")) return {};
   return title.substr(0, 100);
 }
 

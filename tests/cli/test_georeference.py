@@ -157,6 +157,15 @@ class Drawn(GeoreferenceTest):
         self.check(MARS_SPHERE, "-a_srs", MARS_SPHERE, *PLANET)
         self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
 
+    def test_names_of_the_iau(self):
+        half = math.pi * 3396190
+        self.check(MARS_SPHERE, "-a_srs", "IAU_2015:49910", "-a_ullr", -half, half / 2, half, -half / 2)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
+        self.check(MARS_FIGURE, "-a_srs", "IAU_2015:49901", *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars"])
+        self.picture("in.tif", "-a_srs", "IAU_2015:49902", *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
+
     def test_world_files_in_degrees(self):
         for picture, world in (("a.png", "a.pgw"), ("b.png", "b.PGW"), ("c.png", "c.wld"), ("d.jpg", "d.jgw"),
                                ("e.png", "e.Pgw"), ("f.tif", "f.tfw")):
@@ -395,6 +404,47 @@ class Refused(GeoreferenceTest):
         self.assert_done("render", "in.png", "-o", "out.png", "--size", "64x64")
         self.write("in.pgw", b"10000\n0\n0\n-10000\n505000\n4645000\n")
         self.assert_fails(FAILED, "render", "in.png", "-o", "out.png", says=["in.pgw"])
+
+
+class Parts(GeoreferenceTest):
+    """Mosaics whose parts say where they lie."""
+
+    def halves(self, *wests):
+        for name, west in zip("ab", wests):
+            self.picture(f"{name}.tif", "-a_srs", "EPSG:4326", "-a_ullr", west, 90, west + 180, -90, size=(36, 36))
+
+    def bounds(self):
+        return json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)["bounds"]
+
+    def test_in_order(self):
+        self.halves(-180, 0)
+        self.assert_done("cut", "a.tif", "b.tif", "-o", "out.gpkg")
+        self.assertEqual(self.bounds(), [-180, -90, 180, 90])
+
+    def test_from_zero(self):
+        self.halves(0, 180)
+        for options in ([], ["--mosaic", "2x1"]):
+            self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", *options,
+                              says=["all longitudes from 0", "--mosaic"])
+        self.assert_done("cut", "b.tif", "a.tif", "-o", "out.gpkg", "--mosaic", "2x1")
+        self.assertEqual(self.bounds(), [-180, -90, 180, 90])
+
+    def test_an_order_that_contradicts(self):
+        self.halves(-180, -90)
+        self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", "--mosaic", "2x1", says=["b.tif", "--mosaic"])
+
+    def test_names_that_contradict(self):
+        for x, name in enumerate(("x.A1.tif", "x.B1.tif")):
+            self.picture(name, "-a_srs", "EPSG:4326", "-a_ullr", 90 * x, 90, 90 * x + 90, 0, size=(36, 36))
+        self.assert_fails(FAILED, "cut", "x.A1.tif", "x.B1.tif", "-o", "out.gpkg", says=["x.A1.tif", "its name"])
+
+    def test_in_metres(self):
+        for x, name in enumerate(("a.tif", "b.tif")):
+            self.picture(name, "-a_srs", "EPSG:32633", "-a_ullr", 500000 + 36000 * x, 4650000, 536000 + 36000 * x,
+                         4614000, size=(36, 36))
+        for options in ([], ["--mosaic", "2x1"]):
+            self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", *options,
+                              says=["a.tif", "UTM zone 33N", "gdalwarp"])
 
 
 NAN, HUGE = float("nan"), 1e308
