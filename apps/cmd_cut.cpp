@@ -139,13 +139,13 @@ void add_input_options(CLI::App& app, CutCommand& command) {
   CutOptions& cut = command.cut;
   app.add_option_function<std::string>(
          "--bounds", [&cut](const std::string& text) { cut.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
-         "What the picture covers, degrees; W > E crosses 180 (default: what its GeoTIFF tags or world file say, else "
+         "What the picture covers, degrees; W > E crosses 180 (default: what the picture or files beside it say, else "
          "the whole planet)")
       ->type_name("W,S,E,N");
   app.add_option_function<std::string>(
          "--mosaic", [&cut](const std::string& text) { cut.mosaic = parsed_or_throw("--mosaic", parse_mosaic(text)); },
          "The pictures form a grid, named in rows from the north-west (default: by NASA's names A1 to D2, else by "
-         "GeoTIFF tags or world files)")
+         "what they say of their place)")
       ->type_name("COLSxROWS");
   CLI::Option* elevation = app.add_flag("--elevation", command.elevation, "The picture holds heights: 16-bit tiles");
   app.add_option("--scale", command.heights.scale,

@@ -16,6 +16,7 @@
 #include "apps/stop_signals.h"
 #include "apps/user_folder.h"
 #include "streaming/cut.h"
+#include "streaming/cut/row_reader.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 
@@ -186,7 +187,7 @@ Status find_imagery(const SceneOptions& options) {
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
-  return Done{};
+  return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 
 Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {

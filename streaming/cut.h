@@ -41,7 +41,7 @@ struct CutOptions {
   std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency, else JPEG
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
-  /// Default: what the picture says of itself (GeoTIFF, world file), else the whole planet, and then it must be 2:1.
+  /// Default: what the picture says of itself (streaming/georeference), else the whole planet, and then it must be 2:1.
   /// East < west crosses ±180°.
   std::optional<GeoRect> bounds{};
   Projection projection = Projection::equirectangular;

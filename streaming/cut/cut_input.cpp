@@ -18,16 +18,17 @@ bool is_planet(const GeoRect& rect) {
   return rect.west.deg() == -180.0 && rect.east.deg() == 180.0 && rect.south.deg() == -90.0 && rect.north.deg() == 90.0;
 }
 
-Result<Body> body_of(const CutOptions& options) { return options.body.empty() ? earth() : parse_body(options.body); }
+/// Fails if the picture is of another body than the options say, or counts other latitudes.
+Status fits_body(const CutOptions& options, const PictureFile& picture, const PlacedPicture& place) {
+  const auto body = options.body.empty() ? earth() : parse_body(options.body);
+  return body ? check_figure(picture, place, *body, options.latitude) : body.error();
+}
 
-/// What a picture says of its place, checked against what is said of its body.
-Result<PlacedPicture> placed(const CutOptions& options, const PictureFile& picture) {
-  auto place = place_picture(picture);
-  if (!place) return place;
-  const auto body = body_of(options);
-  if (!body) return body.error();
-  if (Status fits = check_figure(picture, *place, *body, options.latitude); !fits) return fits.error();
-  return place;
+/// For a picture that is placed, and by that on no rectangle.
+Error to_resample(const PictureFile& picture, const PlacedPicture& place, const Error& why) {
+  const std::string options = place.crs ? needed_options(*place.crs).text() : "";
+  return Error{fmt::format("{}; resample it{}{}: {}", why.message, options.empty() ? "" : ", and show the result with",
+                           options, resample_command(picture, place))};
 }
 
 /// The nodes of a planet by nodes lie at the middles of pixels that reach half a pixel beyond it.
@@ -49,25 +50,20 @@ struct SaidPlace {
 
 Result<SaidPlace> said_place(const CutOptions& options, const PictureFile& picture) {
   const bool node_sides = options.elevation && is_node_planet(picture.width_px, picture.height_px);
-  if (options.bounds) {
-    // Only what is said besides of the body counts; what cannot be understood is what the bounds are given for.
-    const auto place = place_picture(picture);
-    const auto body = body_of(options);
-    if (!body) return body.error();
-    if (!place) return SaidPlace{};
-    if (Status fits = check_figure(picture, *place, *body, options.latitude); !fits) return fits.error();
-    return SaidPlace{};
-  }
-  const auto place = placed(options, picture);
+  const auto place = place_picture(picture);
+  // The bounds are given for a place that cannot be believed.
+  if (!place && options.bounds) return SaidPlace{};
   if (!place) return place.error();
-  if (!place->placement) return SaidPlace{.bounds = {}, .nodes = node_sides, .resample_command = {}};
-  if (node_sides && lies_on_nodes(*place->placement, picture)) {
+  const bool is_placed = place->placement && !options.bounds;
+  if (is_placed && node_sides && lies_on_nodes(*place->placement, picture)) {
+    if (Status fits = fits_body(options, picture, *place); !fits) return fits.error();
     return SaidPlace{.bounds = {}, .nodes = true, .resample_command = {}};
   }
-  const std::string command = resample_command(picture, *place);
-  const auto bounds = covered_by(picture, *place->placement);
-  if (!bounds) return Error{fmt::format("{}; resample it: {}", bounds.error().message, command)};
-  SaidPlace said{.bounds = *bounds, .nodes = false, .resample_command = command};
+  const auto bounds = is_placed ? covered_by(picture, *place->placement) : GeoRect{};
+  if (!bounds) return to_resample(picture, *place, bounds.error());
+  if (Status fits = fits_body(options, picture, *place); !fits) return fits.error();
+  if (!is_placed) return SaidPlace{.bounds = {}, .nodes = node_sides && !options.bounds, .resample_command = {}};
+  SaidPlace said{.bounds = *bounds, .nodes = false, .resample_command = resample_command(picture, *place)};
   // A planet without bounds may have an odd width, whose half is no whole number of rows.
   if (is_planet(*bounds)) said.bounds.reset();
   return said;
@@ -97,8 +93,10 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open) {
     parts.push_back({.path = image, .width_px = part.width_px, .height_px = part.height_px, .place = {}});
     info.has_alpha = info.has_alpha || part.has_alpha;
     if (options.bounds && options.mosaic) continue;
-    const auto place = placed(options, {.path = image, .width_px = part.width_px, .height_px = part.height_px});
+    const PictureFile picture{.path = image, .width_px = part.width_px, .height_px = part.height_px};
+    const auto place = place_picture(picture);
     if (!place) return place.error();
+    if (Status fits = fits_body(options, picture, *place); !fits) return fits.error();
     parts.back().place = place->placement;
   }
   auto layout = lay_out(parts, options.mosaic);

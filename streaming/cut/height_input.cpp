@@ -50,6 +50,7 @@ Result<Probe> probe_tiff(TIFF* tiff, const std::string& name) {
 }
 
 Result<Probe> probe_heights(const fs::path& image) {
+  if (Status regular = check_regular(image); !regular) return regular.error();
   std::ifstream file(image, std::ios::binary);
   char head[2] = {};
   file.read(head, sizeof(head));

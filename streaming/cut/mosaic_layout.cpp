@@ -224,7 +224,9 @@ Result<MosaicLayout> with_said_bounds(MosaicLayout layout, const std::vector<Mos
   if (!origin) return origin.error();
   if (!*origin) return layout;
   const auto bounds = covered_by({parts.front().path, layout.width_px, layout.height_px}, **origin);
-  if (!bounds) return bounds.error();
+  if (!bounds) {
+    return Error{bounds.error().message + "; give the parts in order from -180 degrees with --mosaic COLSxROWS"};
+  }
   const GeoRect named_bounds = layout.bounds.value_or(*bounds);
   const double slack = kAlignment_px * (*origin)->pixel_width_deg;
   if (std::abs(named_bounds.west.deg() - bounds->west.deg()) > slack ||

@@ -61,6 +61,16 @@ Status RowReader::skip_rows(std::int64_t rows) {
   return Done{};
 }
 
+Status check_regular(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) {
+    return Error{fmt::format("{}: is a folder, not a picture", path.string())};
+  }
+  if (!std::filesystem::is_other(status)) return Done{};
+  return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
+}
+
 bool begins_as_tiff(std::string_view head) {
   using namespace std::string_view_literals;
   constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
@@ -98,13 +108,7 @@ namespace {
 Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
                                             const std::optional<HeightCoding>& heights) {
   const std::string name = path.string();
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_directory(status)) return Error{fmt::format("{}: is a folder, not a picture", name)};
-  // A pipe would keep its reader waiting for a writer.
-  if (std::filesystem::is_other(status)) {
-    return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", name)};
-  }
+  if (Status regular = check_regular(path); !regular) return regular.error();
   File file(std::fopen(name.c_str(), "rb"));
   if (!file && errno == ENOENT) return Error{fmt::format("{}: no such file", name)};
   if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};

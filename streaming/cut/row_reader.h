@@ -38,6 +38,10 @@ class RowReader {
 /// The same rows, the last one repeated until there are `rows` of them.
 [[nodiscard]] std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows);
 
+/// Refuses folders, and pipes, devices and sockets, which would keep their reader waiting. What is missing is left to
+/// the reader.
+[[nodiscard]] Status check_regular(const std::filesystem::path& path);
+
 /// Opens a JPEG, PNG, TIFF or BigTIFF, known by its first bytes. The error names the file, what is wrong and what to
 /// do.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path);

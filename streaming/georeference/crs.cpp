@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <proj.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -120,6 +121,16 @@ ProjContext make_proj_context() {
   return context;
 }
 
+std::string wkt_only(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string::npos) return {};
+  const std::size_t word_end = text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_", begin);
+  const bool is_wkt = word_end != begin && word_end != std::string::npos && text[word_end] == '[';
+  return is_wkt ? text.substr(begin) : std::string();
+}
+
 Result<Crs> Crs::open(const std::string& text) {
   Crs made;
   made.context_ = make_proj_context();
@@ -136,6 +147,9 @@ Result<Crs> Crs::open(const std::string& text) {
   if (!facts.geographic && type != PJ_TYPE_PROJECTED_CRS) {
     return Error{fmt::format("its coordinate system ({}) is neither geographic nor projected", facts.name)};
   }
+  // GeoTIFF has no key for the kind of latitude: the IAU's names say it ("Mars (2015) / Ocentric").
+  const auto named = [&facts](const char* kind) { return facts.name.find(kind) != std::string::npos; };
+  facts.centric = named("Ocentric") || named("lanetocentric");
   const char* code = proj_get_id_code(made.crs_.get(), 0);
   const char* authority = proj_get_id_auth_name(made.crs_.get(), 0);
   if (code != nullptr && authority != nullptr) facts.code = fmt::format("{}:{}", authority, code);

@@ -38,6 +38,10 @@ struct CrsFacts {
   bool centric = false;   ///< its latitudes are called planetocentric
 };
 
+/// A system that a file gives as text, on one line; "" if the text is no WKT. Other texts that Crs::open() takes can
+/// name files of this machine.
+[[nodiscard]] std::string wkt_only(std::string text);
+
 /// A horizontal coordinate reference system, as PROJ knows it. Move-only. thread: one at a time
 class Crs {
  public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <geo_normalize.h>
 #include <geo_simpletags.h>
+#include <geo_tiffp.h>
 #include <geotiff.h>
 #include <geovalues.h>
 #include <proj.h>
@@ -31,6 +32,8 @@ struct FreeGeoKeys {
   void operator()(GTIF* keys) const { GTIFFree(keys); }
 };
 using GeoKeyHandle = std::unique_ptr<GTIF, FreeGeoKeys>;
+
+void be_silent(GTIF*, int, const char*, ...) {}
 
 std::optional<int> short_key(GTIF* keys, geokey_t key) {
   unsigned short value = 0;
@@ -119,7 +122,10 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   constexpr std::string_view kEsriText = "ESRI PE String = ";
   for (const geokey_t key : {PCSCitationGeoKey, GTCitationGeoKey}) {
     const std::string citation = text_key(keys, key);
-    if (citation.starts_with(kEsriText)) return citation.substr(kEsriText.size());
+    if (!citation.starts_with(kEsriText)) continue;
+    const std::string text = wkt_only(citation.substr(kEsriText.size()));
+    if (text.empty()) return Error{"its GeoKeys hold a text for a coordinate system that is no WKT"};
+    return text;
   }
   if (!has_own && defn.CTProjection == KvUserDefined) return Error{"its GeoKeys say that it is projected, and not how"};
   if (Status plausible = check_figure(defn); !plausible) return plausible.error();
@@ -159,6 +165,7 @@ std::string title_of(GTIF* keys) {
   for (const std::string_view before : {"GCS Name = ", "PCS Name = "}) {
     if (title.starts_with(before)) title.erase(0, before.size());
   }
+  if (title == "unknown" || title.starts_with("ESRI PE String")) return {};
   return title.substr(0, 100);
 }
 
@@ -213,7 +220,9 @@ Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
   set(34736, tags.key_numbers.size(), STT_DOUBLE, tags.key_numbers.data());
   // The text ends with a 0 of its own.
   set(34737, tags.key_text.size() + 1, STT_ASCII, tags.key_text.c_str());
-  const GeoKeyHandle keys(GTIFNewSimpleTags(simple.get()));
+  TIFFMethod methods{};
+  GTIFSetSimpleTagsMethods(&methods);
+  const GeoKeyHandle keys(GTIFNewWithMethodsEx(simple.get(), &methods, be_silent, nullptr));
   if (!keys) return Error{"its GeoKey directory is damaged"};
   const ProjContext context = make_proj_context();
   GTIFAttachPROJContext(keys.get(), context.get());

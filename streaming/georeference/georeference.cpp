@@ -110,7 +110,7 @@ Result<std::optional<Georeference>> read_georeference(const PictureFile& picture
   auto tags = from_tags(picture);
   if (!tags) return cannot_believe(picture, tags.error().message);
   const auto claims = read_side_files(picture.path);
-  if (!claims) return claims.error();
+  if (!claims) return Error{fmt::format("{}: {}", picture.path.string(), claims.error().message)};
   Georeference said = tags->value_or(Georeference{});
   for (const SideClaim& claim : *claims) {
     if (Status added = add_claim(said, claim, picture); !added) return contradiction(picture, added.error().message);

@@ -72,6 +72,12 @@ std::optional<Placement> evenly_spaced(std::vector<CrsPoint> places, const Pictu
   return Placement{.west_deg = first.x, .north_deg = first.y, .pixel_width_deg = width, .pixel_height_deg = height};
 }
 
+/// A projection's western end may come back as 180 degrees.
+void begin_in_first_turn(Placement& place) {
+  const double slack = kPlaced_px * place.pixel_width_deg;
+  place.west_deg -= 360.0 * std::floor((place.west_deg + 180.0 + slack) / 360.0);
+}
+
 bool are_degrees(const Affine& transform, const PictureFile& picture) {
   const CrsPoint a = transform.at(0.0, 0.0);
   const CrsPoint b = transform.at(static_cast<double>(picture.width_px), static_cast<double>(picture.height_px));
@@ -141,6 +147,7 @@ Result<PlacedPicture> place_in(const PictureFile& picture, Georeference said, co
     if (!places) return Error{fmt::format("{}: {}", picture.path.string(), places.error().message)};
     placed.placement = evenly_spaced(*places, picture);
     if (!placed.placement) return not_placed(picture, said, crs, *places);
+    if (!crs.facts().geographic) begin_in_first_turn(*placed.placement);
     const bool plausible = std::abs(placed.placement->west_deg) <= kMostLongitude_deg &&
                            std::abs(placed.placement->north_deg) <= kMostLatitude_deg;
     if (!plausible) {

@@ -12,6 +12,7 @@
 
 #include "geo/number.h"
 #include "streaming/file_bytes.h"
+#include "streaming/georeference/crs.h"
 
 namespace terrella {
 namespace {
@@ -22,12 +23,17 @@ constexpr std::size_t kMostWorldFileBytes = 64U << 10;
 constexpr std::size_t kMostCrsBytes = 1U << 20;
 constexpr std::size_t kMostAuxBytes = 64U << 20;
 
+Error damaged(const fs::path& file, std::string_view why) {
+  return Error{fmt::format("{} beside it {}; correct it, or move it away if it does not belong to the picture",
+                           file.filename().string(), why)};
+}
+
 /// The text of a file; none if there is no such regular file.
 Result<std::optional<std::string>> side_text(const fs::path& file, std::size_t max_bytes) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) return std::optional<std::string>{};
   const auto bytes = read_file(file, max_bytes);
-  if (!bytes) return Error{bytes.error().message};
+  if (!bytes) return damaged(file, fmt::format("cannot be read ({})", bytes.error().message));
   return std::optional(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
 }
 
@@ -44,11 +50,6 @@ std::optional<std::array<double, 6>> six_numbers(std::string text) {
     value = *number;
   }
   return values;
-}
-
-Error damaged(const fs::path& file, std::string_view why) {
-  return Error{
-      fmt::format("{}: {}; correct it, or move it away if it does not belong to the picture", file.string(), why)};
 }
 
 std::string lower_case(std::string text) {
@@ -92,7 +93,7 @@ Result<std::optional<SideClaim>> read_world_file(const fs::path& file) {
   if (!text) return text.error();
   if (!*text) return std::optional<SideClaim>{};
   const auto numbers = six_numbers(**text);
-  if (!numbers) return damaged(file, "a world file, and does not begin with six numbers");
+  if (!numbers) return damaged(file, "is named as its world file, and does not begin with six numbers");
   const auto& [x_per_column, y_per_column, x_per_row, y_per_row, x, y] = *numbers;
   const Affine centre{x, x_per_column, x_per_row, y, y_per_column, y_per_row};
   return std::optional(
@@ -108,11 +109,13 @@ Result<std::optional<SideClaim>> read_aux_xml(const fs::path& picture) {
   pugi::xml_document document;
   if (!document.load_buffer((*text)->data(), (*text)->size())) return damaged(file, "is not XML");
   const pugi::xml_node root = document.child("PAMDataset");
-  SideClaim claim{.file = file, .transform = {}, .crs = root.child_value("SRS"), .has_control_points = false};
+  const std::string crs = root.child_value("SRS");
+  SideClaim claim{.file = file, .transform = {}, .crs = wkt_only(crs), .has_control_points = false};
+  if (claim.crs.empty() && !crs.empty()) return damaged(file, "holds a coordinate system that is no WKT");
   claim.has_control_points = !root.child("GCPList").empty() || !root.select_node(".//SourceGCPs").node().empty();
   if (const pugi::xml_node transform = root.child("GeoTransform")) {
     const auto numbers = six_numbers(transform.child_value());
-    if (!numbers) return damaged(file, "its GeoTransform is not six numbers");
+    if (!numbers) return damaged(file, "has a GeoTransform that is not six numbers");
     const auto& [x, x_per_column, x_per_row, y, y_per_column, y_per_row] = *numbers;
     claim.transform = Affine{x, x_per_column, x_per_row, y, y_per_column, y_per_row};
   }
@@ -124,8 +127,10 @@ Result<std::optional<SideClaim>> read_prj(const fs::path& picture) {
   for (const fs::path& file : found_with_ending(picture, "prj")) {
     const auto text = side_text(file, kMostCrsBytes);
     if (!text) return text.error();
-    if (*text)
-      return std::optional(SideClaim{.file = file, .transform = {}, .crs = **text, .has_control_points = false});
+    if (!*text) continue;
+    const std::string crs = wkt_only(**text);
+    if (crs.empty()) return damaged(file, "holds no coordinate system as WKT");
+    return std::optional(SideClaim{.file = file, .transform = {}, .crs = crs, .has_control_points = false});
   }
   return std::optional<SideClaim>{};
 }

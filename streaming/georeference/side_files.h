@@ -20,7 +20,8 @@ struct SideClaim {
 
 /// Reads the files beside the picture that say where it lies: world files (six numbers: .wld, and of a .tif .tfw and
 /// .tifw, likewise of others, in lower, upper and first upper case), GDAL's PICTURE.aux.xml, and a .prj, which counts
-/// only beside a world file. Files that say nothing of a place are left out. The error names the damaged file.
+/// only beside a world file. Files that say nothing of a place are left out. The error, which has not the
+/// picture's name, names the damaged file.
 /// thread: any
 [[nodiscard]] Result<std::vector<SideClaim>> read_side_files(const std::filesystem::path& picture);
 

@@ -17,9 +17,13 @@ def gdal(*arguments, stdin=None):
 
 
 def pgm(path, width, height):
-    """A gray picture whose columns and rows differ."""
-    rows = bytes(max(1, (x * 7 + y * 13) % 256) for y in range(height) for x in range(width))
+    """A gray picture whose brightness says where in it a pixel is: smooth, so that resampling keeps it."""
+    rows = bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
     pathlib.Path(path).write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+
+
+def brightness(x, y, width, height):
+    return round(20 + 160 * (x + 0.5) / width + 60 * (y + 0.5) / height)
 
 
 def make(path, width, height, *options):
@@ -65,7 +69,7 @@ def tiff(width, height, tags):
             data += raw
         else:
             directory += struct.pack("<HHI", number, kind, count) + raw.ljust(4, b"\0")
-    pixels = bytes((x * 7 + y * 13) % 255 + 1 for y in range(height) for x in range(width))
+    pixels = bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
     return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0) + data + pixels
 
 

@@ -1,5 +1,7 @@
 """Pictures that cannot be shown or cut: exit code 1, the file named, what is wrong and what to do."""
 
+import os
+import subprocess
 import unittest
 import zlib
 
@@ -63,6 +65,46 @@ class BadPictures(ProgramTest):
 
     def test_picture_that_is_not_two_to_one_says_what_to_do(self):
         self.assert_refused(self.write("square.png", png(300, 300)), "--bounds", "300")
+
+    def test_almost_two_to_one_is_to_be_resized_or_placed(self):
+        self.assert_refused(self.write("almost.png", png(2000, 999)), "2000x999", "Resize it to 2000x1000",
+                            f"terrella cut {self.folder}/almost.png --bounds W,S,E,N")
+
+    def test_pipes_are_not_waited_for(self):
+        os.mkfifo(self.folder / "fifo.jpg")
+        for arguments in (["cut", "fifo.jpg", "-o", "out.gpkg"], ["cut", "fifo.jpg", "-o", "out.gpkg", "--elevation"],
+                          ["render", "fifo.jpg", "-o", "out.png"], ["view", "fifo.jpg"], ["info", "fifo.jpg"],
+                          ["render", BLUE_MARBLE, "--overlay", "fifo.jpg", "-o", "out.png"]):
+            with self.subTest(arguments[0]):
+                self.assert_fails(FAILED, *arguments, says=["fifo.jpg"], time_limit_s=30)
+
+    def test_devices_are_no_pictures(self):
+        self.assert_fails(FAILED, "cut", "/dev/zero", "-o", "out.gpkg", says=["/dev/zero", "device"])
+        self.assert_fails(FAILED, "info", "/dev/zero", says=["/dev/zero"])
+
+    def test_pictures_of_other_formats(self):
+        """Each by the start of its file: the command that makes a picture of it that is read."""
+        starts = {"a.jp2": b"\0\0\0\x0cjP  \r\n\x87\n", "a.vrt": b"<VRTDataset rasterXSize='2' rasterYSize='1'>",
+                  "a.nc": b"CDF\1\0\0\0\0", "b.nc": b"\x89HDF\r\n\x1a\n", "a.webp": b"RIFF\0\0\0\0WEBPVP8 ",
+                  "a.gif": b"GIF89a", "a.img": b"PDS_VERSION_ID = PDS3\r\n", "a.cub": b"Object = IsisCube\n"}
+        for name, start in starts.items():
+            with self.subTest(name):
+                picture = self.write(name, start)
+                self.assert_refused(picture, "gdal_translate -of COG", name.split(".")[0] + ".tif")
+                self.assert_fails(FAILED, "info", picture, says=["gdal_translate -of COG"])
+
+    def test_what_is_neither_names_pictures_first(self):
+        letter = self.write("letter.txt", b"Dear Sir or Madam,\n" * 100)
+        done = self.assert_fails(FAILED, "render", letter, "-o", "out.png", says=["JPEG, PNG, TIFF", "GeoPackage"])
+        self.assertLess(done.stderr.index("JPEG, PNG, TIFF"), done.stderr.index("GeoPackage"))
+
+    def test_gdals_command_makes_a_picture_that_is_read(self):
+        self.write("plain.png", png(64, 32))
+        subprocess.run(["gdal_translate", "-q", "-of", "VRT", "plain.png", "odd name.vrt"], cwd=self.folder, check=True)
+        done = self.assert_fails(FAILED, "cut", "odd name.vrt", "-o", "out.gpkg", says=["VRT"])
+        command = done.stderr[done.stderr.index("gdal_translate"):]
+        subprocess.run(command, cwd=self.folder, shell=True, check=True, capture_output=True)
+        self.assert_done("cut", "odd name.tif", "-o", "out.gpkg")
 
     def test_jpeg_that_is_not_two_to_one_says_what_to_do(self):
         self.assert_refused(NATURAL_EARTH / "0/0/0.jpg", "--bounds", "256")

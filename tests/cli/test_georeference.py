@@ -1,0 +1,554 @@
+"""What a picture says of its place: it is drawn there, or refused with what it says and the GDAL command that helps.
+
+gdaltransform is the judge of where pixels lie. Each refusal's command is run, and what it makes must be drawn right.
+"""
+
+import json
+import math
+import os
+import pathlib
+import shlex
+import subprocess
+import unittest
+
+from georeferenced import (DEGREES, DOUBLES, MATRIX, PLACED_PX, SCALE, TIES, brightness, commands_in, gdal, geo_keys,
+                           make, pgm, placed_at, places, tiff)
+from program import DONE, FAILED, ProgramTest
+
+MOON_M = 1737400.0
+MOON_HALF = math.pi * MOON_M
+MOON_DEGREES = "+proj=longlat +R=1737400 +no_defs"
+MOON_METRES = "+proj=eqc +R=1737400 +units=m +no_defs"
+MARS_SPHERE = "+proj=longlat +R=3396190 +no_defs"
+MARS_FIGURE = "+proj=longlat +a=3396190 +b=3376200 +no_defs"
+PLANET = ("-a_ullr", -180, 90, 180, -90)
+# Brightness changes by 1 about each 1/160 of the width; bilinear resampling and rounding move it by less than this.
+BRIGHTNESS = 4
+
+
+class GeoreferenceTest(ProgramTest):
+    def info(self, name):
+        return json.loads(self.assert_done("info", name, "--json").stdout)
+
+    def options_for(self, name):
+        """What `info` says must be given with the picture."""
+        words = shlex.split(self.info(name)["command"])
+        return words[3:]
+
+    def assert_drawn_as_gdal_says(self, name, crs, *cut_options, source_crs=()):
+        """Cut, and each corner of the tile set's bounds is where gdaltransform has it."""
+        info = self.info(name)
+        self.assertTrue(info["shown"], info)
+        width, height = info["width_px"], info["height_px"]
+        self.assert_done("cut", name, "-o", "out.gpkg", "--tile-size", "16", *self.options_for(name), *cut_options)
+        bounds = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)["bounds"]
+        west, south, east, north = bounds
+        (lon0, lat0), (lon1, lat1) = places(self.folder / name, [(0, 0), (width, height)], crs, source_crs)
+        pixel = (north - south) / height
+        for ours, gdals in ((west, lon0), (east, lon1)):
+            off = (ours - gdals + 180) % 360 - 180
+            self.assertLessEqual(abs(off), PLACED_PX * pixel, f"{name}: longitudes {bounds}, GDAL {lon0} to {lon1}")
+        for ours, gdals in ((north, lat0), (south, lat1)):
+            self.assertLessEqual(abs(ours - gdals), PLACED_PX * pixel, f"{name}: latitudes {bounds}, GDAL {lat0} to {lat1}")
+        (self.folder / "out.gpkg").unlink()
+
+    def assert_refused(self, name, *says, options=()):
+        """By cut, render and info alike; nothing is left."""
+        before = sorted(p.name for p in self.folder.iterdir() if p.name != "cache")
+        first = self.assert_fails(FAILED, "cut", name, "-o", "out.gpkg", *options, says=[name, *says])
+        self.assert_fails(FAILED, "render", name, "-o", "out.png", *options, says=[name, *says])
+        self.assert_nothing_but(*before)
+        return first.stderr
+
+    def cure(self, message, crs, made, original, samples=(), **words):
+        """Runs the command that the message ends with; what it makes is drawn right and shows the same there."""
+        command = commands_in(message)
+        self.assertIsNotNone(command, message)
+        for word, value in words.items():
+            command = command.replace(word, str(value))
+        done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
+        self.assertTrue((self.folder / made).exists(), command)
+        self.assert_drawn_as_gdal_says(made, crs)
+        width, height = self.size(original)
+        for x, y in samples or [(0.3, 0.4), (0.5, 0.5), (0.6, 0.3), (0.7, 0.6)]:
+            column, row = math.floor(x * width), math.floor(y * height)
+            lon, lat = places(self.folder / original, [(column + 0.5, row + 0.5)], crs,
+                              words.get("source_crs", ()))[0]
+            shown = self.value_at(made, lon, lat)
+            self.assertAlmostEqual(shown, brightness(column, row, width, height), delta=BRIGHTNESS, msg=f"{lon}, {lat}")
+
+    def size(self, name):
+        return json.loads(gdal("gdalinfo", "-json", self.folder / name))["size"]
+
+    def value_at(self, name, lon, lat):
+        lon = (lon + 180) % 360 - 180
+        for turned in (lon, lon + 360):
+            told = subprocess.run(["gdallocationinfo", "-valonly", "-b", "1", "-geoloc", str(self.folder / name),
+                                   str(turned), str(lat)], capture_output=True, text=True, timeout=60).stdout.split()
+            if told:
+                return float(told[0])
+        raise AssertionError(f"{name} has nothing at {lon}, {lat}")
+
+    def picture(self, name, *options, size=(72, 36)):
+        make(self.folder / name, *size, *options)
+        return name
+
+
+class Drawn(GeoreferenceTest):
+    """Placed within 0.01 pixels of gdaltransform's answer."""
+
+    def check(self, crs, *options, size=(72, 36), cut=(), name="in.tif"):
+        self.picture(name, *options, size=size)
+        self.assert_drawn_as_gdal_says(name, crs, *cut)
+
+    def test_says_nothing_and_is_two_to_one(self):
+        self.picture("in.tif")
+        self.assertIsNone(self.info("in.tif")["georeference"])
+        self.assert_done("cut", "in.tif", "-o", "out.gpkg")
+        info = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)
+        self.assertEqual(info["bounds"], [-180, -90, 180, 90])
+
+    def test_degrees_whole_planet(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4326", *PLANET)
+
+    def test_degrees_part(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, size=(64, 32))
+
+    def test_degrees_part_over_180(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4326", "-a_ullr", 170, 40, 190, 30, size=(40, 20))
+
+    def test_degrees_part_beyond_180(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4326", "-a_ullr", 200, 40, 240, 20, size=(40, 20))
+
+    def test_pixel_is_point_on_the_grid(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, "-mo", "AREA_OR_POINT=Point",
+                   size=(64, 32))
+        self.assertTrue(self.info("in.tif")["georeference"]["pixel_is_point"])
+
+    def test_another_geographic_system(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4269", "-a_ullr", -100, 50, -84, 42, size=(64, 32))
+
+    def test_plate_carree_in_metres(self):
+        self.check("EPSG:4326", "-a_srs", "EPSG:4087", "-a_ullr", -20037508.342789244, 10018754.171394622,
+                   20037508.342789244, -10018754.171394622)
+
+    def test_moon_in_degrees(self):
+        self.check(MOON_DEGREES, "-a_srs", MOON_DEGREES, *PLANET)
+
+    def test_moon_in_metres(self):
+        self.check(MOON_DEGREES, "-a_srs", MOON_METRES, "-a_ullr", -MOON_HALF, MOON_HALF / 2, MOON_HALF, -MOON_HALF / 2)
+
+    def test_part_of_the_moon_in_metres(self):
+        degree = MOON_HALF / 180
+        self.check(MOON_DEGREES, "-a_srs", MOON_METRES, "-a_ullr", 10 * degree, 50 * degree, 26 * degree, 42 * degree,
+                   size=(64, 32))
+
+    def test_part_in_metres_from_another_meridian(self):
+        degree = MOON_HALF / 180
+        self.check(MOON_DEGREES, "-a_srs", MOON_METRES + " +lon_0=180", "-a_ullr", 10 * degree, 50 * degree,
+                   26 * degree, 42 * degree, size=(64, 32))
+
+    def test_mars_ellipsoid(self):
+        self.check(MARS_FIGURE, "-a_srs", MARS_FIGURE, *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars"])
+
+    def test_mars_sphere(self):
+        self.check(MARS_SPHERE, "-a_srs", MARS_SPHERE, *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
+
+    def test_names_of_the_iau(self):
+        half = math.pi * 3396190
+        self.check(MARS_SPHERE, "-a_srs", "IAU_2015:49910", "-a_ullr", -half, half / 2, half, -half / 2)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
+        self.check(MARS_FIGURE, "-a_srs", "IAU_2015:49901", *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars"])
+        self.picture("in.tif", "-a_srs", "IAU_2015:49902", *PLANET)
+        self.assertEqual(self.options_for("in.tif"), ["--body", "mars", "--latitude", "centric"])
+
+    def test_world_files_in_degrees(self):
+        for picture, world in (("a.png", "a.pgw"), ("b.png", "b.PGW"), ("c.png", "c.wld"), ("d.jpg", "d.jgw"),
+                               ("e.png", "e.Pgw"), ("f.tif", "f.tfw")):
+            with self.subTest(world):
+                self.picture(picture, "-of", {"png": "PNG", "jpg": "JPEG", "tif": "GTiff"}[picture[-3:]], size=(64, 32))
+                self.write(world, b"0.25\n0\n0\n-0.25\n10.125\n49.875\n")
+                self.assert_done("cut", picture, "-o", "out.gpkg")
+                info = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)
+                for ours, said in zip(info["bounds"], (10, 42, 26, 50)):
+                    self.assertAlmostEqual(ours, said, delta=PLACED_PX * 0.25)
+
+    def test_world_file_and_prj(self):
+        self.picture("in.png", "-of", "PNG", size=(64, 32))
+        self.write("in.pgw", b"0.25\n0\n0\n-0.25\n10.125\n49.875\n")
+        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt_esri", "EPSG:4326").encode())
+        self.assertEqual(self.info("in.png")["georeference"]["source"], "in.pgw, in.prj")
+        self.assertIn("WGS 84", self.info("in.png")["georeference"]["crs"]["name"])
+        self.assert_drawn_as_gdal_says("in.png", "EPSG:4326", source_crs=("-s_srs", "EPSG:4326"))
+
+    def test_gdals_own_file_beside(self):
+        self.check("EPSG:4326", "-of", "PNG", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, size=(64, 32),
+                   name="in.png")
+        self.assertTrue((self.folder / "in.png.aux.xml").exists())
+
+    def test_world_file_that_agrees(self):
+        self.check("EPSG:4326", "-co", "TFW=YES", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, size=(64, 32))
+        self.assertTrue((self.folder / "in.tfw").exists())
+
+    def test_transformation_matrix(self):
+        matrix = [0.25, 0, 0, 10, 0, -0.25, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1.0]
+        self.write("in.tif", tiff(64, 32, [DEGREES, (MATRIX, 12, matrix)]))
+        self.assert_drawn_as_gdal_says("in.tif", "EPSG:4326")
+
+    def test_tags_without_keys_in_degrees(self):
+        self.write("in.tif", tiff(64, 32, placed_at(10, 50, 0.25, 0.25)))
+        self.assert_drawn_as_gdal_says("in.tif", "EPSG:4326", source_crs=("-s_srs", "EPSG:4326"))
+
+    def test_planet_by_nodes(self):
+        half = 2.5
+        self.picture("in.tif", "-ot", "UInt16", "-a_srs", "EPSG:4326", "-a_ullr", -180 - half, 90 + half, 180 - half,
+                     -90 - half, size=(72, 37))
+        self.assert_done("cut", "in.tif", "--elevation", "-o", "out.gpkg", "--tile-size", "16")
+        info = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)
+        self.assertEqual(info["bounds"], [-180, -90, 180, 90])
+
+    def test_bounds_overrule_the_place(self):
+        self.picture("in.tif", "-a_srs", "EPSG:32633", "-a_ullr", 500000, 4650000, 506400, 4646800, size=(64, 32))
+        self.assert_done("cut", "in.tif", "-o", "out.gpkg", "--bounds", "10,42,26,50")
+
+
+class Refused(GeoreferenceTest):
+    """The message says what the picture claims; its command makes a picture that is drawn right."""
+
+    def check(self, crs, says, *options, size=(64, 32), name="in.tif", source_crs=(), **words):
+        self.picture(name, *options, size=size)
+        message = self.assert_refused(name, *says)
+        made = f"{pathlib.Path(name).stem}-degrees.tif"
+        self.cure(message, crs, made, name, **words)
+        return message
+
+    def test_utm(self):
+        self.check("EPSG:4326", ["UTM zone 33N", "EPSG:32633", "central meridian 15"], "-a_srs", "EPSG:32633",
+                   "-a_ullr", 500000, 4650000, 1140000, 4330000)
+
+    def test_web_mercator(self):
+        self.check("EPSG:4326", ["Pseudo-Mercator", "EPSG:3857"], "-a_srs", "EPSG:3857", "-a_ullr", 0, 8000000, 8000000,
+                   4000000)
+
+    def test_web_mercator_so_small_that_it_is_even(self):
+        # 64 by 32 m at the equator: Mercator's rows and even ones differ by 1e-9 pixels there.
+        self.check("EPSG:4326", ["off the grid"], "-a_srs", "EPSG:3857", "-a_ullr", 0, 32, 64, 0)
+
+    def test_moon_from_another_central_meridian(self):
+        self.check(MOON_DEGREES, ["all longitudes from"], "-a_srs", MOON_METRES + " +lon_0=180", "-a_ullr", -MOON_HALF,
+                   MOON_HALF / 2, MOON_HALF, -MOON_HALF / 2)
+
+    def test_moon_in_metres_from_zero(self):
+        self.check(MOON_DEGREES, ["all longitudes from 0"], "-a_srs", MOON_METRES, "-a_ullr", 0, MOON_HALF / 2,
+                   2 * MOON_HALF, -MOON_HALF / 2)
+
+    def test_degrees_from_zero(self):
+        self.check("EPSG:4326", ["all longitudes from 0"], "-a_srs", "EPSG:4326", "-a_ullr", 0, 90, 360, -90)
+
+    def test_moon_in_degrees_from_zero(self):
+        self.check(MOON_DEGREES, ["all longitudes from 0"], "-a_srs", MOON_DEGREES, "-a_ullr", 0, 90, 360, -90)
+
+    def test_sinusoidal_mars(self):
+        half = math.pi * 3396190
+        self.check(MARS_SPHERE, ["Sinusoidal", "--body mars", "--latitude centric"], "-a_srs",
+                   "+proj=sinu +R=3396190 +units=m +no_defs", "-a_ullr", -half, half / 2, half, -half / 2, size=(128, 64))
+
+    def test_polar_stereographic_moon(self):
+        self.check(MOON_DEGREES, ["Stereographic", "--body moon"], "-a_srs",
+                   "+proj=stere +lat_0=90 +lat_ts=90 +R=1737400 +units=m +no_defs", "-a_ullr", -640000, 320000, 640000,
+                   -320000, samples=[(0.2, 0.2), (0.7, 0.3), (0.6, 0.9)])
+
+    def test_lambert(self):
+        self.check("EPSG:4326", ["Lambert", "EPSG:2154"], "-a_srs", "EPSG:2154", "-a_ullr", 300000, 6800000, 940000,
+                   6480000)
+
+    def test_lambert_azimuthal(self):
+        self.check("EPSG:4326", ["EPSG:3035"], "-a_srs", "EPSG:3035", "-a_ullr", 3000000, 3400000, 5000000, 2400000)
+
+    def test_oblique_system_of_its_own(self):
+        self.check("EPSG:4326", ["Transverse Mercator"], "-a_srs",
+                   "+proj=tmerc +lat_0=10 +lon_0=20 +k=0.9 +x_0=1000 +ellps=GRS80 +units=m +no_defs", "-a_ullr", 0,
+                   320000, 640000, 0)
+
+    def test_half_a_pixel_off_the_grid(self):
+        self.check("EPSG:4326", ["off the grid"], "-a_srs", "EPSG:4326", "-a_ullr", 10.125, 50.125, 26.125, 42.125)
+
+    def test_pixel_is_point_off_the_grid(self):
+        self.write("in.tif", tiff(64, 32, [geo_keys((1024, 2), (1025, 2), (2048, 4326)), *placed_at(10, 50, 0.25, 0.25)]))
+        message = self.assert_refused("in.tif", "off the grid")
+        self.cure(message, "EPSG:4326", "in-degrees.tif", "in.tif")
+
+    def test_pixels_that_are_not_square(self):
+        self.check("EPSG:4326", ["not square"], "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 45)
+
+    def test_pixels_that_are_no_part_of_a_turn(self):
+        self.check("EPSG:4326", ["off the grid"], "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 10 + 64 * 0.247,
+                   50 - 32 * 0.247)
+
+    def test_overhanging_planet(self):
+        self.check("EPSG:4326", ["more than a planet"], "-a_srs", "EPSG:4326", "-a_ullr", -182.5, 92.5, 182.5, -92.5,
+                   size=(73, 37))
+
+    def test_paris_and_grads(self):
+        self.check("EPSG:4326", ["off the grid"], "-a_srs", "EPSG:4807", "-a_ullr", 0, 55, 8, 51)
+
+    def test_turned(self):
+        matrix = [0.2, 0.1, 0, 10, 0.1, -0.2, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1.0]
+        self.write("in.tif", tiff(64, 32, [DEGREES, (MATRIX, 12, matrix)]))
+        message = self.assert_refused("in.tif", "turned")
+        self.cure(message, "EPSG:4326", "in-degrees.tif", "in.tif")
+
+    def test_rows_from_the_south(self):
+        matrix = [0.25, 0, 0, 10, 0, 0.25, 0, 42, 0, 0, 0, 0, 0, 0, 0, 1.0]
+        self.write("in.tif", tiff(64, 32, [DEGREES, (MATRIX, 12, matrix)]))
+        message = self.assert_refused("in.tif", "south to north")
+        self.cure(message, "EPSG:4326", "in-degrees.tif", "in.tif")
+
+    def test_ground_control_points(self):
+        corners = []
+        for x, y, lon, lat in ((0, 0, 10, 50), (64, 0, 26, 50), (64, 32, 26, 42), (0, 32, 10, 42)):
+            corners += ["-gcp", x, y, lon, lat]
+        self.picture("in.tif", "-a_srs", "EPSG:4326", *corners, size=(64, 32))
+        message = self.assert_refused("in.tif", "ground control points")
+        self.run_command(commands_in(message))
+        self.assertTrue(self.info("in-degrees.tif")["shown"], self.info("in-degrees.tif"))
+
+    def test_planet_by_nodes_from_zero(self):
+        half = 2.5
+        self.picture("in.tif", "-ot", "Int16", "-a_srs", "EPSG:4326", "-a_ullr", -half, 90 + half, 360 - half,
+                     -90 - half, size=(72, 37))
+        self.assert_heights_cured()
+
+    def test_heights_from_zero(self):
+        for kind in ("Int16", "UInt16", "Float32"):
+            with self.subTest(kind):
+                self.picture("in.tif", "-ot", kind, "-a_srs", "EPSG:4326", "-a_ullr", 0, 90, 360, -90)
+                self.assert_heights_cured()
+                (self.folder / "in-degrees.tif").unlink()
+
+    def test_heights_in_metres(self):
+        self.picture("in.tif", "-ot", "Int16", "-a_srs", "EPSG:32633", "-a_ullr", 500000, 4650000, 1140000, 4330000)
+        self.assert_heights_cured()
+
+    def assert_heights_cured(self):
+        done = self.assert_fails(FAILED, "cut", "in.tif", "--elevation", "-o", "out.gpkg", says=["in.tif", "gdalwarp"])
+        self.run_command(commands_in(done.stderr))
+        self.assert_done("cut", "in-degrees.tif", "--elevation", "-o", "out.gpkg", "--tile-size", "16")
+        (self.folder / "out.gpkg").unlink()
+
+    def run_command(self, command):
+        done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
+
+    def test_world_files_in_metres(self):
+        # 2:1, so that it was drawn as a whole planet.
+        for picture, world in (("a.tif", "a.tfw"), ("b.jpg", "b.JGW"), ("c.png", "c.wld"), ("d.png", "d.WLD")):
+            with self.subTest(world):
+                self.picture(picture, "-of", {"png": "PNG", "jpg": "JPEG", "tif": "GTiff"}[picture[-3:]], size=(64, 32))
+                self.write(world, b"10000\n0\n0\n-10000\n505000\n4645000\n")
+                message = self.assert_refused(picture, world, "no coordinate system", "EPSG:CODE")
+                self.run_command(commands_in(message).replace("EPSG:CODE", "EPSG:32633"))
+                made = picture[0] + "-degrees.tif"
+                if not self.info(made)["shown"]:  # GDAL chose the pixels
+                    self.run_command(commands_in(self.assert_refused(made, "off the grid")))
+                    made = picture[0] + "-degrees-degrees.tif"
+                self.assert_drawn_as_gdal_says(made, "EPSG:4326")
+
+    def test_prj_in_metres(self):
+        self.picture("in.png", "-of", "PNG", size=(64, 32))
+        self.write("in.pgw", b"10000\n0\n0\n-10000\n505000\n4645000\n")
+        self.write("in.prj", gdal("gdalsrsinfo", "-o", "wkt_esri", "EPSG:32633").encode())
+        message = self.assert_refused("in.png", "in.pgw, in.prj", "UTM", "-s_srs")
+        self.run_command(commands_in(message))
+        self.assert_drawn_as_gdal_says("in-degrees.tif", "EPSG:4326")
+
+    def test_gdals_own_file_in_metres(self):
+        self.check("EPSG:4326", ["in.png.aux.xml", "UTM zone 33N"], "-of", "PNG", "-a_srs", "EPSG:32633", "-a_ullr",
+                   500000, 4650000, 1140000, 4330000, name="in.png")
+
+    def test_world_file_that_contradicts(self):
+        self.picture("in.tif", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, size=(64, 32))
+        self.write("in.tfw", b"0.25\n0\n0\n-0.25\n11.125\n49.875\n")
+        message = self.assert_refused("in.tif", "GeoTIFF tags", "in.tfw", "differently")
+        self.run_command(commands_in(message))
+        self.assert_drawn_as_gdal_says("in-own.tif", "EPSG:4326")
+
+    def test_file_name_with_blanks_and_quotes(self):
+        self.check("EPSG:4326", ["UTM"], "-a_srs", "EPSG:32633", "-a_ullr", 500000, 4650000, 1140000, 4330000,
+                   name="my dad's $map.tif")
+
+    def test_another_body(self):
+        self.picture("in.tif", "-a_srs", MOON_DEGREES, *PLANET)
+        self.assert_refused("in.tif", "1737400", "earth has 6378137", "--body moon")
+        self.assert_refused("in.tif", "mars has 3396190", "--body moon", options=["--body", "mars"])
+        self.assert_done("cut", "in.tif", "-o", "out.gpkg", "--body", "moon")
+        self.assert_done("render", "in.tif", "-o", "out.png", "--size", "64x64", "--body", "moon")
+
+    def test_a_body_without_a_name(self):
+        self.picture("in.tif", "-a_srs", "+proj=longlat +a=289000 +b=229000 +no_defs", *PLANET)
+        self.assert_refused("in.tif", "--body 289000,0.2076")
+        self.assert_drawn_as_gdal_says("in.tif", "+proj=longlat +a=289000 +b=229000 +no_defs")
+
+    def test_latitudes_of_a_sphere_on_mars(self):
+        self.picture("in.tif", "-a_srs", MARS_SPHERE, *PLANET, size=(720, 360))
+        self.assert_refused("in.tif", "--latitude centric", options=["--body", "mars"])
+        self.assert_done("render", "in.tif", "-o", "out.png", "--size", "64x64", "--body", "mars", "--latitude",
+                         "centric")
+
+    def test_a_claim_that_comes_after_the_first_view(self):
+        self.picture("in.png", "-of", "PNG")
+        self.assert_done("render", "in.png", "-o", "out.png", "--size", "64x64")
+        self.write("in.pgw", b"10000\n0\n0\n-10000\n505000\n4645000\n")
+        self.assert_fails(FAILED, "render", "in.png", "-o", "out.png", says=["in.pgw"])
+
+
+class Parts(GeoreferenceTest):
+    """Mosaics whose parts say where they lie."""
+
+    def halves(self, *wests):
+        for name, west in zip("ab", wests):
+            self.picture(f"{name}.tif", "-a_srs", "EPSG:4326", "-a_ullr", west, 90, west + 180, -90, size=(36, 36))
+
+    def bounds(self):
+        return json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)["bounds"]
+
+    def test_in_order(self):
+        self.halves(-180, 0)
+        self.assert_done("cut", "a.tif", "b.tif", "-o", "out.gpkg")
+        self.assertEqual(self.bounds(), [-180, -90, 180, 90])
+
+    def test_from_zero(self):
+        self.halves(0, 180)
+        for options in ([], ["--mosaic", "2x1"]):
+            self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", *options,
+                              says=["all longitudes from 0", "--mosaic"])
+        self.assert_done("cut", "b.tif", "a.tif", "-o", "out.gpkg", "--mosaic", "2x1")
+        self.assertEqual(self.bounds(), [-180, -90, 180, 90])
+
+    def test_an_order_that_contradicts(self):
+        self.halves(-180, -90)
+        self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", "--mosaic", "2x1", says=["b.tif", "--mosaic"])
+
+    def test_names_that_contradict(self):
+        for x, name in enumerate(("x.A1.tif", "x.B1.tif")):
+            self.picture(name, "-a_srs", "EPSG:4326", "-a_ullr", 90 * x, 90, 90 * x + 90, 0, size=(36, 36))
+        self.assert_fails(FAILED, "cut", "x.A1.tif", "x.B1.tif", "-o", "out.gpkg", says=["x.A1.tif", "its name"])
+
+    def test_in_metres(self):
+        for x, name in enumerate(("a.tif", "b.tif")):
+            self.picture(name, "-a_srs", "EPSG:32633", "-a_ullr", 500000 + 36000 * x, 4650000, 536000 + 36000 * x,
+                         4614000, size=(36, 36))
+        for options in ([], ["--mosaic", "2x1"]):
+            self.assert_fails(FAILED, "cut", "a.tif", "b.tif", "-o", "out.gpkg", *options,
+                              says=["a.tif", "UTM zone 33N", "gdalwarp"])
+
+
+NAN, HUGE = float("nan"), 1e308
+KEYS = (1024, 2), (1025, 1), (2048, 4326)
+MOON_KEYS = (1024, 2), (1025, 1), (2048, 32767), (2057, DOUBLES, 1, 0), (2058, DOUBLES, 1, 1)
+HERE = placed_at(10, 50, 0.25, 0.25)
+HOSTILE = {
+    "scale of NaN": [DEGREES, *placed_at(10, 50, NAN, 0.25)],
+    "scale of 0": [DEGREES, *placed_at(10, 50, 0, 0)],
+    "scale of 1e308": [DEGREES, *placed_at(10, 50, HUGE, HUGE)],
+    "scale of 1e-308": [DEGREES, *placed_at(10, 50, 1e-308, 1e-308)],
+    "negative scale": [DEGREES, *placed_at(10, 50, -0.25, 0.25)],
+    "scale of infinity": [DEGREES, *placed_at(10, 50, math.inf, 0.25)],
+    "tie point of NaN": [DEGREES, *placed_at(NAN, 50, 0.25, 0.25)],
+    "tie point of 1e308": [DEGREES, *placed_at(HUGE, 50, 0.25, 0.25)],
+    "scale without tie point": [DEGREES, (SCALE, 12, [0.25, 0.25, 0])],
+    "scale of one number": [DEGREES, (SCALE, 12, [0.25]), HERE[1]],
+    "tie point of three numbers": [DEGREES, HERE[0], (TIES, 12, [0.0, 0.0, 0.0])],
+    "two tie points": [DEGREES, HERE[0], (TIES, 12, HERE[1][2] * 2)],
+    "tie point without scale": [DEGREES, HERE[1]],
+    "matrix of 12": [DEGREES, (MATRIX, 12, [0.25] * 12)],
+    "matrix of zeros": [DEGREES, (MATRIX, 12, [0.0] * 16)],
+    "matrix of NaN": [DEGREES, (MATRIX, 12, [NAN] * 16)],
+    "matrix that contradicts": [DEGREES, *HERE, (MATRIX, 12, [1.0, 0, 0, 10, 0, -1, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1])],
+    "keys of bytes": [(34735, 1, list(range(32))), *HERE],
+    "keys of doubles": [(34735, 12, [1.0, 1, 0, 3]), *HERE],
+    "scale of shorts": [DEGREES, (SCALE, 3, [1, 1, 1]), HERE[1]],
+    "keys of one number": [(34735, 3, [1]), *HERE],
+    "keys that count 65535": [(34735, 3, [1, 1, 0, 65535, 1024, 0, 1, 2]), *HERE],
+    "keys 65535 long": [(34735, 3, ([1, 1, 0, 16383] + [1024, 0, 1, 2] * 16384)[:65535]), *HERE],
+    "keys of another version": [(34735, 3, [9, 1, 0, 1, 1024, 0, 1, 2]), *HERE],
+    "key beyond the numbers": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [1737400.0]), *HERE],
+    "key of 65535 numbers": [geo_keys((1024, 2), (2048, 32767), (2057, DOUBLES, 65535, 0)), (DOUBLES, 12, [1737400.0]),
+                             *HERE],
+    "short key in doubles": [geo_keys((1024, DOUBLES, 1, 0), (2048, 4326)), (DOUBLES, 12, [2.0]), *HERE],
+    "text key in doubles": [geo_keys(*KEYS, (1026, DOUBLES, 40000, 60000)), (DOUBLES, 12, [2.0]), *placed_at(10.1, 50, 0.25, 0.25)],
+    "radius of NaN": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [NAN, NAN]), *HERE],
+    "radius of 0": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [0.0, 0.0]), *HERE],
+    "radius of 1e308": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [HUGE, HUGE]), *HERE],
+    "negative radius": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [-1737400.0, -1737400.0]), *HERE],
+    "unknown geographic code": [geo_keys((1024, 2), (1025, 1), (2048, 31999)), *HERE],
+    "unknown projected code": [geo_keys((1024, 1), (1025, 1), (3072, 31999)), *HERE],
+    "projected without a projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326)), *HERE],
+    "unknown projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326), (3072, 32767), (3074, 32767), (3075, 9999)), *HERE],
+    "geographic and projected": [geo_keys((1024, 2), (1025, 1), (2048, 4326), (3072, 32633)), *HERE],
+    "geocentric": [geo_keys((1024, 3), (1025, 1), (2048, 4326)), *HERE],
+    "unknown model": [geo_keys((1024, 77), (1025, 1), (2048, 4326)), *HERE],
+    "unknown raster type": [geo_keys((1024, 2), (1025, 77), (2048, 4326)), *HERE],
+    "wgs 84 with the moon's radius": [geo_keys(*KEYS, (2057, DOUBLES, 1, 0)), (DOUBLES, 12, [1737400.0]), *HERE],
+    "wgs 84 in radians": [geo_keys(*KEYS, (2054, 9101)), *HERE],
+    "model without a system": [geo_keys((1024, 2), (1025, 1)), *HERE],
+    "projected system and no place": [geo_keys((1024, 1), (1025, 1), (3072, 32633))],
+    "metres in degrees": [DEGREES, *placed_at(500000, 4650000, 10, 10)],
+    "latitudes over 90": [DEGREES, *placed_at(10, 95, 0.25, 0.25)],
+    "metres without keys": placed_at(500000, 4650000, 10, 10),
+}
+
+
+class Hostile(GeoreferenceTest):
+    """Tags that are damaged, missing, unknown or contradict each other: refused in a second, with a command."""
+
+    def test_tags(self):
+        for name, tags in HOSTILE.items():
+            with self.subTest(name):
+                self.write("in.tif", tiff(64, 32, tags))
+                message = self.assert_refused("in.tif")
+                self.assertIsNotNone(commands_in(message), message)
+                self.assertNotIn("PROJ:", message)
+                self.assertEqual(len(message.strip().splitlines()), 1, message)
+                info = self.info("in.tif")
+                self.assertFalse(info["shown"])
+                self.assertIn(info["refused"], message)
+
+    def test_the_advice_for_what_cannot_be_believed(self):
+        self.write("in.tif", tiff(64, 32, HOSTILE["keys of bytes"]))
+        command = commands_in(self.assert_refused("in.tif", "GeoKeyDirectory"))
+        for word, value in (("EPSG:CODE", "EPSG:4326"), ("WEST NORTH EAST SOUTH", "10 50 26 42")):
+            command = command.replace(word, value)
+        done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stderr}")
+        self.assert_drawn_as_gdal_says("in-placed.tif", "EPSG:4326")
+
+    def test_files_beside(self):
+        broken = {"in.pgw": [b"1 2 3", b"no numbers at all", b"", b"nan 0 0 nan 0 0", b"0,25\n0\n0\n-0,25\n10\n50\n", b"\0" * 100,
+                             b"1e308 0 0 -1e308 0 0", b"9" * 100000],
+                  "in.png.aux.xml": [b"<PAMDataset>", b"<PAMDataset><GeoTransform>1,2</GeoTransform></PAMDataset>",
+                                     b"<PAMDataset><SRS>nonsense</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>+proj=longlat +nadgrids=/dev/stdin</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>GEOGCS[</SRS></PAMDataset>",
+                                     b"<PAMDataset><SRS>" + b"GEOGCS[" * 100000 + b"</SRS></PAMDataset>",
+                                     b"<PAMDataset><GeoTransform>0,0,0,0,0,0</GeoTransform></PAMDataset>"]}
+        for beside, contents in broken.items():
+            for content in contents:
+                with self.subTest(beside, content=content[:40]):
+                    self.picture("in.png", "-of", "PNG")
+                    self.write(beside, content)
+                    self.assert_refused("in.png", "in.p")
+            (self.folder / beside).unlink()
+
+    def test_a_pipe_beside_is_not_read(self):
+        self.picture("in.png", "-of", "PNG")
+        os.mkfifo(self.folder / "in.pgw")
+        self.assert_done("cut", "in.png", "-o", "out.gpkg")
+
+
+if __name__ == "__main__":
+    unittest.main()
