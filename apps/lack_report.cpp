@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "apps/console.h"
+
 namespace terrella {
 namespace {
 
@@ -45,7 +47,8 @@ Result<LackReport> LackReport::open(const std::filesystem::path& file) {
   return report;
 }
 
-void LackReport::add(const TileId& id, Lack kind, const std::string& why) {
+void LackReport::add(const TileId& id, Lack kind, const std::string& told) {
+  const std::string why = one_line(told);
   if (file_.is_open()) file_ << fmt::format("{}/{}/{}\t{}\t{}\n", id.level, id.x, id.y, lack_name(kind), why);
   std::string reason = reason_of(why);
   if (groups_.size() >= kMostReasons && !groups_.contains({kind, reason})) reason = "other reasons";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "streaming/json_text.h"
 #include "streaming/objects/feature_objects.h"
 #include "streaming/objects/model_shelf.h"
 #include "streaming/objects/quake_catalogue.h"
@@ -28,8 +29,7 @@ class FeatureTaker {
 
   /// What the parser asks after each piece: keep it? Depth 0 is the document, 1 its members, 2 the features.
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    constexpr int kMostDepth = 64;
-    if (++values_ > kMaxFeatureValues || depth > kMostDepth) throw TooMuch();
+    if (++values_ > kMaxFeatureValues) throw TooMuch();
     if (depth == 1 && event == json::parse_event_t::key) member_ = parsed.get<std::string>();
     const bool complete = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end ||
                           event == json::parse_event_t::value;
@@ -105,12 +105,10 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
   };
   json document;
   try {
-    document = json::parse(
-        text, [&taker](int depth, json::parse_event_t event, json& parsed) { return taker(depth, event, parsed); });
-  } catch (const json::parse_error& error) {
-    return broken(fmt::format("not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", error.byte));
-  } catch (const json::exception&) {
-    return broken(fmt::format("a number after feature {} is too large", taker.count()));
+    Result<json> parsed = parse_json(
+        text, [&taker](int depth, json::parse_event_t event, json& piece) { return taker(depth, event, piece); });
+    if (!parsed) return broken(parsed.error().message + "; a GeoJSON file (RFC 7946) is needed");
+    document = *std::move(parsed);
   } catch (const TooMuch&) {
     return broken(fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
   }

@@ -8,15 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "streaming/json_text.h"
+
 namespace terrella {
 namespace {
 
 using nlohmann::json;
 
-constexpr int kMostGltfDepth = 64;
 constexpr std::size_t kMostGltfValues = 4'000'000;
 
-struct BadGltfJson : std::exception {};
+struct TooManyValues : std::exception {};
 
 /// The text of a binary file's first chunk.
 Result<std::string_view> first_chunk(std::string_view file) {
@@ -47,18 +48,17 @@ Result<json> gltf_json(std::span<const std::byte> bytes) {
   }
   std::size_t values = 0;
   try {
-    json document = json::parse(text, [&values](int depth, json::parse_event_t, const json&) {
-      if (depth > kMostGltfDepth || ++values > kMostGltfValues) throw BadGltfJson();
+    Result<json> document = parse_json(text, [&values](int, json::parse_event_t, const json&) {
+      if (++values > kMostGltfValues) throw TooManyValues();
       return true;
     });
-    if (!document.is_object() || !document.contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
+    if (!document) return Error{document.error().message + "; a .gltf or .glb file is needed"};
+    if (!document->is_object() || !document->contains("asset")) {
+      return Error{"JSON, but no glTF: it has no \"asset\""};
+    }
     return document;
-  } catch (const json::parse_error& problem) {
-    return Error{fmt::format("not JSON at byte {}; a .gltf or .glb file is needed", problem.byte)};
-  } catch (const json::exception&) {
-    return Error{"a number in it is too large"};
-  } catch (const BadGltfJson&) {
-    return Error{fmt::format("its JSON is deeper than {} or has more than {} values", kMostGltfDepth, kMostGltfValues)};
+  } catch (const TooManyValues&) {
+    return Error{fmt::format("its JSON has more than {} values", kMostGltfValues)};
   }
 }
 
