@@ -81,6 +81,7 @@ struct FrameStats {
   int tiles_lacked = 0;       ///< of those, finally failed
   int patches_uncovered = 0;  ///< patches with a cell without any imagery; 0 once the root tiles are there
   std::size_t uploaded_bytes = 0;
+  std::size_t objects_cut = 0;   ///< lines and areas tessellated since the frame before
   int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
   int heights_lacked = 0;        ///< elevation tiles that finally failed, of those that views wanted lately
   bool heights_arrived = false;  ///< since it was drawn: another frame will show the ground as it is now

@@ -187,6 +187,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   if (!same_size(viewport, drawn)) restore_detail();
   drawn = viewport;
   stats.uploaded_bytes = take_finished();
+  stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();
   if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
   const auto start = FrameClock::now();

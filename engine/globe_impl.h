@@ -21,7 +21,12 @@ struct ObjectLayer {
   bool shown = true;
   double opacity = 1.0;
   std::string attribution = {};
-  [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0; }
+  // Worked out when they are first needed, and kept while the layer stays as it is, whatever the others do.
+  std::optional<Angle> line_length = {};
+  std::optional<CutObjects> cut = {};
+  std::optional<ObjectScene> faded = {};  ///< there if opacity is less than 1
+
+  [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
 };
 
 /// What is behind the façade. Calls are those of Globe, which has checked thread and context.
@@ -43,6 +48,7 @@ struct Globe::Impl {
   Status set_elevation(const std::optional<ElevationSource>& elevation);
   void make_relief(const ElevationSource& elevation);
   Status show_objects();
+  [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
   void share_gpu();
   [[nodiscard]] ImageLayer* image(LayerId id) const;
   [[nodiscard]] ObjectLayer* object(LayerId id);
@@ -86,6 +92,7 @@ struct Globe::Impl {
   std::unique_ptr<ImageLayer> plain;                ///< made where no image layer is opaque
   std::vector<ImageLayer*> stack;                   ///< what a frame draws, the lowest first: it is opaque
   std::vector<ObjectLayer> objects;
+  std::size_t objects_cut = 0;  ///< since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
   View view;  ///< what is selected for: the eye's, or both eyes'
   std::optional<EyePair> eyes;

@@ -41,11 +41,6 @@ void move_to(std::vector<T>& all, typename std::vector<T>::iterator from, std::s
   from < to ? std::rotate(from, from + 1, to + 1) : std::rotate(to, from, from + 1);
 }
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 }  // namespace
 
 Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
@@ -128,8 +123,12 @@ Result<LayerId> Globe::Impl::add_objects(ObjectScene scene, bool shown) {
 Status Globe::Impl::set_objects(LayerId id, ObjectScene scene) {
   ObjectLayer* layer = object(id);
   if (layer == nullptr) return no_layer("Globe::set_objects", "object layer", id);
+  const bool was_drawn = layer->is_drawn();
   layer->scene = std::move(scene);
-  return layer->is_drawn() ? show_objects() : Status(Done{});
+  layer->line_length.reset();
+  layer->cut.reset();
+  layer->faded.reset();
+  return was_drawn || layer->is_drawn() ? show_objects() : Status(Done{});
 }
 
 Status Globe::Impl::show_objects(LayerId id, bool shown) {
@@ -144,27 +143,36 @@ Status Globe::Impl::fade_objects(LayerId id, double opacity) {
   if (layer == nullptr) return no_layer("Globe::fade_objects", "object layer", id);
   if (Status good = check_opacity("Globe::fade_objects", opacity); !good) return good;
   if (std::exchange(layer->opacity, opacity) == opacity) return Done{};
+  layer->faded.reset();
   return show_objects();
 }
 
-// The renderer has one scene: what is drawn in one go lies together, whatever layer it is of.
+// A scene is cut once. Fading it changes colours alone.
+CutScene Globe::Impl::cut_scene(ObjectLayer& layer, Angle step) {
+  if (!layer.cut || layer.cut->step != step) {
+    layer.cut = cut_objects(layer.scene, options.body.ellipsoid, step);
+    objects_cut += layer.scene.lines.size() + layer.scene.polygons.size();
+  }
+  if (layer.opacity == 1.0) return {layer.scene, *layer.cut};
+  if (!layer.faded) layer.faded = faded(layer.scene, layer.opacity);
+  return {*layer.faded, *layer.cut};
+}
+
+// What is drawn in one go lies together, whatever layer it is of.
 Status Globe::Impl::show_objects() {
   changed = true;
-  std::vector<const ObjectLayer*> seen;
-  for (const ObjectLayer& layer : objects) {
-    if (layer.is_drawn() && !layer.scene.empty()) seen.push_back(&layer);
+  std::vector<ObjectLayer*> seen;
+  for (ObjectLayer& layer : objects) {
+    if (layer.is_drawn()) seen.push_back(&layer);
   }
-  if (seen.size() == 1 && seen.front()->opacity == 1.0) return renderer->set_objects(seen.front()->scene);
-  ObjectScene all;
-  for (const ObjectLayer* layer : seen) {
-    const ObjectScene scene = faded(layer->scene, layer->opacity);
-    append(all.points, scene.points);
-    append(all.lines, scene.lines);
-    append(all.polygons, scene.polygons);
-    append(all.labels, scene.labels);
-    append(all.meshes, scene.meshes);
+  Angle length{};
+  for (ObjectLayer* layer : seen) {
+    if (!layer->line_length) layer->line_length = line_length(layer->scene);
+    length = length + *layer->line_length;
   }
-  return renderer->set_objects(all);
+  std::vector<CutScene> scenes;
+  for (ObjectLayer* layer : seen) scenes.push_back(cut_scene(*layer, line_step(length)));
+  return renderer->set_objects(scenes);
 }
 
 Status Globe::Impl::set_attribution(LayerId id, std::string text) {
@@ -189,7 +197,7 @@ std::vector<std::string> Globe::Impl::attributions() const {
   if (stack.empty() || stack.front()->patches().empty()) return texts;
   if (relief && relief->field().size() > 0) add(heights_attribution);
   for (const ObjectLayer& layer : objects) {
-    if (layer.is_drawn() && !layer.scene.empty()) add(layer.attribution);
+    if (layer.is_drawn()) add(layer.attribution);
   }
   return texts;
 }

@@ -2,35 +2,38 @@
 
 #include <fmt/format.h>
 
-#include <exception>
+#include <utility>
 
 namespace terrella {
 namespace {
 
 using nlohmann::json;
 
-struct TooDeep : std::exception {};
-
 template <class Text>
-Result<json> parse(Text& text, const json::parser_callback_t& visit) {
-  try {
-    return json::parse(text, [&visit](int depth, json::parse_event_t event, json& value) {
-      if (depth > kMaxJsonDepth) throw TooDeep();
-      return visit == nullptr || visit(depth, event, value);
-    });
-  } catch (const json::parse_error& error) {
-    return Error{fmt::format("not JSON at byte {}", error.byte)};
-  } catch (const json::out_of_range&) {
-    return Error{"a number in it is too large; the largest is 1.8e308"};
-  } catch (const TooDeep&) {
-    return Error{fmt::format("its lists and objects are nested more than {} deep", kMaxJsonDepth)};
+Result<json> parse(Text& text, const JsonBuilder::Limits& limits, JsonBuilder::Keep keep) {
+  JsonBuilder builder(limits, std::move(keep));
+  json::sax_parse(text, &builder);
+  switch (builder.problem()) {
+    case JsonBuilder::Problem::syntax:
+      return Error{fmt::format("not JSON at byte {}", builder.byte())};
+    case JsonBuilder::Problem::number:
+      return Error{fmt::format("the number at byte {} is too large; the largest is 1.8e308", builder.byte())};
+    case JsonBuilder::Problem::too_deep:
+      return Error{fmt::format("its lists and objects are nested more than {} deep", limits.depth)};
+    case JsonBuilder::Problem::too_much:
+      return Error{fmt::format("it has more than {} values and keys; divide it", limits.pieces)};
+    case JsonBuilder::Problem::none:
+      break;
   }
+  return std::move(builder.document());
 }
 
 }  // namespace
 
-Result<json> parse_json(std::string_view text, const json::parser_callback_t& visit) { return parse(text, visit); }
+Result<json> parse_json(std::string_view text, JsonBuilder::Limits limits) { return parse(text, limits, {}); }
 
-Result<json> parse_json(std::istream& text, const json::parser_callback_t& visit) { return parse(text, visit); }
+Result<json> parse_json(std::istream& text, JsonBuilder::Limits limits, JsonBuilder::Keep keep) {
+  return parse(text, limits, std::move(keep));
+}
 
 }  // namespace terrella

@@ -138,17 +138,21 @@ void Input::listen_to_pointer() {
 }
 
 void Input::listen_to_keys() {
-  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int code, int action, int modifiers) {
-    input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(w, key, code, action, modifiers));
+  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(key, action));
   });
   // Letters and signs come as characters: so they are where the keyboard's layout has them.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
     input_of(w).dirty_ = true;
-    if (!input_of(w).ui_.on_character(w, character)) input_of(w).on_character(character);
+    if (!input_of(w).ui_.on_character(character)) input_of(w).on_character(character);
   });
 }
 
 void Input::listen_to_window() {
+  glfwSetWindowFocusCallback(window_.handle(), [](GLFWwindow* w, int focused) {
+    Ui::on_focus(w, focused);
+    input_of(w).dirty_ = true;
+  });
   glfwSetFramebufferSizeCallback(window_.handle(), [](GLFWwindow* w, int, int) { input_of(w).dirty_ = true; });
   glfwSetDropCallback(window_.handle(), [](GLFWwindow* w, int count, const char** paths) {
     for (int i = 0; i < count; ++i) input_of(w).dropped_.emplace_back(paths[i]);

@@ -23,7 +23,7 @@ PictureAsk draw_picture_panel(PicturePanel& panel, Viewport window, int most_px)
   ImGui::SetNextWindowSize({std::min(kPictureWidth * unit, size.x), 0.0F});
   ImGui::SetNextWindowBgAlpha(0.9F);
   if (panel.just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin("Save a picture", nullptr, kPanelWindow);
+  ImGui::Begin(kPictureTitle, nullptr, kPanelWindow);
   ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
   if (std::exchange(panel.just_opened, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputInt("Width", &panel.width_px, 64, 1024);

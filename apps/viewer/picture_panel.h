@@ -4,6 +4,8 @@
 
 namespace terrella {
 
+inline constexpr const char* kPictureTitle = "Save a picture";
+
 /// What the panel of pictures holds between frames.
 struct PicturePanel {
   int width_px = 0, height_px = 0;  ///< 0: twice the window's, from the next frame on

@@ -20,7 +20,7 @@ std::optional<NamedPlace> draw_place_search(PlaceSearch& search, const Gazetteer
   ImGui::SetNextWindowSize({kSearchWidth * unit, 0.0F});
   ImGui::SetNextWindowBgAlpha(0.9F);
   if (search.just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin("Find a place", nullptr,
+  ImGui::Begin(kSearchTitle, nullptr,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
   std::array<char, 80> text{};
@@ -29,6 +29,7 @@ std::optional<NamedPlace> draw_place_search(PlaceSearch& search, const Gazetteer
   ImGui::SetNextItemWidth(-1.0F);
   const bool entered = ImGui::InputTextWithHint("##place", "Its name, then Enter; Esc closes", text.data(), text.size(),
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  search.has_keyboard = ImGui::IsItemActive();
   search.text = text.data();
   std::optional<NamedPlace> chosen;
   const auto found = places.find(search.text, kMostFound);

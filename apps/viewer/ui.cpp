@@ -5,8 +5,9 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <utility>
+#include <iterator>
 
 namespace terrella {
 namespace {
@@ -56,6 +57,13 @@ void fit_to(const Window& window) {
 
 bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
 
+/// Letters do something with Ctrl only.
+bool panels_act_on(int key) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool letter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+  return (!letter || io.KeyCtrl) && std::ranges::find(io.KeyMap, key) != std::end(io.KeyMap);
+}
+
 }  // namespace
 
 Ui::Ui(const Window& window) {
@@ -77,15 +85,12 @@ Ui::~Ui() {
 void Ui::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  if (ImGui::GetIO().WantTextInput) {
-    for (const unsigned character : std::exchange(written_, {})) ImGui::GetIO().AddInputCharacter(character);
-  }
+  hand_over_waiting();
   ImGui::NewFrame();
 }
 
 void Ui::end_frame() {
   ImGui::Render();
-  for (const int key : std::exchange(released_keys_, {})) ImGui::GetIO().KeysDown[key] = false;
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
@@ -95,7 +100,9 @@ void Ui::take_events(bool on) {
              : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
 }
 
-void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(ImGui::GetIO().NavActive ? nullptr : title); }
+bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
+
+void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(panel_has_keyboard() ? nullptr : title); }
 
 void Ui::rescale(const Window& window) {
   ImGui::GetIO().Fonts->Clear();
@@ -115,34 +122,47 @@ bool Ui::on_scroll(GLFWwindow* window, double x, double y) {
   return ImGui::GetIO().WantCaptureMouse;
 }
 
-bool Ui::on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-  if (!takes_events()) return false;
-  // Panels look at keys once a frame: one that is let go before that was down for it all the same.
+bool Ui::on_key(int key, int action) {
   const bool known = key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown);
-  if (action == GLFW_RELEASE && known) {
-    released_keys_.push_back(key);
-  } else {
-    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, modifiers);
-  }
-  return ImGui::GetIO().WantCaptureKeyboard;
+  if (known && action == GLFW_PRESS) waiting_.push_back({Stroke::press, unsigned(key)});
+  if (known && action == GLFW_RELEASE) waiting_.push_back({Stroke::release, unsigned(key)});
+  return takes_events() && ImGui::GetIO().WantCaptureKeyboard;
 }
 
-bool Ui::on_character(GLFWwindow* window, unsigned character) {
-  if (text_expected_ && !(takes_events() && ImGui::GetIO().WantTextInput)) {
-    written_.push_back(character);
-    return true;
+bool Ui::on_character(unsigned character) {
+  const bool keeps = text_expected_ || (takes_events() && ImGui::GetIO().WantTextInput);
+  if (keeps) waiting_.push_back({Stroke::character, character});
+  return keeps;
+}
+
+// ImGui looks at keys once a frame. It gets one change of a key that panels act on, and nothing after that, so that it
+// misses no key that is let go at once or pressed twice, and a character comes before or after Backspace as written.
+void Ui::hand_over_waiting() {
+  if (field_ready_) text_expected_ = false;
+  bool acts = false;
+  while (!waiting_.empty() && !acts) {
+    const KeyEvent event = waiting_.front();
+    if (event.stroke == Stroke::character) {
+      if (text_expected_) return;
+      ImGui::GetIO().AddInputCharacter(event.code);
+    } else {
+      const int key = int(event.code), action = event.stroke == Stroke::press ? GLFW_PRESS : GLFW_RELEASE;
+      ImGui_ImplGlfw_KeyCallback(nullptr, key, 0, action, 0);
+      acts = takes_events() && panels_act_on(key);
+    }
+    waiting_.pop_front();
   }
-  if (!takes_events()) return false;
-  ImGui_ImplGlfw_CharCallback(window, character);
-  return ImGui::GetIO().WantTextInput;
 }
 
 void Ui::expect_text(bool on) {
   text_expected_ = on;
-  written_.clear();
+  field_ready_ = false;
+  if (!on) std::erase_if(waiting_, [](const KeyEvent& event) { return event.stroke == Stroke::character; });
 }
 
 void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterCallback(window, entered); }
+
+void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
 double Ui::text_height() { return double(ImGui::GetFontSize()); }
 

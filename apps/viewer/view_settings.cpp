@@ -140,7 +140,7 @@ ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
   ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - 5.0F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin("View", nullptr, kPanelWindow);
+  ImGui::Begin(kViewTitle, nullptr, kPanelWindow);
   ImGui::PushItemWidth(0.5F * kWidth * unit);
   const ViewAsk ask = draw_view_buttons();
   group("Surface");

@@ -8,6 +8,8 @@
 
 namespace terrella {
 
+inline constexpr const char* kViewTitle = "View";
+
 /// What the panel shows and changes.
 struct ViewSettings {
   SurfaceLook surface;

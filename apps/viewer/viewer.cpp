@@ -89,7 +89,7 @@ void Viewer::run() {
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
     const bool dirty = input_.take_dirty();
     if (panel_frames_ > 0) --panel_frames_;
-    if (dirty && any_panel()) show_panels();
+    if ((dirty || ui_.has_waiting()) && any_panel()) show_panels();
     navigator_.set_viewport(framebuffer);
     navigator_.advance(Input::now());
     draw_frame(framebuffer);
@@ -100,7 +100,8 @@ void Viewer::run() {
 
 // Whether another frame would show something else.
 bool Viewer::work() const {
-  if (input_.dirty() || panel_frames_ > 0 || navigator_.animating() || screenshot_wanted_) return true;
+  if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || navigator_.animating() || screenshot_wanted_)
+    return true;
   if (dropped_.ready() || dropped_.text() != dropped_text_) return true;
   if (picture_job_ ? picture_job_->ready() : globe_.needs_frame()) return true;
   return (!message_.empty() && Clock::now() >= message_until_) || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE;

@@ -57,11 +57,13 @@ class Viewer {
   void act(ViewerAction action);
   void next_alpha();
   void next_stereo();
+  [[nodiscard]] bool under_ground() const;
   void toggle_underground();
   [[nodiscard]] double deepest_m() const;
   bool leave_something();
   void toggle_panel();
   void show_panels();
+  void pass_keyboard();
   [[nodiscard]] bool any_panel() const;
   void toggle_layers();
   void draw_layer_panel();

@@ -56,8 +56,7 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::picture:
       return toggle_picture_panel();
     case ViewerAction::panel_focus:
-      ui_.pass_keyboard(panel_ ? "View" : kLayersTitle);
-      return show_panels();
+      return pass_keyboard();
     case ViewerAction::find_place:
       return toggle_search();
     case ViewerAction::leave:
@@ -132,11 +131,17 @@ double Viewer::deepest_m() const {
   return -kDeepest * below_m * (e.a_m() / kEarthEquator_m);
 }
 
+// The eye may have flown over the ground since X was pressed.
+bool Viewer::under_ground() const {
+  const Geodetic eye = navigator_.camera().eye;
+  return eye.height_m < globe_.ground_height_m(eye.lat, eye.lon);
+}
+
 // Under the place where it was, as deep as it was high but over the inner sphere, looking up at the ground.
 void Viewer::toggle_underground() {
   Camera camera = navigator_.camera();
   const double ground_m = globe_.ground_height_m(camera.eye.lat, camera.eye.lon);
-  if (above_ || camera.eye.height_m < ground_m) {
+  if (under_ground()) {
     camera.eye.height_m = 2.0 * ground_m - camera.eye.height_m;
     camera.pitch = Angle::degrees(-90.0);
     if (above_) camera = *std::exchange(above_, std::nullopt);

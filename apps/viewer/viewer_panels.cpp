@@ -46,7 +46,7 @@ void Viewer::draw_settings() {
   settings_.surface = options.surface;
   settings_.stereo = options.stereo;
   settings_.sky = sky_;
-  settings_.under_ground = above_.has_value();
+  settings_.under_ground = under_ground();
   const std::optional<UtcTime> time = settings_.time = options.time;
   const ViewAsk ask = draw_view_settings(settings_, std::exchange(panel_opened_, false));
   if (ask == ViewAsk::layers) toggle_layers();
@@ -56,7 +56,7 @@ void Viewer::draw_settings() {
   if (!same(settings_.surface, options.surface)) globe_.set_surface(settings_.surface);
   if (!same(settings_.stereo, options.stereo)) globe_.set_stereo(settings_.stereo);
   if (settings_.sky != sky_) globe_.set_sky(sky_ = settings_.sky);
-  if (settings_.under_ground != above_.has_value()) toggle_underground();
+  if (settings_.under_ground != under_ground()) toggle_underground();
   if (settings_.exaggeration != options.exaggeration) globe_.set_exaggeration(settings_.exaggeration);
   if (settings_.time == time) return;
   const Status set = globe_.set_time(settings_.time);
@@ -66,6 +66,16 @@ void Viewer::draw_settings() {
 void Viewer::show_panels() {
   ui_.take_events(any_panel());
   panel_frames_ = kPanelFrames;
+}
+
+// The panel that was over the others when it opened gets it. Its text field is ready to be written into.
+void Viewer::pass_keyboard() {
+  const bool to_search = searching_ && !picture_panel_shown_ && !Ui::panel_has_keyboard();
+  const char* beside = panel_ ? kViewTitle : kLayersTitle;
+  Ui::pass_keyboard(picture_panel_shown_ ? kPictureTitle : searching_ ? kSearchTitle : beside);
+  if (to_search) search_.just_opened = true;
+  ui_.expect_text(to_search);
+  show_panels();
 }
 
 bool Viewer::any_panel() const { return panel_ || searching_ || layers_shown_ || picture_panel_shown_; }

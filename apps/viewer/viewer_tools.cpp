@@ -88,6 +88,7 @@ void Viewer::toggle_search() {
 
 void Viewer::draw_search() {
   const auto chosen = draw_place_search(search_, places());
+  if (search_.has_keyboard) ui_.field_is_ready();
   if (!chosen) return;
   toggle_search();
   Camera camera = navigator_.camera();

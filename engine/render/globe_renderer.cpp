@@ -57,16 +57,22 @@ Status GlobeRenderer::set_relief(bool on) {
   return Done{};
 }
 
-Status GlobeRenderer::set_objects(const ObjectScene& scene) {
+Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
   if (!objects_) {
     Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
     if (!made) return made.error();
     objects_ = std::move(*made);
     objects_->set_label_font(std::move(label_font_));
   }
-  objects_->set_objects(scene, ellipsoid_);
-  if (Status set = objects_->set_meshes(scene.meshes, ellipsoid_); !set) return set;
-  return objects_->set_labels(scene.labels, ellipsoid_);
+  objects_->set_objects(make_batches(scenes, ellipsoid_));
+  std::vector<MeshObject> meshes;
+  std::vector<LabelObject> labels;
+  for (const CutScene& from : scenes) {
+    meshes.insert(meshes.end(), from.scene.meshes.begin(), from.scene.meshes.end());
+    labels.insert(labels.end(), from.scene.labels.begin(), from.scene.labels.end());
+  }
+  if (Status set = objects_->set_meshes(meshes, ellipsoid_); !set) return set;
+  return objects_->set_labels(labels, ellipsoid_);
 }
 
 FrameCounts GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {

@@ -82,7 +82,7 @@ class GlobeRenderer {
   /// A font file's bytes, before the first objects; without one there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
   /// In place of those before; the program for objects is made with the first.
-  Status set_objects(const ObjectScene& scene);
+  Status set_objects(std::span<const CutScene> scenes);
 
   /// Before the first frame with more than one layer.
   Status prepare_further(bool special) { return patches_->prepare_further(special); }

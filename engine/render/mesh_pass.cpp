@@ -62,7 +62,7 @@ Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
   return pass;
 }
 
-MeshPass::Part MeshPass::upload(const MeshPart& part, GLuint stands) {
+MeshPass::Part MeshPass::upload(const MeshPart& part) {
   Part made;
   made.vertices = kept(part.vertices);
   made.indices = kept(part.indices);
@@ -82,45 +82,58 @@ MeshPass::Part MeshPass::upload(const MeshPart& part, GLuint stands) {
     gl::float_attribute(array, 6 + k, kStandBinding, 3, offsetof(Stand, ecef_from_model) + k * sizeof(glm::vec3));
   }
   glVertexArrayVertexBuffer(array, 0, made.vertices.name(), 0, sizeof(MeshVertex));
-  glVertexArrayVertexBuffer(array, kStandBinding, stands, 0, sizeof(Stand));
   glVertexArrayBindingDivisor(array, kStandBinding, 1);
   glVertexArrayElementBuffer(array, made.indices.name());
   return made;
 }
 
+MeshPass::Model MeshPass::upload(std::shared_ptr<const MeshModel> model) {
+  Model made;
+  std::map<const MeshTexture*, GLuint> textures;
+  for (const MeshPart& part : model->parts) {
+    made.parts.push_back(upload(part));
+    made.parts.back().texture = white_.name();
+    if (!part.texture) continue;
+    const auto [found, first] = textures.try_emplace(part.texture.get(), 0);
+    if (first) {
+      made.textures.push_back(texture_of(part.texture->rgba.data(), part.texture->width_px, part.texture->height_px));
+      found->second = made.textures.back().name();
+    }
+    made.parts.back().texture = found->second;
+  }
+  made.model = std::move(model);
+  return made;
+}
+
+void MeshPass::Model::stand_at(const std::array<std::vector<Stand>, Batch<char>::kBuckets>& buckets) {
+  std::vector<Stand> all;
+  for (std::size_t k = 0; k < buckets.size(); ++k) {
+    ranges.first[k] = all.size();
+    all.insert(all.end(), buckets[k].begin(), buckets[k].end());
+  }
+  ranges.first.back() = all.size();
+  stands = kept(all);
+  for (const Part& part : parts) {
+    glVertexArrayVertexBuffer(part.array.name(), kStandBinding, stands.name(), 0, sizeof(Stand));
+  }
+}
+
 void MeshPass::set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid) {
-  models_.clear();
   std::map<const MeshModel*, std::array<std::vector<Stand>, Batch<char>::kBuckets>> stands_of;
+  std::vector<Model> models;
   for (const MeshObject& mesh : meshes) {
     if (!mesh.model) continue;
+    const auto [stands, first] = stands_of.try_emplace(mesh.model.get());
+    if (first) {
+      const auto known = std::ranges::find(models_, mesh.model, &Model::model);
+      models.push_back(known != models_.end() ? std::move(*known) : upload(mesh.model));
+    }
     const ObjectPart part = is_underground(mesh) ? ObjectPart::underground : ObjectPart::above_ground;
     const SplitPosition p = split_position(ellipsoid.to_ecef(mesh.place).xyz_m);
-    stands_of[mesh.model.get()][Batch<char>::bucket(part, true, mesh.through_surface)].push_back(
-        {p.high, p.low, axes_of(mesh)});
+    stands->second[Batch<char>::bucket(part, true, mesh.through_surface)].push_back({p.high, p.low, axes_of(mesh)});
   }
-  for (const auto& [model, buckets] : stands_of) {
-    Model made;
-    std::vector<Stand> all;
-    for (std::size_t k = 0; k < buckets.size(); ++k) {
-      made.ranges.first[k] = all.size();
-      all.insert(all.end(), buckets[k].begin(), buckets[k].end());
-    }
-    made.ranges.first.back() = all.size();
-    made.stands = kept(all);
-    std::map<const MeshTexture*, GLuint> textures;
-    for (const MeshPart& part : model->parts) {
-      made.parts.push_back(upload(part, made.stands.name()));
-      made.parts.back().texture = white_.name();
-      if (!part.texture) continue;
-      const auto [found, first] = textures.try_emplace(part.texture.get(), 0);
-      if (first) {
-        made.textures.push_back(texture_of(part.texture->rgba.data(), part.texture->width_px, part.texture->height_px));
-        found->second = made.textures.back().name();
-      }
-      made.parts.back().texture = found->second;
-    }
-    models_.push_back(std::move(made));
-  }
+  for (Model& model : models) model.stand_at(stands_of.at(model.model.get()));
+  models_ = std::move(models);
 }
 
 bool MeshPass::has(ObjectPart part) const {

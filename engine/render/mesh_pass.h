@@ -19,7 +19,7 @@ class MeshPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<MeshPass>> create(DepthMode depth);
 
-  /// In place of those before. Those without a model are left out.
+  /// In place of those before. Those without a model are left out. Models that stay are not uploaded again.
   void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   [[nodiscard]] bool has(ObjectPart part) const;
   /// State as for ObjectPass::draw(), blending on and the depth mask as `opaque` has it. Returns the draw calls made:
@@ -43,15 +43,19 @@ class MeshPass {
     bool translucent = false;
   };
   struct Model {
+    std::shared_ptr<const MeshModel> model;
     std::vector<Part> parts;
     std::vector<gl::Texture> textures;
     gl::Buffer stands;
     Batch<char> ranges;  ///< all of them opaque: a part says whether it is
+
+    void stand_at(const std::array<std::vector<Stand>, Batch<char>::kBuckets>& buckets);
   };
 
   MeshPass() = default;
   [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const;
-  [[nodiscard]] static Part upload(const MeshPart& part, GLuint stands);
+  [[nodiscard]] Model upload(std::shared_ptr<const MeshModel> model);
+  [[nodiscard]] static Part upload(const MeshPart& part);
 
   gl::Program program_;
   gl::Texture white_;

@@ -36,11 +36,13 @@ DotInstance dot(const PointObject& point, const Ellipsoid& ellipsoid) {
   return {p.high, p.low, size, point.color};
 }
 
-void add_points(const ObjectScene& scene, const Ellipsoid& ellipsoid, ObjectBatches& batches) {
+void add_points(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid, ObjectBatches& batches) {
   Buckets<DotInstance> spheres, markers;
-  for (const PointObject& point : scene.points) {
-    auto& buckets = point.radius_m > 0.0 ? spheres : markers;
-    buckets[bucket_of(point, point.color)].push_back(dot(point, ellipsoid));
+  for (const CutScene& from : scenes) {
+    for (const PointObject& point : from.scene.points) {
+      auto& buckets = point.radius_m > 0.0 ? spheres : markers;
+      buckets[bucket_of(point, point.color)].push_back(dot(point, ellipsoid));
+    }
   }
   batches.spheres = joined(spheres);
   batches.markers = joined(markers);
@@ -60,60 +62,59 @@ void append_line(const std::vector<glm::dvec3>& way, float width_px, ObjectColor
   out.push_back(vertex(closed ? way[1] : way.back(), 0.0F));
 }
 
-Angle step_for(const ObjectScene& scene) {
-  double total_rad = 0.0;
-  for (const LineObject& line : scene.lines) total_rad += length_of(line.places).rad();
-  for (const PolygonObject& polygon : scene.polygons) {
-    for (const auto& ring : polygon.rings) total_rad += length_of(ring).rad();
-  }
-  return std::max(kLineStep, Angle::radians(total_rad / double(kMostLineVertices)));
-}
-
-/// Lines, and the outlines of areas, which lie as high as their fills (`lifts_m`, one for each area).
-void add_lines(const ObjectScene& scene, const Ellipsoid& ellipsoid, const std::vector<double>& lifts_m,
-               ObjectBatches& batches) {
-  const Angle step = step_for(scene);
+/// Lines, then the outlines of areas.
+void add_lines(std::span<const CutScene> scenes, ObjectBatches& batches) {
   Buckets<LineVertex> buckets;
-  for (const LineObject& line : scene.lines) {
-    append_line(line_along_geodesics(line.places, ellipsoid, step), line.width_px, line.color, false,
-                buckets[bucket_of(line, line.color)]);
+  for (const auto& [scene, cut] : scenes) {
+    for (std::size_t k = 0; k < scene.lines.size(); ++k) {
+      const LineObject& line = scene.lines[k];
+      append_line(cut.lines[k], line.width_px, line.color, false, buckets[bucket_of(line, line.color)]);
+    }
   }
-  for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
-    const PolygonObject& polygon = scene.polygons[k];
-    if (polygon.stroke.alpha == 0) continue;
-    const double lift_m = is_underground(polygon) ? 0.0 : std::max(lifts_m[k], sag_m(ellipsoid, step));
-    for (const auto& ring : polygon.rings) {
-      append_line(outline(ring, ellipsoid, step, lift_m), polygon.stroke_width_px, polygon.stroke, true,
-                  buckets[bucket_of(polygon, polygon.stroke)]);
+  for (const auto& [scene, cut] : scenes) {
+    for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
+      const PolygonObject& polygon = scene.polygons[k];
+      auto& bucket = buckets[bucket_of(polygon, polygon.stroke)];
+      for (const auto& way : cut.outlines[k]) append_line(way, polygon.stroke_width_px, polygon.stroke, true, bucket);
     }
   }
   batches.lines = joined(buckets);
 }
 
+struct CutArea {
+  const PolygonObject& polygon;
+  const FillMesh& fill;
+  double height_m;
+};
+
 /// Areas from the lowest to the highest, so that from above those that are translucent lie over each other as they do
-/// in space, whatever their order in the scene; where they lie equally high, that order.
-std::vector<std::size_t> by_height(const std::vector<PolygonObject>& polygons) {
-  std::vector<double> heights_m;
-  heights_m.reserve(polygons.size());
-  for (const PolygonObject& polygon : polygons) heights_m.push_back(mean_height_m(polygon));
-  std::vector<std::size_t> order(polygons.size());
+/// in space, whatever their order; where they lie equally high, as the scenes have them.
+std::vector<CutArea> by_height(std::span<const CutScene> scenes) {
+  std::vector<CutArea> areas;
+  for (const auto& [scene, cut] : scenes) {
+    for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
+      if (scene.polygons[k].fill.alpha == 0) continue;
+      areas.push_back({scene.polygons[k], cut.fills[k], cut.heights_m[k]});
+    }
+  }
+  std::vector<std::size_t> order(areas.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&heights_m](std::size_t k) { return heights_m[k]; });
-  return order;
+  std::ranges::stable_sort(order, {}, [&areas](std::size_t k) { return areas[k].height_m; });
+  std::vector<CutArea> sorted;
+  for (const std::size_t k : order) sorted.push_back(areas[k]);
+  return sorted;
 }
 
-/// Returns how much each area was lifted.
-std::vector<double> add_fills(const ObjectScene& scene, const Ellipsoid& ellipsoid, ObjectBatches& batches) {
+void add_fills(std::span<const CutScene> scenes, ObjectBatches& batches) {
   Buckets<std::uint32_t> buckets;
-  std::vector<double> lifts_m(scene.polygons.size(), 0.0);
   std::size_t triangles = 0;
-  for (const std::size_t k : by_height(scene.polygons)) {
-    const PolygonObject& polygon = scene.polygons[k];
-    if (polygon.fill.alpha == 0) continue;
-    const FillMesh mesh = fill_area(polygon, ellipsoid, kMostFillTriangles - triangles);
-    if (mesh.indices.empty()) ++batches.fills_dropped;
-    lifts_m[k] = mesh.lift_m;
-    triangles += mesh.indices.size() / 3;
+  for (const auto& [polygon, mesh, height_m] : by_height(scenes)) {
+    const std::size_t more = mesh.indices.size() / 3;
+    if (more == 0 || more > kMostFillTriangles - triangles) {
+      ++batches.fills_dropped;
+      continue;
+    }
+    triangles += more;
     const auto base = static_cast<std::uint32_t>(batches.fill_vertices.size());
     for (const glm::dvec3& p_m : mesh.positions_m) {
       const SplitPosition p = split_position(p_m);
@@ -123,16 +124,21 @@ std::vector<double> add_fills(const ObjectScene& scene, const Ellipsoid& ellipso
     for (const std::uint32_t index : mesh.indices) indices.push_back(base + index);
   }
   batches.fill_indices = joined(buckets);
-  return lifts_m;
 }
 
 }  // namespace
 
-ObjectBatches make_batches(const ObjectScene& scene, const Ellipsoid& ellipsoid) {
+ObjectBatches make_batches(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid) {
   ObjectBatches batches;
-  add_points(scene, ellipsoid, batches);
-  add_lines(scene, ellipsoid, add_fills(scene, ellipsoid, batches), batches);
+  add_points(scenes, ellipsoid, batches);
+  add_fills(scenes, batches);
+  add_lines(scenes, batches);
   return batches;
+}
+
+ObjectBatches make_batches(const ObjectScene& scene, const Ellipsoid& ellipsoid) {
+  const CutObjects cut = cut_objects(scene, ellipsoid, line_step(line_length(scene)));
+  return make_batches(std::array{CutScene{scene, cut}}, ellipsoid);
 }
 
 }  // namespace terrella

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "geo/ellipsoid.h"
 #include "geo/objects.h"
+#include "scene/cut_objects.h"
 
 namespace terrella {
 
@@ -77,11 +79,15 @@ struct ObjectBatches {
   std::size_t fills_dropped = 0;  ///< areas left out because the scene's would be more than kMostFillTriangles
 };
 
-/// Lines are cut more coarsely, and areas are left out, where a scene would need more than this.
-inline constexpr std::size_t kMostLineVertices = 4'000'000;
-inline constexpr std::size_t kMostFillTriangles = 8'000'000;
+/// A scene, and its lines and areas as cut_objects() cut them, maybe when the scene had other colours.
+struct CutScene {
+  const ObjectScene& scene;
+  const CutObjects& cut;
+};
 
-/// Cuts lines and areas so that they follow the ellipsoid (object_shapes.h) and sorts everything. thread: any
+/// Sorts what several scenes hold; a scene's objects lie over those of the scenes before it. thread: any
+[[nodiscard]] ObjectBatches make_batches(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid);
+/// Cuts and sorts one scene. thread: any
 [[nodiscard]] ObjectBatches make_batches(const ObjectScene& scene, const Ellipsoid& ellipsoid);
 
 }  // namespace terrella

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -18,26 +17,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Ends the parse.
-struct TooMuch : std::exception {};
-
 /// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
 class FeatureTaker {
  public:
   FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectFile& file)
       : where_(std::move(where)), models_(folder), file_(file) {}
 
-  /// What the parser asks after each piece: keep it? Depth 0 is the document, 1 its members, 2 the features.
-  bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    if (++values_ > kMaxFeatureValues) throw TooMuch();
-    if (depth == 1 && event == json::parse_event_t::key) member_ = parsed.get<std::string>();
-    const bool complete = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end ||
-                          event == json::parse_event_t::value;
-    if (!complete) return true;
-    if (depth == 1 && member_ == "metadata" && is_quake_catalogue(parsed)) quakes_ = true;
-    if (depth != 2 || member_ != "features") return true;
-    take(parsed, count_++);
-    values_ = 0;
+  /// For JsonBuilder: keeps all but the features.
+  bool keep(std::size_t depth, const std::string& member, const json& value) {
+    if (depth == 1 && member == "metadata" && is_quake_catalogue(value)) quakes_ = true;
+    if (depth != 2 || member != "features") return true;
+    take(value, count_++);
     return false;
   }
 
@@ -71,9 +61,7 @@ class FeatureTaker {
   std::string where_;
   ModelShelf models_;
   ObjectFile& file_;
-  std::string member_;
   std::size_t count_ = 0;
-  std::size_t values_ = 0;
   bool quakes_ = false;
 };
 
@@ -103,16 +91,11 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
     return std::move(file);
   };
-  json document;
-  try {
-    Result<json> parsed = parse_json(
-        text, [&taker](int depth, json::parse_event_t event, json& piece) { return taker(depth, event, piece); });
-    if (!parsed) return broken(parsed.error().message + "; a GeoJSON file (RFC 7946) is needed");
-    document = *std::move(parsed);
-  } catch (const TooMuch&) {
-    return broken(fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
-  }
-  if (const Status rest = take_rest(document, taker, file); !rest) return broken(rest.error().message);
+  const Result<json> document = parse_json(
+      text, {.depth = kJsonLimits.depth, .pieces = kMaxFeatureValues},
+      [&taker](std::size_t depth, const std::string& member, json& value) { return taker.keep(depth, member, value); });
+  if (!document) return broken(document.error().message + "; a GeoJSON file (RFC 7946) is needed");
+  if (const Status rest = take_rest(*document, taker, file); !rest) return broken(rest.error().message);
   return file;
 }
 

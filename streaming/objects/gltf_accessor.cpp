@@ -92,17 +92,21 @@ Result<std::vector<glm::vec4>> GltfAccessors::vectors(int accessor, int least, i
 Result<std::vector<std::uint32_t>> GltfAccessors::indices(int accessor, std::size_t most_count) const {
   const auto found = items(accessor, most_count);
   if (!found) return found.error();
+  const int type = found->component_type;
+  if (found->components != 1 ||
+      (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+       type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
+    return Error{fmt::format("accessor {} is not of indices", accessor)};
+  }
   std::vector<std::uint32_t> values(found->count);
   for (std::size_t k = 0; k < found->count; ++k) {
     const unsigned char* from = found->first + k * found->stride;
-    if (found->components == 1 && found->component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
       values[k] = *from;
-    } else if (found->components == 1 && found->component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+    } else if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
       values[k] = value_at<std::uint16_t>(from);
-    } else if (found->components == 1 && found->component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-      values[k] = value_at<std::uint32_t>(from);
     } else {
-      return Error{fmt::format("accessor {} is not of indices", accessor)};
+      values[k] = value_at<std::uint32_t>(from);
     }
   }
   return values;

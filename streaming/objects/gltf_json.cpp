@@ -4,20 +4,18 @@
 
 #include <cstdint>
 #include <cstring>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "streaming/json_text.h"
+#include "streaming/objects/gltf_model.h"
 
 namespace terrella {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostGltfValues = 4'000'000;
-
-struct TooManyValues : std::exception {};
+constexpr std::size_t kMostGltfPieces = 4'000'000;
 
 /// The text of a binary file's first chunk.
 Result<std::string_view> first_chunk(std::string_view file) {
@@ -46,20 +44,15 @@ Result<json> gltf_json(std::span<const std::byte> bytes) {
     if (!chunk) return chunk.error();
     text = *chunk;
   }
-  std::size_t values = 0;
-  try {
-    Result<json> document = parse_json(text, [&values](int, json::parse_event_t, const json&) {
-      if (++values > kMostGltfValues) throw TooManyValues();
-      return true;
-    });
-    if (!document) return Error{document.error().message + "; a .gltf or .glb file is needed"};
-    if (!document->is_object() || !document->contains("asset")) {
-      return Error{"JSON, but no glTF: it has no \"asset\""};
-    }
-    return document;
-  } catch (const TooManyValues&) {
-    return Error{fmt::format("its JSON has more than {} values", kMostGltfValues)};
+  Result<json> document = parse_json(text, {.depth = kJsonLimits.depth, .pieces = kMostGltfPieces});
+  if (!document) return Error{document.error().message + "; a .gltf or .glb file is needed"};
+  if (!document->is_object() || !document->contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
+  const auto nodes = document->find("nodes");
+  if (nodes != document->end() && nodes->size() > kMaxModelNodes) {
+    return Error{
+        fmt::format("it has {} nodes, more than the {} that are read; divide it", nodes->size(), kMaxModelNodes)};
   }
+  return document;
 }
 
 }  // namespace terrella

@@ -15,6 +15,8 @@ namespace terrella {
 /// A model's file that is longer is refused; of the files beside it no more is read altogether, and what its pictures
 /// are decoded to is no more either.
 inline constexpr std::size_t kMaxModelBytes = 256UL << 20;
+/// A model with more nodes is refused. They may be nested as deep as they are many.
+inline constexpr std::size_t kMaxModelNodes = 1'000'000;
 /// What is more is left out with a complaint.
 inline constexpr std::size_t kMaxModelVertices = 4'000'000;
 inline constexpr std::size_t kMaxModelIndices = 12'000'000;

@@ -24,14 +24,16 @@ bool is_usable(const glm::vec3& p) {
          std::abs(p.y) <= kMostExtent_m && std::abs(p.z) <= kMostExtent_m;
 }
 
-/// Corners of triangles, three by three.
-Result<std::vector<std::uint32_t>> as_triangles(std::vector<std::uint32_t> corners, int mode) {
+bool is_of_triangles(int mode) {
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == -1 || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+/// Corners of triangles, three by three; of a mode that is of triangles.
+std::vector<std::uint32_t> as_triangles(std::vector<std::uint32_t> corners, int mode) {
   if (mode == TINYGLTF_MODE_TRIANGLES || mode == -1) {
     corners.resize(corners.size() - corners.size() % 3);
     return corners;
-  }
-  if (mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
-    return Error{"it is of points or lines, which are not drawn"};
   }
   std::vector<std::uint32_t> triangles;
   for (std::size_t k = 2; k < corners.size(); ++k) {
@@ -115,6 +117,7 @@ void set_material(const GltfReading& reading, const tinygltf::Primitive& primiti
 /// Takes of what is left also if the primitive then turns out to be of no use, so that reading ends.
 Result<MeshPart> read_triangles(const GltfReading& reading, const tinygltf::Primitive& primitive,
                                 const glm::dmat4& model_from_mesh) {
+  if (!is_of_triangles(primitive.mode)) return Error{"it is of points or lines, which are not drawn"};
   const auto positions = reading.accessors.vectors(attribute(primitive, "POSITION"), 3, 3, reading.left.vertices);
   if (!positions) return Error{"POSITION: " + positions.error().message};
   MeshPart part;
@@ -133,9 +136,7 @@ Result<MeshPart> read_triangles(const GltfReading& reading, const tinygltf::Prim
     if (part.vertices.size() > most_corners) return Error{"more triangles than are left to the model"};
     for (std::uint32_t k = 0; k < part.vertices.size(); ++k) corners.push_back(k);
   }
-  auto triangles = as_triangles(std::move(corners), primitive.mode);
-  if (!triangles) return triangles.error();
-  part.indices = std::move(*triangles);
+  part.indices = as_triangles(std::move(corners), primitive.mode);
   reading.left.indices -= part.indices.size();
   return part;
 }

@@ -14,10 +14,20 @@ namespace terrella {
 
 Result<std::filesystem::path> path_in_folder(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
-  if (folder.empty() || relative.is_absolute() || relative.empty() || *relative.begin() == "..") {
+  const bool cut_short = name.find('\0') != std::string::npos;  // the system would read on to there
+  if (cut_short || folder.empty() || relative.is_absolute() || relative.empty() || *relative.begin() == "..") {
     return Error{fmt::format("{}: only files in the same folder, or in folders in it, are read", name)};
   }
-  return folder / relative;
+  std::error_code problem;
+  const std::filesystem::path root = std::filesystem::weakly_canonical(folder, problem);
+  if (problem) return Error{fmt::format("{}: {}", folder.string(), problem.message())};
+  const std::filesystem::path path = std::filesystem::weakly_canonical(root / relative, problem);
+  if (problem) return Error{fmt::format("{}: {}", name, problem.message())};
+  if (std::ranges::mismatch(root, path).in1 != root.end()) {
+    return Error{fmt::format("{}: a link in it leads to {}, out of the folder; copy the file into the folder", name,
+                             path.string())};
+  }
+  return path;
 }
 
 ModelFolder::ModelFolder(std::filesystem::path folder, const nlohmann::json& document)

@@ -17,8 +17,8 @@ struct FsCallbacks;
 
 namespace terrella {
 
-/// The path of something that `name` says, in a folder or below it; an error where that would leave the folder or there
-/// is none (`folder` empty).
+/// The path of something that `name` says, in a folder or below it, free of links. An error if there is no folder
+/// (`folder` empty), or if `name`, or a link on the way, leads out of it.
 [[nodiscard]] Result<std::filesystem::path> path_in_folder(const std::filesystem::path& folder,
                                                            const std::string& name);
 

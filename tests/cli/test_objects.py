@@ -1,7 +1,9 @@
 """--objects: what is wrong in a file is said by file and feature, what is good is drawn, and the exit code tells."""
 
+import base64
 import json
 import random
+import struct
 import unittest
 
 from program import DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
@@ -18,6 +20,22 @@ def collection(*features):
 
 
 GOOD = feature("Point", [20.0, 20.0, 1000.0], radius_m=300000)
+
+
+TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+
+
+def triangle(uri="data:application/octet-stream;base64," + base64.b64encode(TRIANGLE).decode(), nodes=({"mesh": 0},)):
+    """A glTF document with one triangle, its buffer at a URI."""
+    return {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": list(nodes),
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(TRIANGLE)}],
+        "buffers": [{"byteLength": len(TRIANGLE), "uri": uri}],
+    }
 
 
 class Objects(ProgramTest):
@@ -71,6 +89,28 @@ class Objects(ProgramTest):
 
     def test_text_that_breaks_off(self):
         self.assert_drawn_in_part(collection(GOOD, GOOD)[:-30], "not JSON at byte", "features before are drawn")
+
+    def test_a_model_made_of_a_long_chain_of_nodes(self):
+        nodes = [{"children": [k]} for k in range(1, 200_000)] + [{"mesh": 0}]
+        self.write("chain.gltf", json.dumps(triangle(nodes=nodes)).encode())
+        self.write("f.geojson", collection(GOOD, feature("Point", [0, 0], model="chain.gltf")))
+        self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", *SMALL)
+
+    def test_a_model_that_leads_out_of_its_folder(self):
+        outside = self.folder.parent / (self.folder.name + "-outside.bin")
+        self.addCleanup(outside.unlink)
+        outside.write_bytes(bytes(TRIANGLE))
+        (self.folder / "link.bin").symlink_to(outside)
+        for uri in ("link.bin", f"../{outside.name}", f"%2e%2e/{outside.name}", str(outside)):
+            with self.subTest(uri):
+                self.write("m.gltf", json.dumps(triangle(uri)).encode())
+                self.assert_drawn_in_part(collection(GOOD, feature("Point", [0, 0], model="m.gltf")), "feature 2",
+                                          "m.gltf: ", outside.name if uri != "link.bin" else "link.bin", "folder")
+        self.write("m.glb", b"glTF")
+        (self.folder / "m.glb").unlink()
+        (self.folder / "m.glb").symlink_to(outside)
+        self.assert_drawn_in_part(collection(GOOD, feature("Point", [0, 0], model="m.glb")), "feature 2", "m.glb: ",
+                                  "out of the folder")
 
     def test_a_million_points(self):
         place = random.Random(1)

@@ -46,6 +46,9 @@ void write_models(const fs::path& folder) {
       R"([{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
       R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
       R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  box.json["nodes"] = {{{"children", {1, 2}}}, {{"children", {2}}}, {{"mesh", 0}, {"children", {0, 9}}}};
+  write(folder / "ring.glb", box.bytes());
+  write(folder / "away.gltf", box.document("%2e%2e/a.bin").dump());
 }
 
 Image picture(std::uint8_t alpha) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <sstream>
 
@@ -240,6 +241,18 @@ TEST(GeojsonObjects, AreasOverTheAntimeridianAndAPoleAreTaken) {
                                           "," + feature(geometry("Polygon", "[[[0,70],[120,70],[-120,70],[0,70]]]"))));
   EXPECT_THAT(file.complaints, ElementsAre());
   EXPECT_EQ(file.scene.polygons.size(), 2U);
+}
+
+// Reading them took the square of their number: minutes for these.
+TEST(GeojsonObjects, ManyGeometriesInOneFeatureAreReadInTimeThatGrowsWithTheirNumber) {
+  constexpr std::size_t kGeometries = 400'000;
+  constexpr std::chrono::seconds kHang(60);  // a second or two on an idle machine
+  std::string many = kPoint;
+  for (std::size_t k = 1; k < kGeometries; ++k) many += "," + kPoint;
+  const std::string text = collection(feature(R"({"type":"GeometryCollection","geometries":[)" + many + "]}"));
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(good(text).scene.points.size(), kGeometries);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kHang);
 }
 
 TEST(GeojsonObjects, DepthsOfAnEarthquakeCatalogueAreKilometresDown) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -141,6 +143,52 @@ TEST(GltfModel, NodesInARingOrWithoutEndAreWalkedOnce) {
   EXPECT_THAT(file->complaints, ElementsAre(HasSubstr("node 7 does not exist"), HasSubstr("node 0 comes again")));
 }
 
+// Reading a chain took the square of its length: two minutes for this one.
+TEST(GltfModel, ALongChainOfNodesIsReadInTimeThatGrowsWithItsLength) {
+  constexpr std::size_t kNodes = 600'000;
+  constexpr std::chrono::seconds kHang(60);  // a second or two on an idle machine
+  ModelFixture model = unit_box();
+  nlohmann::json nodes;
+  for (std::size_t k = 1; k < kNodes; ++k) nodes.push_back({{"children", {k}}});
+  nodes[0]["translation"] = {1000, 0, 0};
+  nodes.push_back({{"mesh", 0}});
+  model.json["nodes"] = std::move(nodes);
+  const std::string bytes = model.bytes();
+  const auto begin = std::chrono::steady_clock::now();
+  const auto file = read_bytes(bytes);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kHang);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_THAT(file->complaints, ElementsAre());
+  EXPECT_EQ(file->model->parts.at(0).vertices[7].position_m, glm::vec3(1001.0F, 2.0F, 3.0F)) << "under all of them";
+}
+
+TEST(GltfModel, MoreNodesThanAreReadAreAnError) {
+  ModelFixture model = unit_box();
+  model.json["nodes"] = nlohmann::json::array_t(kMaxModelNodes + 1, nlohmann::json::object());
+  const auto file = read_model(model);
+  ASSERT_FALSE(file);
+  EXPECT_THAT(file.error().message, AllOf(HasSubstr("m.glb: "), HasSubstr("1000001 nodes"), HasSubstr("1000000")));
+}
+
+TEST(GltfModel, PrimitivesThatCannotBeDrawnCostNothing) {
+  constexpr std::chrono::seconds kHang(60);
+  for (const char* wrong : {"mode", "indices"}) {
+    ModelFixture model = unit_box();
+    const int many =
+        model.add_accessor(std::vector<std::uint8_t>(kMaxModelIndices / 3), 5121, "SCALAR", kMaxModelIndices / 3);
+    nlohmann::json primitive = model.json["meshes"][0]["primitives"][0];
+    primitive["indices"] = many;
+    if (wrong == std::string("mode")) primitive["mode"] = 1;  // lines
+    if (wrong == std::string("indices")) model.json["accessors"][std::size_t(many)]["componentType"] = 5120;
+    for (std::size_t k = 2; k < kMaxModelParts; ++k) model.json["meshes"][0]["primitives"].push_back(primitive);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto file = read_model(model);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, kHang) << wrong;
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->model->parts.size(), 1U);
+  }
+}
+
 TEST(GltfModel, MoreThanAModelMayHoldIsLeftOut) {
   ModelFixture model = unit_box();
   const nlohmann::json primitive = model.json["meshes"][0]["primitives"][0];
@@ -169,6 +217,64 @@ TEST(GltfModel, ABufferThatIsMissingTakesOnlyWhatNeedsIt) {
   std::ofstream(folder.path() / "m.gltf") << document;
   EXPECT_THAT(read_gltf_model(folder.path() / "m.gltf")->complaints,
               Contains(HasSubstr("only files in the same folder")));
+}
+
+/// A model whose buffer is `uri`, beside a folder with a secret: what is complained of, and none if it was read.
+class ModelLinks : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(models() / "inside");
+    std::filesystem::create_directories(folder_.path() / "outside");
+    for (const char* name : {"outside/secret.bin", "models/inside/own.bin"}) {
+      std::ofstream(folder_.path() / name, std::ios::binary) << unit_box().buffer;
+    }
+  }
+  [[nodiscard]] std::filesystem::path models() const { return folder_.path() / "models"; }
+  void link(const char* name, const std::filesystem::path& to) const {
+    std::filesystem::create_symlink(to, models() / name);
+  }
+  [[nodiscard]] std::string read(const std::string& uri) const {
+    std::ofstream(models() / "m.gltf") << unit_box().document(uri);
+    const auto file = read_gltf_model(models() / "m.gltf");
+    return file ? std::string() : file.error().message;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(ModelLinks, NamesThatLeadOutOfTheFolderAreRefused) {
+  const std::string absolute = (folder_.path() / "outside/secret.bin").string();
+  for (const std::string& uri : {std::string("../outside/secret.bin"), std::string("inside/../../outside/secret.bin"),
+                                 std::string("%2e%2e/outside/secret.bin"), std::string("..%2Foutside%2fsecret.bin"),
+                                 absolute, std::string("%2e%2e%00/outside/secret.bin")}) {
+    EXPECT_THAT(read(uri), AllOf(HasSubstr("m.gltf: "), HasSubstr("only files in the same folder"))) << uri;
+  }
+  EXPECT_NE(read("file://" + absolute), "") << "not a name of a file";
+}
+
+TEST_F(ModelLinks, LinksThatLeadOutOfTheFolderAreRefused) {
+  link("file.bin", folder_.path() / "outside/secret.bin");
+  link("relative.bin", "../outside/secret.bin");
+  link("folder", "../outside");
+  link("chain.bin", "inside/../file.bin");
+  for (const char* uri : {"file.bin", "relative.bin", "folder/secret.bin", "inside/../chain.bin"}) {
+    EXPECT_THAT(read(uri), AllOf(HasSubstr("m.gltf: "), HasSubstr(std::string(uri).substr(0, 4)),
+                                 HasSubstr("out of the folder"), HasSubstr("secret.bin")))
+        << uri;
+  }
+  link("ring.bin", "ring.bin");
+  link("nowhere.bin", "../outside/none.bin");
+  EXPECT_NE(read("ring.bin"), "");
+  EXPECT_NE(read("nowhere.bin"), "");
+}
+
+TEST_F(ModelLinks, LinksThatStayInTheFolderAreFollowed) {
+  link("own.bin", "inside/own.bin");
+  link("again", "inside");
+  for (const char* uri : {"own.bin", "again/own.bin", "inside/../own.bin", "./inside/own.bin"})
+    EXPECT_EQ(read(uri), "");
+  std::filesystem::create_directory_symlink(models(), folder_.path() / "door");
+  EXPECT_TRUE(read_gltf_model(folder_.path() / "door/m.gltf")) << "the folder may be a link itself";
 }
 
 TEST(GltfModel, PicturesInABufferMayNotRunOverIt) {

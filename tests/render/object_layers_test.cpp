@@ -83,5 +83,48 @@ TEST_F(ObjectLayers, AFadedOneShowsWhatLiesUnderItByHowMuchItIsFaded) {
   EXPECT_EQ(middle(), blue);
 }
 
+// Counted, not timed: beside 2,000 areas each cut that is done in vain is felt.
+TEST_F(ObjectLayers, OnlyALayerWhoseSceneChangesIsCutAgain) {
+  const auto cut = [this] { return draw(*globe_, kObjectsSeen).objects_cut; };
+  const auto place = [](double lat) { return Geodetic{.lat = Angle::degrees(lat), .lon = {}, .height_m = 0.0}; };
+  const ObjectScene lines{.lines = {{.places = {place(0), place(9)}}, {.places = {place(1), place(7)}}}};
+  const LayerId areas = *globe_->add_objects(area(kRedObject));
+  EXPECT_EQ(cut(), 1U);
+  const LayerId ways = *globe_->add_objects(lines);
+  EXPECT_EQ(cut(), 2U) << "the area is not cut again";
+  const LayerId marker = *globe_->add_objects(disc(kBlueObject));
+  ASSERT_TRUE(globe_->set_objects(marker, disc(kRedObject)));
+  ASSERT_TRUE(globe_->fade_objects(areas, 0.5));
+  EXPECT_EQ(cut(), 0U) << "fading one and changing what is never cut";
+  ASSERT_TRUE(globe_->move(areas, 2));
+  ASSERT_TRUE(globe_->fade_objects(areas, 0.25));
+  ASSERT_TRUE(globe_->show_objects(ways, false));
+  EXPECT_EQ(cut(), 0U);
+  ASSERT_TRUE(globe_->show_objects(ways, true));
+  ASSERT_TRUE(globe_->fade_objects(areas, 1.0));
+  ASSERT_TRUE(globe_->remove(marker));
+  EXPECT_EQ(cut(), 0U) << "what was hidden or faded comes back as it was";
+  ASSERT_TRUE(globe_->set_objects(ways, lines));
+  EXPECT_EQ(cut(), 2U) << "a scene that is new is cut";
+}
+
+// A layer that is added, faded or taken away leaves the others' pixels as they were.
+TEST_F(ObjectLayers, WhatIsKeptIsDrawnAsIfItWereNew) {
+  const LayerId first = *globe_->add_objects(area(kRedObject));
+  const LayerId over = *globe_->add_objects(disc(kBlueObject));
+  settle(*globe_, kObjectsSeen);
+  const auto both = picture().rgba;
+  ASSERT_TRUE(globe_->fade_objects(first, 0.5));
+  ASSERT_TRUE(globe_->move(over, 0));
+  settle(*globe_, kObjectsSeen);
+  EXPECT_NE(picture().rgba, both);
+  ASSERT_TRUE(globe_->move(over, 1));
+  ASSERT_TRUE(globe_->fade_objects(first, 1.0));
+  settle(*globe_, kObjectsSeen);
+  EXPECT_EQ(picture().rgba, both);
+  ASSERT_TRUE(globe_->set_objects(over, {}));
+  EXPECT_EQ(middle(), (std::array{220, 20, 20})) << "an empty scene shows nothing";
+}
+
 }  // namespace
 }  // namespace terrella::test

@@ -128,6 +128,10 @@ class Viewer:
     def key(self, name):
         self.xdotool("key", name)
 
+    def unfocus(self):
+        """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""
+        self.xdotool("mousemove", "799", "599", "windowfocus", "1")
+
     def drop(self, *files):
         done = subprocess.run(
             [DROP_FILES, self.window, *map(str, files)], env=self.environment, capture_output=True, text=True, timeout=90
