@@ -49,9 +49,17 @@ std::string printable(std::string_view text) { return escaped(text, "\n\t"); }
 
 std::string one_line(std::string_view text) { return escaped(text, ""); }
 
-void write_text(std::FILE* stream, std::string_view text) {
-  const std::string shown = printable(stream == stderr ? redact_addresses(text) : std::string(text));
-  std::fwrite(shown.data(), 1, shown.size(), stream);
+void write_result(std::string_view text) {
+  const std::string shown = printable(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
+
+void write_message(std::string_view text) {
+  std::string shown = printable(redact_addresses(text));
+  for (std::size_t end = shown.find('\n'); end < shown.size() - 1; end = shown.find('\n', end + 1)) {
+    shown.insert(end + 1, "  ");
+  }
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 }  // namespace terrella

@@ -16,18 +16,20 @@ namespace terrella {
 /// The same without line ends and tabs: for a name that stands in a line of a report, or in a file of lines.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// Writes printable(text). Text for standard error also has its addresses redacted. thread: any
-void write_text(std::FILE* stream, std::string_view text);
+/// Writes printable(text) to standard output.
+void write_result(std::string_view text);
+/// Writes printable(text) to standard error, its addresses redacted, all lines but the first indented: a line that a
+/// file's name brought with it does not look like a message of the program's own.
+void write_message(std::string_view text);
 
-/// Prints a result on standard output. Every subcommand prints by these two functions alone. thread: any
+/// Print a result on standard output, a message on standard error. Every subcommand prints by these two alone.
 template <class... Args>
 void print_result(fmt::format_string<Args...> format, Args&&... args) {
-  write_text(stdout, fmt::format(format, std::forward<Args>(args)...));
+  write_result(fmt::format(format, std::forward<Args>(args)...));
 }
-/// Prints a message on standard error. thread: any
 template <class... Args>
 void print_message(fmt::format_string<Args...> format, Args&&... args) {
-  write_text(stderr, fmt::format(format, std::forward<Args>(args)...));
+  write_message(fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace terrella

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "apps/console.h"
+
 namespace terrella {
 namespace {
 
@@ -41,7 +43,8 @@ Result<LackReport> LackReport::open(const std::filesystem::path& file) {
   return report;
 }
 
-void LackReport::add(const TileId& id, Lack kind, const std::string& why) {
+void LackReport::add(const TileId& id, Lack kind, const std::string& told) {
+  const std::string why = one_line(told);
   list_.add(id, fmt::format("\t{}\t{}", lack_name(kind), why));
   std::string reason = reason_of(why);
   if (groups_.size() >= kMostReasons && !groups_.contains({kind, reason})) reason = "other reasons";

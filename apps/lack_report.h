@@ -30,7 +30,7 @@ class LackReport {
   /// `file`: where each tile gets a line `LEVEL/X/Y<TAB>kind<TAB>why`; empty: nowhere.
   [[nodiscard]] static Result<LackReport> open(const std::filesystem::path& file);
 
-  void add(const TileId& id, Lack kind, const std::string& why);
+  void add(const TileId& id, Lack kind, const std::string& told);
   /// Most tiles first; reasons beyond the first hundred different ones stand as one.
   [[nodiscard]] std::vector<Group> groups() const;
   /// Fails if the file could not be written.

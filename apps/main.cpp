@@ -47,7 +47,8 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
                         !unknown.empty();
   const std::string message =
       mistyped ? "there is no option or subcommand " + name_part(unknown.front()) : std::string(error.what());
-  print_message("{}: {}\nSee {} --help.\n", command, message, command);
+  print_message("{}: {}\n", command, message);
+  print_message("See {} --help.\n", command);
   return kWrongUsage;
 }
 

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
 #include <cmath>
+#include <system_error>
 
 #include "apps/scene_options.h"
 #include "geo/number.h"
@@ -14,12 +16,21 @@ std::string outside(std::string_view text, double low, double high) {
   return fmt::format("{} is out of range; it takes {} to {}", in_quotes(text), low, high);
 }
 
+/// Why read_number() takes nothing from the text.
+std::string not_read(std::string_view text, const char* wanted, double low, double high) {
+  double ignored = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), ignored);
+  const bool overflows = problem == std::errc::result_out_of_range && end == text.data() + text.size();
+  return fmt::format("{} is {}; it takes {} to {}", in_quotes(text),
+                     overflows ? "too large, or too close to 0, for a number here" : wanted, low, high);
+}
+
 }  // namespace
 
 CLI::Validator number_in(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = read_number(text);
-    if (!value) return fmt::format("{} is not a number; it takes {} to {}", in_quotes(text), low, high);
+    if (!value) return not_read(text, "not a number", low, high);
     return *value < low || *value > high ? outside(text, low, high) : std::string();
   };
   return {check, fmt::format("{}...{}", low, high)};
@@ -29,7 +40,7 @@ CLI::Validator whole_number_in(long low, long high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = read_number(text);
     if (!value || *value != std::floor(*value)) {
-      return fmt::format("{} is not a whole number; it takes {} to {}", in_quotes(text), low, high);
+      return not_read(text, "not a whole number", double(low), double(high));
     }
     return *value < double(low) || *value > double(high) ? outside(text, double(low), double(high)) : std::string();
   };

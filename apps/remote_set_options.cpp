@@ -31,7 +31,8 @@ void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--max-level", remote.max_level,
                  "Of a URL template: the finest that the server has (default: the last of --levels)")
       ->check(whole_number_in(0, kMaxTileLevel));
-  app.add_option("--header", remote.headers, "Sent with each request, to the source's host alone; never stored or told")
+  app.add_option("--header", remote.headers,
+                 "Sent with each request, to the source's scheme, host and port alone; never stored or printed")
       ->type_name("'K: V'")
       ->check(sendable_header())
       ->allow_extra_args(false);

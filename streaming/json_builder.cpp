@@ -5,9 +5,9 @@ namespace terrella {
 using nlohmann::json;
 
 bool JsonBuilder::count() {
-  if (++pieces_ <= limits_.pieces && open_.size() <= limits_.depth) return true;
-  problem_ = Problem::too_much;
-  return false;
+  if (open_.size() > limits_.depth) problem_ = Problem::too_deep;
+  if (++pieces_ > limits_.pieces) problem_ = Problem::too_much;
+  return problem_ == Problem::none;
 }
 
 // A container does not move while it is open: its own container grows only after it.

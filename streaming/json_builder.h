@@ -14,7 +14,7 @@ namespace terrella {
 /// Use: `nlohmann::json::sax_parse(text, &builder)`. thread: one
 class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  enum class Problem { none, syntax, number, too_much };
+  enum class Problem { none, syntax, number, too_deep, too_much };
   struct Limits {
     std::size_t depth = 0;   ///< containers around a value
     std::size_t pieces = 0;  ///< values, keys, begins and ends of containers, since the last value that was not kept

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "streaming/json_text.h"
+
 namespace terrella {
 
 using nlohmann::json;
@@ -14,16 +16,9 @@ Result<json> parse_json_object(std::string_view text, std::size_t max_bytes, con
     return Error{fmt::format("{}: {} bytes are too many for a description of a tile set, at most {} are read", where,
                              text.size(), max_bytes)};
   }
-  json object;
-  try {
-    object = json::parse(text);
-  } catch (const json::parse_error& error) {
-    // Its words repeat what was read last, which may be a secret header.
-    return Error{fmt::format("{}: not JSON at byte {}", where, error.byte)};
-  } catch (const json::exception& error) {
-    return Error{fmt::format("{}: not JSON: number {}", where, error.id)};
-  }
-  if (!object.is_object()) return Error{where + ": must hold one JSON object"};
+  Result<json> object = parse_json(text);
+  if (!object) return Error{where + ": " + object.error().message};
+  if (!object->is_object()) return Error{where + ": must hold one JSON object"};
   return object;
 }
 

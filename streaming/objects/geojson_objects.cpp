@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "streaming/json_builder.h"
+#include "streaming/json_text.h"
 #include "streaming/objects/feature_objects.h"
 #include "streaming/objects/model_shelf.h"
 #include "streaming/objects/quake_catalogue.h"
@@ -16,8 +16,6 @@ namespace terrella {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t kMostDepth = 64;
 
 /// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
 class FeatureTaker {
@@ -93,22 +91,11 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
     return std::move(file);
   };
-  JsonBuilder builder(
-      {.depth = kMostDepth, .pieces = kMaxFeatureValues},
+  const Result<json> document = parse_json(
+      text, {.depth = kJsonLimits.depth, .pieces = kMaxFeatureValues},
       [&taker](std::size_t depth, const std::string& member, json& value) { return taker.keep(depth, member, value); });
-  json::sax_parse(text, &builder);
-  switch (builder.problem()) {
-    case JsonBuilder::Problem::syntax:
-      return broken(fmt::format("not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", builder.byte()));
-    case JsonBuilder::Problem::number:
-      return broken(fmt::format("a number after feature {} is too large", taker.count()));
-    case JsonBuilder::Problem::too_much:
-      return broken(
-          fmt::format("feature {} holds more than {} values; divide it", taker.count() + 1, kMaxFeatureValues));
-    case JsonBuilder::Problem::none:
-      break;
-  }
-  if (const Status rest = take_rest(builder.document(), taker, file); !rest) return broken(rest.error().message);
+  if (!document) return broken(document.error().message + "; a GeoJSON file (RFC 7946) is needed");
+  if (const Status rest = take_rest(*document, taker, file); !rest) return broken(rest.error().message);
   return file;
 }
 

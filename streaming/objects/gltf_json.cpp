@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "streaming/json_builder.h"
+#include "streaming/json_text.h"
 #include "streaming/objects/gltf_model.h"
 
 namespace terrella {
@@ -15,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostGltfDepth = 64;
 constexpr std::size_t kMostGltfPieces = 4'000'000;
 
 /// The text of a binary file's first chunk.
@@ -45,27 +44,15 @@ Result<json> gltf_json(std::span<const std::byte> bytes) {
     if (!chunk) return chunk.error();
     text = *chunk;
   }
-  JsonBuilder builder({.depth = kMostGltfDepth, .pieces = kMostGltfPieces});
-  json::sax_parse(text, &builder);
-  switch (builder.problem()) {
-    case JsonBuilder::Problem::syntax:
-      return Error{fmt::format("not JSON at byte {}; a .gltf or .glb file is needed", builder.byte())};
-    case JsonBuilder::Problem::number:
-      return Error{"a number in it is too large"};
-    case JsonBuilder::Problem::too_much:
-      return Error{
-          fmt::format("its JSON is deeper than {} or has more than {} pieces", kMostGltfDepth, kMostGltfPieces)};
-    case JsonBuilder::Problem::none:
-      break;
-  }
-  json& document = builder.document();
-  if (!document.is_object() || !document.contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
-  const auto nodes = document.find("nodes");
-  if (nodes != document.end() && nodes->size() > kMaxModelNodes) {
+  Result<json> document = parse_json(text, {.depth = kJsonLimits.depth, .pieces = kMostGltfPieces});
+  if (!document) return Error{document.error().message + "; a .gltf or .glb file is needed"};
+  if (!document->is_object() || !document->contains("asset")) return Error{"JSON, but no glTF: it has no \"asset\""};
+  const auto nodes = document->find("nodes");
+  if (nodes != document->end() && nodes->size() > kMaxModelNodes) {
     return Error{
         fmt::format("it has {} nodes, more than the {} that are read; divide it", nodes->size(), kMaxModelNodes)};
   }
-  return std::move(document);
+  return document;
 }
 
 }  // namespace terrella

@@ -6,6 +6,7 @@
 
 #include "geo/number.h"
 #include "streaming/file_bytes.h"
+#include "streaming/json_text.h"
 #include "streaming/preload/geojson_region.h"
 
 namespace terrella {
@@ -13,16 +14,9 @@ namespace terrella {
 using nlohmann::json;
 
 Result<json> parse_geojson(std::string_view text, const std::string& where) {
-  json object;
-  try {
-    object = json::parse(text);
-  } catch (const json::exception& error) {
-    return Error{fmt::format("{}: not JSON at byte {}; a GeoJSON file (RFC 7946) is needed", where,
-                             dynamic_cast<const json::parse_error*>(&error) != nullptr
-                                 ? dynamic_cast<const json::parse_error&>(error).byte
-                                 : 0)};
-  }
-  if (geojson_type(object).empty()) {
+  Result<json> object = parse_json(text);
+  if (!object) return Error{fmt::format("{}: {}; a GeoJSON file (RFC 7946) is needed", where, object.error().message)};
+  if (geojson_type(*object).empty()) {
     return Error{fmt::format("{}: JSON, but no GeoJSON: it has no \"type\"; see RFC 7946", where)};
   }
   return object;

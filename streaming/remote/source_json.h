@@ -5,6 +5,7 @@
 
 #include "geo/result.h"
 #include "streaming/remote/remote_options.h"
+#include "streaming/url.h"
 
 namespace terrella {
 

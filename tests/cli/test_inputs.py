@@ -1,12 +1,62 @@
-"""Pictures that cannot be shown or cut: exit code 1, the file named, what is wrong and what to do."""
+"""Pictures and descriptions that cannot be shown or cut: exit code 1, the file named, what is wrong and what to do."""
 
 import os
+import re
 import subprocess
 import unittest
 import zlib
 
 from pictures import png, png_of, tiff_header
-from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, ProgramTest
+from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, WRONG_USAGE, ProgramTest
+
+
+DEEP = 100_000  # more than a stack holds of whatever calls itself
+HUGE = "1e400"  # more than a double holds
+TEMPLATE = '"url": "http://127.0.0.1:9/{z}/{x}/{y}.jpg"'
+
+
+class BadJson(ProgramTest):
+    """Numbers that overflow and lists in lists: the file and the reason are named, whatever reads it."""
+
+    def assert_refused(self, name, text, *says):
+        self.write(name, text.encode())
+        commands = [["render", name, "-o", "a.png"], ["info", name], ["preload", name, "-o", "a.gpkg"]]
+        if name.endswith(".geojson"):
+            commands = [["render", "--objects", name, "-o", "a.png", "--size", "64x64"],
+                        ["preload", NATURAL_EARTH, "--polygon", name, "-o", "a.gpkg"],
+                        ["preload", NATURAL_EARTH, "--flight", name, "-o", "a.gpkg"]]
+        for command in commands:
+            self.assert_fails(FAILED, *command, says=[name, *says])
+
+    def test_nested_too_deep(self):
+        lists = "[" * DEEP + "]" * DEEP
+        for text in lists, f'{{{TEMPLATE}, "bounds": {lists}}}', '{"a":' * DEEP + "1" + "}" * DEEP:
+            self.assert_refused("source.json", text, "nested more than 64 deep")
+        for text in f'{{"type": "Feature", "geometry": null, "properties": {lists}}}', lists:
+            self.assert_refused("a.geojson", text, "nested more than 64 deep")
+        (self.folder / "tiles").mkdir()
+        self.write("tiles/tileset.json", lists.encode())
+        self.assert_fails(FAILED, "info", "tiles", says=["tileset.json", "nested more than 64 deep"])
+
+    def test_numbers_that_overflow(self):
+        for field in "max_level", "root_span_deg", "tile_life_s":
+            self.assert_refused("source.json", f'{{{TEMPLATE}, "{field}": {HUGE}}}', "too large")
+        self.assert_refused("source.json", f'{{{TEMPLATE}, "bounds": [-{HUGE}, 0, 1, 1]}}', "too large")
+        self.assert_refused("a.geojson", f'{{"type": "Polygon", "coordinates": [[[0, 0], [{HUGE}, 0], [1, 1], [0, 0]]]}}',
+                            "too large")
+
+    def test_options_that_overflow(self):
+        for option in "--root-span", "--exaggeration", "--max-level", "--memory", "--timeout", "--cache-size":
+            self.assert_fails(WRONG_USAGE, "render", "-o", "a.png", option, HUGE, says=[option, HUGE, "too large"])
+
+    def test_xml_that_overflows(self):
+        from test_remote import CAPABILITIES, MATRIX
+        matrix = MATRIX.format(z=0, scale=1.0, width=2, height=1).replace("<ScaleDenominator>1.0", f"<ScaleDenominator>{HUGE}")
+        text = CAPABILITIES.format(address="http://127.0.0.1:9", matrices=matrix)
+        self.assert_refused("caps.xml", text, "ScaleDenominator")
+        text = (NATURAL_EARTH / "tilemapresource.xml").read_text()
+        self.write("tms.xml", re.sub('units-per-pixel="[^"]*"', f'units-per-pixel="{HUGE}"', text).encode())
+        self.assert_fails(FAILED, "info", "tms.xml", says=["tms.xml", "units-per-pixel"])
 
 
 class BadPictures(ProgramTest):

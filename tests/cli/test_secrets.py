@@ -95,8 +95,9 @@ class ProgramKeepsSecretsTest(SecretsTest):
             # The overlay has more levels by what is said of it, so that some of its tiles are missing.
             self.keeps(DONE_IN_PART, "render", source, "--max-level", "2", "--overlay", f"{source}:0.5", "--cache", "off", "-o",
                        "c.png", *VIEW)
-            self.keeps(DONE, "info", source, says=["token=***"])
-            self.keeps(DONE, "info", source, "--json", says=["token=***"])
+            place = {"XDG_CACHE_HOME": str(self.folder / "cache2")}  # of another grid, by what is not said of it
+            self.keeps(DONE, "info", source, says=["token=***"], environment=place)
+            self.keeps(DONE, "info", source, "--json", says=["token=***"], environment=place)
             self.keeps(DONE, "info", "a.gpkg", "--verify")
             self.keeps(DONE, "info", "a.gpkg", "--json")
             # They were sent, or all this would show nothing.

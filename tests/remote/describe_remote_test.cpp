@@ -120,13 +120,19 @@ TEST(DescribeRemote, NothingFromTheNetworkPointsToFiles) {
   expect_error(web.describe("https://a.org/s.json"), "not on the network");
 }
 
-TEST(DescribeRemote, HeadersStayWithTheirHost) {
+TEST(DescribeRemote, HeadersStayWithTheirSchemeHostAndPort) {
   Web web;
   web.pages["https://a.org/s.json"] = R"({"url": "https://b.org/{z}/{x}/{y}", "max_level": 2})";
   const RemoteOptions secret{.headers = {"Authorization: hush"}};
   const auto refused = web.describe("https://a.org/s.json", secret);
   expect_error(refused, "b.org");
   EXPECT_EQ(refused.error().message.find("hush"), std::string::npos);
+  for (const char* other : {"https://a.org:8443", "http://a.org", "https://t.a.org"}) {
+    web.pages["https://a.org/s.json"] = R"({"url": ")" + std::string(other) + R"(/{z}/{x}/{y}", "max_level": 2})";
+    expect_error(web.describe("https://a.org/s.json", secret), "port");
+    web.pages["https://a.org/s.json"] = R"({"wmts": ")" + std::string(other) + R"(/caps"})";
+    expect_error(web.describe("https://a.org/s.json", secret), "port");
+  }
   web.pages["https://a.org/s.json"] = R"({"url": "https://a.org/{z}/{x}/{y}", "max_level": 2})";
   const auto kept = web.describe("https://a.org/s.json", secret);
   ASSERT_TRUE(kept) << kept.error().message;
