@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <span>
 
 #include "scene/patch_mesh.h"
@@ -15,6 +16,7 @@ namespace {
 
 using glm::vec3;
 
+constexpr unsigned kCurveBits = 30;
 constexpr float kAround_px = 2.0F;  // the smallest sphere's radius, and its edge (object_sphere_seen.glsl)
 
 /// The ten low bits of a number, two apart.
@@ -25,11 +27,23 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits | bits << 2U) & 0x09249249U;
 }
 
-/// Where a direction from the planet's centre comes on a curve through a cube around it (Morton's order).
-std::uint32_t place_on_curve(const DotInstance& sphere) {
-  const vec3 cell = (glm::normalize(sphere.high_m + vec3(1.0F, 0.0F, 0.0F)) + 1.0F) * 511.0F;
+/// Where a place comes on a curve through a cube around the planet's centre (Morton's order), half as wide as
+/// `reach_m`.
+std::uint32_t place_on_curve(const vec3& place_m, float reach_m) {
+  const vec3 cell = (place_m / reach_m + 1.0F) * 511.0F;
   return spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1U |
          spread(static_cast<std::uint32_t>(cell.z)) << 2U;
+}
+
+/// Sorts spheres along the curve; returns where on it each then is.
+std::vector<std::uint32_t> sort_along_curve(std::span<DotInstance> spheres) {
+  float reach_m = 1.0F;
+  for (const DotInstance& d : spheres) reach_m = std::max(reach_m, glm::length(d.high_m));
+  const auto place = [reach_m](const DotInstance& d) { return place_on_curve(d.high_m, reach_m); };
+  std::ranges::stable_sort(spheres, {}, place);
+  std::vector<std::uint32_t> places;
+  std::ranges::transform(spheres, std::back_inserter(places), place);
+  return places;
 }
 
 /// As is_hidden() of object_common.glsl.
@@ -67,11 +81,32 @@ SphereGroups::SphereGroups(const Batch<DotInstance>& spheres) : items_(spheres.i
     const std::size_t first = spheres.first[bucket], end = spheres.first[bucket + 1];
     const std::span<DotInstance> all(items_.data() + first, end - first);
     const bool opaque = !all.empty() && all.front().color.alpha == 255;
-    if (opaque) std::ranges::stable_sort(all, {}, place_on_curve);
-    for (std::size_t k = first; k < end; k += kMostInGroup) {
-      groups_.push_back(group_of({k, std::min(kMostInGroup, end - k)}));
-      groups_.back().opaque = opaque;
+    if (opaque) {
+      add_cubes({first, end - first}, sort_along_curve(all), first, kCurveBits);
+    } else {
+      add_groups({first, end - first}, false);
     }
+  }
+}
+
+void SphereGroups::add_groups(Run run, bool opaque) {
+  for (std::size_t k = 0; k < run.count; k += kMostInGroup) {
+    groups_.push_back(group_of({run.first + k, std::min(kMostInGroup, run.count - k)}));
+    groups_.back().opaque = opaque;
+  }
+}
+
+// What follows each other on the curve may lie far apart, but not what is in one cube. Those that hold too many are cut
+// into eight.
+void SphereGroups::add_cubes(Run run, const std::vector<std::uint32_t>& places, std::size_t zeroth, unsigned bits) {
+  if (run.count <= kMostInGroup || bits == 0) return add_groups(run, true);
+  const auto begin = places.begin() + std::ptrdiff_t(run.first - zeroth), end = begin + std::ptrdiff_t(run.count);
+  const unsigned below = bits - 3;
+  for (auto from = begin; from != end;) {
+    const auto cube = [below](std::uint32_t place) { return place >> below; };
+    const auto to = std::ranges::upper_bound(from, end, cube(*from), {}, cube);
+    add_cubes({zeroth + std::size_t(from - places.begin()), std::size_t(to - from)}, places, zeroth, below);
+    from = to;
   }
 }
 

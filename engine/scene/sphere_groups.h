@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -21,11 +22,11 @@ struct SphereSight {
 };
 
 /// Spheres in groups of neighbours, with a ball around each group: what cannot be seen is left out group by group.
-/// Opaque spheres are sorted along a curve through space. Translucent ones keep the scene's order, in which they blend.
+/// Opaque spheres are sorted into cubes of space. Translucent ones keep the scene's order, in which they blend.
 /// Pure values; thread: any
 class SphereGroups {
  public:
-  static constexpr std::size_t kMostInGroup = 32;
+  static constexpr std::size_t kMostInGroup = 64;
 
   /// Spheres of items() that follow each other.
   using Run = Batch<DotInstance>::Range;
@@ -51,6 +52,8 @@ class SphereGroups {
   enum class Look { hidden, triangles, points };
   [[nodiscard]] static Look look_of(const Group& group, const SphereSight& sight);
   [[nodiscard]] Group group_of(Run run) const;
+  void add_groups(Run run, bool opaque);
+  void add_cubes(Run run, const std::vector<std::uint32_t>& places, std::size_t zeroth, unsigned bits);
 
   std::vector<DotInstance> items_;
   std::vector<Group> groups_;
