@@ -181,8 +181,8 @@ TEST_F(ObjectPassTest, SmallSpheresCoverOfEachPixelWhatGeometrySays) {
 TEST_F(ObjectPassTest, OfSmallSpheresTheNearerHidesTheFarther) {
   for (const DepthMode depth : {DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard}) {
     use(depth, {200, 200});
-    const PointObject near_ball = sphere(at(0.0, 0.0, 300.0e3), 60.0e3, kRed);
-    const PointObject far_ball = sphere(at(0.0, 0.0, 100.0e3), 100.0e3, kBlue);
+    const PointObject near_ball = sphere(at(0.0, 0.0, 300.0e3), 40.0e3, kRed);
+    const PointObject far_ball = sphere(at(0.0, 0.0, 100.0e3), 70.0e3, kBlue);
     for (const bool near_first : {true, false}) {
       const ObjectScene scene{.points =
                                   near_first ? std::vector{near_ball, far_ball} : std::vector{far_ball, near_ball}};
