@@ -32,15 +32,6 @@ float window_depth(float w) {
 #endif
 }
 
-// The same for 1 / w.
-float window_depth_of_nearness(float nearness) {
-#if defined(DEPTH_REVERSED)
-  return clip_scale.z * nearness;
-#else
-  return window_depth(1.0 / nearness);
-#endif
-}
-
 // In a fragment's main(), at `pull` times its distance; other depths than the logarithmic come out of the vertices.
 #if defined(DEPTH_LOGARITHMIC)
 #define WRITE_DEPTH(pull) gl_FragDepth = window_depth((pull) / gl_FragCoord.w)

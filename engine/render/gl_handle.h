@@ -62,40 +62,6 @@ using VertexArray = Handle<VertexArrayTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using Program = Handle<ProgramTraits>;
 
-/// A place in the stream of GL commands, to wait for. thread: main (of the context)
-class Fence {
- public:
-  Fence() = default;
-  [[nodiscard]] static Fence here() { return Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
-  ~Fence() { reset(); }
-  Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
-  Fence& operator=(Fence&& other) noexcept {
-    if (this != &other) {
-      reset();
-      sync_ = std::exchange(other.sync_, nullptr);
-    }
-    return *this;
-  }
-  Fence(const Fence&) = delete;
-  Fence& operator=(const Fence&) = delete;
-
-  /// Until the commands before it are done; at once where it is nowhere.
-  void wait() {
-    constexpr GLuint64 kStep_ns = 1'000'000'000;
-    while (sync_ != nullptr && glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, kStep_ns) == GL_TIMEOUT_EXPIRED) {
-    }
-    reset();
-  }
-
- private:
-  explicit Fence(GLsync sync) : sync_(sync) {}
-  void reset() {
-    if (sync_ != nullptr) glDeleteSync(sync_);
-    sync_ = nullptr;
-  }
-  GLsync sync_ = nullptr;
-};
-
 /// Finds what deletes objects while a context is current: without one it could not be found any more.
 inline void find_deletes() {
   glDeleteBuffers(0, nullptr);
@@ -104,7 +70,6 @@ inline void find_deletes() {
   glDeleteVertexArrays(0, nullptr);
   glDeleteFramebuffers(0, nullptr);
   glDeleteProgram(0);
-  glDeleteSync(nullptr);
 }
 
 [[nodiscard]] inline Buffer make_buffer() {

@@ -179,6 +179,8 @@ void GlState::take_fragments() {
   polygon_mode_ = modes.front();
   clip_origin_ = integer(GL_CLIP_ORIGIN);
   clip_depth_ = integer(GL_CLIP_DEPTH_MODE);
+  point_origin_ = integer(GL_POINT_SPRITE_COORD_ORIGIN);
+  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_UPPER_LEFT);
   provoking_vertex_ = integer(GL_PROVOKING_VERTEX);
   glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
 }
@@ -208,6 +210,7 @@ void GlState::put_fragments() const {
   glFrontFace(name(front_face_));
   glPolygonMode(GL_FRONT_AND_BACK, name(polygon_mode_));
   glClipControl(name(clip_origin_), name(clip_depth_));
+  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, point_origin_);
   glProvokingVertex(name(provoking_vertex_));
 }
 

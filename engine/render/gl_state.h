@@ -63,7 +63,7 @@ class GlState {
   std::vector<Window> windows_;
   std::array<GLfloat, 4> blend_color_{}, clear_color_{};
   GLint clear_stencil_ = 0, depth_test_ = 0, cull_face_ = 0, front_face_ = 0, polygon_mode_ = 0, clip_origin_ = 0,
-        clip_depth_ = 0, provoking_vertex_ = 0;
+        clip_depth_ = 0, provoking_vertex_ = 0, point_origin_ = 0;
   GLdouble clear_depth_ = 0.0;
   GLboolean depth_mask_ = GL_TRUE;
   std::array<GLint, kStores> pixel_stores_{};

@@ -8,21 +8,17 @@
 #include "render/gl_handle.h"
 #include "render/label_pass.h"
 #include "render/mesh_pass.h"
-#include "render/splat_pass.h"
+#include "render/sphere_pass.h"
 #include "scene/object_batches.h"
 #include "scene/render_modes.h"
 
 namespace terrella {
 
-/// How opaque spheres are drawn: many on software GL by way of a picture in memory, else each as a triangle.
-enum class SpherePath { automatic, triangles, splats };
-
 /// Draws the objects of a scene: areas, spheres, meshes, lines, markers. Everything is drawn relative to the eye.
 /// thread: main
 class ObjectPass {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth,
-                                                                  SpherePath path = SpherePath::automatic);
+  [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth);
 
   /// Uploads a scene, once; it takes the place of the one before.
   void set_objects(const ObjectBatches& batches);
@@ -47,10 +43,9 @@ class ObjectPass {
   /// are left as they are; the depth test must be on. Opaque objects write depth, translucent ones come after them and
   /// do not; whatever lies over or on the ground is drawn a little towards the eye, what lies under it is not. Leaves
   /// blending and face culling off and the depth mask on. Returns the draw calls made: at most one for each of areas,
-  /// spheres, lines and markers, opaque and translucent, and one more where spheres are drawn by way of memory and some
-  /// are too wide for that, and those of MeshPass::draw(). Where the caller knows of an opaque sphere around the
-  /// planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and markers in and behind it are not even
-  /// begun: on software GL they would cost as much as those in sight.
+  /// lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw(). Where the caller
+  /// knows of an opaque sphere around the planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and
+  /// markers in and behind it are not even begun: on software GL they would cost as much as those in sight.
   int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
            double hiding_radius_m = 0.0);
 
@@ -59,26 +54,21 @@ class ObjectPass {
   Status build_programs(DepthMode depth);
   void set_up_arrays();
   [[nodiscard]] int draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  int draw_spheres(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame, Viewport viewport,
-                   double hiding_radius_m);
   [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  [[nodiscard]] int draw_dots(const Batch<char>& batch, const gl::VertexArray& array, const gl::Program& program,
-                              ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const;
 
   /// A batch without its things, which are on the GPU.
   using Ranges = Batch<char>;
-  gl::Program fill_, sphere_, line_, marker_;
-  gl::VertexArray fill_array_, sphere_array_, line_array_, marker_array_;
-  gl::Buffer fill_vertices_, fill_indices_, spheres_, lines_, markers_;
-  SplatPass splats_;
+  gl::Program fill_, line_, marker_;
+  gl::VertexArray fill_array_, line_array_, marker_array_;
+  gl::Buffer fill_vertices_, fill_indices_, lines_, markers_;
+  std::unique_ptr<SpherePass> spheres_;
   DepthMode depth_ = DepthMode::reversed;
   std::vector<std::byte> font_;
   std::unique_ptr<LabelPass> labels_;
   std::unique_ptr<MeshPass> meshes_;
   bool has_labels_above_ = false, has_labels_underground_ = false;
-  bool splat_ = false;
-  std::size_t fewest_splats_ = 0;
-  Ranges fill_ranges_, sphere_ranges_, line_ranges_, marker_ranges_;
+  Ranges fill_ranges_, line_ranges_, marker_ranges_;
 };
 
 }  // namespace terrella

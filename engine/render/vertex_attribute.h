@@ -14,4 +14,11 @@ inline void float_attribute(GLuint array, GLuint index, GLuint binding, GLint si
   glVertexArrayAttribBinding(array, index, binding);
 }
 
+/// The same of a colour of four bytes, as floats from 0 to 1.
+inline void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, index);
+  glVertexArrayAttribFormat(array, index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, index, binding);
+}
+
 }  // namespace terrella::gl

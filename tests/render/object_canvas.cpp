@@ -26,7 +26,7 @@ void ObjectCanvas::TearDown() {
 }
 
 void ObjectCanvas::use(DepthMode depth, Viewport size) {
-  auto pass = ObjectPass::create(depth, sphere_path_);
+  auto pass = ObjectPass::create(depth);
   ASSERT_TRUE(pass) << pass.error().message;
   pass_ = std::move(*pass);
   pass_->set_label_font(font_);

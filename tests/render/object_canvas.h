@@ -41,7 +41,6 @@ class ObjectCanvas : public GlContextTest {
   int draw_calls_ = 0;  ///< of the last picture
   bool lit_ = false;
   double hiding_radius_m_ = 0.0;
-  SpherePath sphere_path_ = SpherePath::automatic;  ///< for use()
 
  private:
   FrameBlock upload_frame(const View& view) const;

@@ -29,7 +29,7 @@ SHOWN = [
      ["Return", "ctrl+a", *typed("1.0"), "Return", "Escape"]),
     ("layer panel", ["l"], ["l"]),
     ("layer panel, closed by Esc", ["l"], ["Escape"]),
-    ("graticule by the layer panel", ["l", "space"], ["space", "Escape"]),
+    ("graticule by the layer panel", ["l", "Down", "Up", "space"], ["space", "Escape"]),
     ("picture panel, closed by Esc", ["i"], ["Escape"]),
     ("width written into the picture panel", ["i", "ctrl+a", *typed("77"), "Tab"],
      ["shift+Tab", "ctrl+a", *typed("1280"), "Tab", "Escape"]),
