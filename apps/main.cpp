@@ -8,9 +8,9 @@
 #include <string>
 #include <system_error>
 
-#include "apps/commands.h"
-#include "apps/console.h"
-#include "apps/process.h"
+#include "apps/commands/commands.h"
+#include "apps/setup/console.h"
+#include "apps/setup/process.h"
 
 namespace {
 

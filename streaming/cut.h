@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
-#include "streaming/tile_source.h"
+#include "base/result.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "geo/coordinates.h"
-#include "geo/result.h"
 
 namespace terrella {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/json_builder.h"
 
 namespace terrella {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "geo/tile_grid.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

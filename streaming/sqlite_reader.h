@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -5,8 +5,8 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/ray_caster.h"
-#include "engine/globe.h"
-#include "scene/patch_selection.h"
+#include "globe/globe.h"
+#include "surface/patch_selection.h"
 
 namespace terrella::bench {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "apps/bench/report.h"
-#include "geo/result.h"
-#include "render/shader_functions.h"
+#include "base/result.h"
+#include "render/gl/shader_functions.h"
 
 namespace terrella::bench {
 

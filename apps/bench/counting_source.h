@@ -3,7 +3,7 @@
 #include <atomic>
 #include <memory>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::bench {
 

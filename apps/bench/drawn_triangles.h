@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "scene/patch_mesh.h"
-#include "scene/patch_selection.h"
+#include "surface/patch_mesh.h"
+#include "surface/patch_selection.h"
 
 namespace terrella::bench {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 
 namespace terrella::bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::bench {
 

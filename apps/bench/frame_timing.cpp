@@ -7,7 +7,8 @@
 
 #include <epoxy/gl.h>
 
-#include "render/gl_driver.h"
+#include "render/gl/gl_driver.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::bench {
 namespace {

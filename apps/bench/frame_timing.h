@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/globe.h"
+#include "globe/globe.h"
 
 namespace terrella::bench {
 

@@ -8,8 +8,8 @@
 #include "apps/bench/baseline/paper_sphere.h"
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/picture.h"
-#include "engine/globe.h"
-#include "render/offscreen.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::bench {
 

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "apps/bench/gnuplot.h"
-#include "apps/write_file.h"
+#include "apps/setup/write_file.h"
 
 namespace terrella::bench {
 namespace {

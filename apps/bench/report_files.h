@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/bench/report.h"
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella::bench {
 

@@ -2,8 +2,8 @@
 
 #include "apps/bench/truth/picture.h"
 #include "apps/bench/truth/ray_caster.h"
-#include "engine/globe.h"
-#include "render/offscreen.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::bench {
 

@@ -15,6 +15,7 @@
 #include "apps/bench/truth/masked_error.h"
 #include "apps/bench/work_folder.h"
 #include "geo/body.h"
+#include "streaming/sets/open_tile_set.h"
 
 #include <epoxy/gl.h>
 

@@ -14,8 +14,8 @@
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/mesh_error.h"
 #include "apps/bench/shots.h"
-#include "apps/data_dir.h"
-#include "apps/flight_tiles.h"
+#include "apps/commands/flight_tiles.h"
+#include "apps/setup/data_dir.h"
 #include "geo/body.h"
 
 namespace terrella::bench {

@@ -4,7 +4,7 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/truth_cache.h"
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella::bench {
 

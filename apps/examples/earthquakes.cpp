@@ -1,7 +1,8 @@
 // earthquakes TILES QUAKES.geojson OUTPUT.png: what lies under a translucent Earth. Without a window.
 #include <terrella/globe.h>
-#include <terrella/render/offscreen.h>
+#include <terrella/render/gl/offscreen.h>
 #include <terrella/streaming/objects/geojson_objects.h>
+#include <terrella/streaming/sets/open_tile_set.h>
 
 #include <fstream>
 #include <iostream>

@@ -1,8 +1,9 @@
 // flight_frames TILES FOLDER [SECONDS]: from Lisbon to Tokyo, as numbered pictures for a video, 25 a second:
 //   ffmpeg -framerate 25 -i FOLDER/%04d.png -pix_fmt yuv420p flight.mp4
 #include <terrella/globe.h>
-#include <terrella/render/offscreen.h>
-#include <terrella/scene/flight.h>
+#include <terrella/render/gl/offscreen.h>
+#include <terrella/streaming/sets/open_tile_set.h>
+#include <terrella/view/flight.h>
 
 #include <cstdio>
 #include <fstream>

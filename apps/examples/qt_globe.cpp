@@ -1,7 +1,8 @@
 // qt_globe TILES OBJECTS.geojson: a globe in a Qt 6 window, turned and zoomed by the mouse.
 #include <terrella/globe.h>
-#include <terrella/scene/navigation.h>
 #include <terrella/streaming/objects/geojson_objects.h>
+#include <terrella/streaming/sets/open_tile_set.h>
+#include <terrella/view/navigation.h>
 
 #include <QApplication>
 #include <QMouseEvent>

@@ -1,6 +1,7 @@
 // ten_lines TILES: a planet that turns in a window.
 #include <GLFW/glfw3.h>
 #include <terrella/globe.h>
+#include <terrella/streaming/sets/open_tile_set.h>
 
 #include <iostream>
 

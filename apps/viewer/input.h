@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "apps/viewer/ui.h"
+#include "apps/viewer/panels/ui.h"
 #include "apps/viewer/window.h"
-#include "scene/navigation.h"
+#include "view/navigation.h"
 
 namespace terrella {
 

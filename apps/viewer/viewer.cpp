@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/console.h"
-#include "apps/viewer/screenshot.h"
+#include "apps/setup/console.h"
+#include "apps/viewer/tools/screenshot.h"
 
 namespace terrella {
 namespace {

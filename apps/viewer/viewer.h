@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene_options.h"
-#include "apps/viewer/bookmarks.h"
-#include "apps/viewer/dropped_files.h"
-#include "apps/viewer/gazetteer.h"
+#include "apps/setup/scene_options.h"
 #include "apps/viewer/input.h"
-#include "apps/viewer/kept_settings.h"
-#include "apps/viewer/layer_panel.h"
-#include "apps/viewer/measure_tool.h"
-#include "apps/viewer/panels.h"
-#include "apps/viewer/picture_job.h"
-#include "apps/viewer/picture_panel.h"
-#include "apps/viewer/place_search.h"
-#include "apps/viewer/ui.h"
-#include "apps/viewer/view_settings.h"
+#include "apps/viewer/panels/layer_panel.h"
+#include "apps/viewer/panels/panels.h"
+#include "apps/viewer/panels/picture_panel.h"
+#include "apps/viewer/panels/place_search.h"
+#include "apps/viewer/panels/ui.h"
+#include "apps/viewer/tools/bookmarks.h"
+#include "apps/viewer/tools/dropped_files.h"
+#include "apps/viewer/tools/gazetteer.h"
+#include "apps/viewer/tools/kept_settings.h"
+#include "apps/viewer/tools/measure_tool.h"
+#include "apps/viewer/tools/picture_job.h"
+#include "apps/viewer/tools/view_settings.h"
 #include "apps/viewer/window.h"
-#include "engine/globe.h"
-#include "render/offscreen.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella {
 

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/viewer/screenshot.h"
-#include "scene/stereo.h"
+#include "apps/viewer/tools/screenshot.h"
+#include "view/stereo.h"
 
 namespace terrella {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/data_dir.h"
+#include "apps/setup/data_dir.h"
 
 namespace terrella {
 namespace {

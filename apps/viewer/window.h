@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "base/result.h"
 #include "geo/camera.h"
-#include "geo/result.h"
 
 struct GLFWwindow;
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "geo/number.h"
+#include "base/number.h"
 
 namespace terrella {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/result.h"
 #include "geo/ellipsoid.h"
-#include "geo/result.h"
 
 namespace terrella {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/number.h"
+#include "base/number.h"
 
 namespace terrella {
 namespace {

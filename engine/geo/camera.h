@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
+#include "base/result.h"
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
-#include "geo/result.h"
 
 namespace terrella {
 

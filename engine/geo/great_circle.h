@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "geo/map_plane.h"
-#include "geo/result.h"
 
 namespace terrella {
 

@@ -11,9 +11,9 @@ function(terrella_component component)
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/terrella)
   install(EXPORT Terrella_${component} NAMESPACE Terrella:: DESTINATION ${package_dir} COMPONENT development)
 endfunction()
-terrella_component(streaming terrella_geo terrella_streaming)
+terrella_component(streaming terrella_base terrella_geo terrella_codecs terrella_tiles terrella_streaming)
 terrella_component(cut terrella_cut)
-terrella_component(globe terrella_scene terrella_shaders terrella_render terrella)
+terrella_component(globe terrella_view terrella_surface terrella_sky terrella_objects terrella_shaders terrella_render terrella_globe terrella)
 
 # cmake --install --strip and cpack: of static libraries CMake strips nothing by itself.
 install(CODE "

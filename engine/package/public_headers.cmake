@@ -1,21 +1,22 @@
 # What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
 set(TERRELLA_PUBLIC_HEADERS
-  engine/globe.h
+  engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
-  engine/render/offscreen.h
-  engine/scene/graticule.h
-  engine/scene/navigation.h
-  engine/scene/star_catalogue.h
+  engine/render/gl/offscreen.h
+  engine/objects/graticule.h
+  engine/view/navigation.h
+  engine/sky/star_catalogue.h
   streaming/cache/tile_cache.h
   streaming/cut.h
-  streaming/image.h
+  engine/codecs/image.h
   streaming/objects/geojson_objects.h
   streaming/preload/preloader.h
   streaming/remote/describe_remote.h
   streaming/remote/grid_check.h
   streaming/remote/remote_source.h
-  streaming/tile_source.h)
+  streaming/sets/open_tile_set.h
+  engine/tiles/tile_source.h)
 
 # Which header of the source tree an include of another means; empty: none of the project's.
 function(terrella_find_header source include out)
@@ -50,9 +51,9 @@ function(terrella_public_headers source out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# The name under include/terrella: globe.h for engine/globe.h, streaming/image.h for streaming/image.h.
+# The name under include/terrella: globe.h for engine/globe/globe.h, codecs/image.h for engine/codecs/image.h.
 function(terrella_installed_header header out)
-  string(REGEX REPLACE "^engine/" "" installed ${header})
+  string(REGEX REPLACE "^engine/(globe/)?" "" installed ${header})
   set(${out} ${installed} PARENT_SCOPE)
 endfunction()
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geo/camera.h"
-#include "render/frame_block.h"
+#include "render/gl/frame_block.h"
 
 namespace terrella {
 

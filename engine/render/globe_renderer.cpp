@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "render/frame_camera.h"
-#include "render/stencil_bits.h"
-#include "scene/far_side_curtain.h"
-#include "scene/relief.h"
+#include "render/gl/stencil_bits.h"
+#include "surface/far_side_curtain.h"
+#include "surface/relief.h"
 
 namespace terrella {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "streaming/cache/cache_schema.h"
-#include "streaming/directory_source.h"
+#include "streaming/sets/directory_source.h"
 
 namespace terrella {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "streaming/cache/cache_schema.h"
-#include "streaming/directory_source.h"
-#include "streaming/geopackage_source.h"
+#include "streaming/sets/directory_source.h"
+#include "streaming/sets/geopackage_source.h"
+#include "streaming/sets/tileset_json.h"
 #include "streaming/sqlite_reader.h"
-#include "streaming/tileset_json.h"
 
 namespace terrella {
 namespace {

@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "streaming/gpkg_schema.h"
-#include "streaming/tileset_json.h"
+#include "streaming/sets/gpkg_schema.h"
+#include "streaming/sets/tileset_json.h"
 
 namespace terrella {
 namespace {

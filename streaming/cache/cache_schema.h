@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/cache/sqlite_writer.h"
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "streaming/cache/open_cache.h"
-#include "streaming/directory_source.h"
+#include "streaming/sets/directory_source.h"
 
 namespace terrella {
 namespace {

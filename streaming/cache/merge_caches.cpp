@@ -16,7 +16,7 @@
 #include "streaming/cache/cache_schema.h"
 #include "streaming/cache/merge_part.h"
 #include "streaming/cache/open_cache.h"
-#include "streaming/directory_source.h"
+#include "streaming/sets/directory_source.h"
 #include "streaming/sqlite_reader.h"
 
 namespace terrella {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella {
 

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "streaming/cache/cache_schema.h"
-#include "streaming/geopackage_source.h"
-#include "streaming/tileset_json.h"
+#include "streaming/sets/geopackage_source.h"
+#include "streaming/sets/tileset_json.h"
 
 namespace terrella {
 namespace {

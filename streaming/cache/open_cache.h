@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/cache/sqlite_writer.h"
 #include "streaming/cache/tile_cache.h"
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
-#include "streaming/gpkg_schema.h"
+#include "base/result.h"
+#include "streaming/sets/gpkg_schema.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -11,7 +11,7 @@
 #include "streaming/cache/cache_writer.h"
 #include "streaming/cache/open_cache.h"
 #include "streaming/cache/write_queue.h"
-#include "streaming/directory_source.h"
+#include "streaming/sets/directory_source.h"
 
 namespace terrella {
 namespace {

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
-#include "streaming/tile_source.h"
+#include "base/result.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 
-/// What the cache knows of a tile: its bytes, or why there are none (engine/DESIGN.md, 11), and what HTTP needs to ask again.
+/// What the cache knows of a tile: its bytes, or why there are none (engine/DESIGN.md, 11), and what HTTP needs to ask
+/// again.
 struct CacheRecord {
   std::optional<Absence> absence;  ///< none: `bytes` is the tile
   std::vector<std::byte> bytes;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "streaming/cut/encode_pool.h"
-#include "streaming/cut/record_log.h"
+#include "streaming/cut/output/encode_pool.h"
+#include "streaming/cut/output/record_log.h"
 
 namespace terrella {
 namespace {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/cut/cut_plan.h"
-#include "streaming/cut/encode_pool.h"
+#include "streaming/cut/output/encode_pool.h"
+#include "streaming/cut/output/tile_encoder.h"
+#include "streaming/cut/output/tile_writer.h"
+#include "streaming/cut/output/work_folder.h"
 #include "streaming/cut/pyramid.h"
-#include "streaming/cut/tile_encoder.h"
-#include "streaming/cut/tile_writer.h"
-#include "streaming/cut/work_folder.h"
 
 /// A cut goes band by band: a band is what one row of tiles covers kBandLevels levels above the finest. Its tiles down
 /// to that level, and its rows of the level above, need nothing of other bands. So a band is what a killed run need not

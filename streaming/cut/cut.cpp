@@ -8,13 +8,13 @@
 #include <thread>
 
 #include "streaming/cut/bands.h"
-#include "streaming/cut/cut_input.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
+#include "streaming/cut/input/cut_input.h"
+#include "streaming/cut/output/shards.h"
+#include "streaming/cut/output/tile_writer.h"
+#include "streaming/cut/output/work_folder.h"
 #include "streaming/cut/output_claim.h"
-#include "streaming/cut/shards.h"
-#include "streaming/cut/tile_writer.h"
-#include "streaming/cut/work_folder.h"
 
 namespace terrella {
 namespace {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "geo/hash_mix.h"
+#include "base/hash_mix.h"
 #include "streaming/cut.h"
-#include "streaming/cut/cut_input.h"
 #include "streaming/cut/cut_key.h"
+#include "streaming/cut/input/cut_input.h"
 
 namespace terrella {
 namespace {

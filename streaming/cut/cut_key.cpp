@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "geo/hash_mix.h"
+#include "base/hash_mix.h"
 
 namespace terrella {
 namespace {

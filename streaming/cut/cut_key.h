@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/cut.h"
 
 namespace terrella {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "geo/result.h"
-#include "geo/tile_grid.h"
+#include "base/result.h"
 #include "streaming/cut.h"
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/input/row_reader.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

@@ -8,11 +8,11 @@
 #include <string_view>
 
 #include "streaming/cache/cache_schema.h"
-#include "streaming/cut/tile_writer.h"
+#include "streaming/cut/output/tile_writer.h"
 #include "streaming/file_bytes.h"
-#include "streaming/geopackage_source.h"
+#include "streaming/sets/geopackage_source.h"
+#include "streaming/sets/tileset_json.h"
 #include "streaming/sqlite_reader.h"
-#include "streaming/tileset_json.h"
 
 namespace terrella {
 namespace {

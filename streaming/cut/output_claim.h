@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella {
 

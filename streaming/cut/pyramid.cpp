@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "streaming/cut/halve.h"
-#include "streaming/cut/heights.h"
+#include "streaming/cut/input/heights.h"
 
 namespace terrella {
 namespace {

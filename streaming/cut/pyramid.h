@@ -17,7 +17,8 @@ namespace terrella {
 enum class PixelKind {
   opaque,  ///< RGBA8, every alpha 255
   alpha,   ///< RGBA8, not premultiplied
-  height,  ///< as read: a 32-bit float, NaN where there is none; in a finished row: 16 bits (streaming/cut/heights.h)
+  height,  ///< as read: a 32-bit float, NaN where there is none; in a finished row: 16 bits
+           ///< (streaming/cut/input/heights.h)
 };
 
 /// The part of a pyramid that one Pyramid makes.

@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Squeezed tiles that a strip gives: none unless its row is reduced (geo/tile_grid.h).
+/// Squeezed tiles that a strip gives: none unless its row is reduced (tiles/tile_grid.h).
 [[nodiscard]] std::int64_t squeezed_tiles(const Strip& strip);
 
 /// Squeezed tile x of a strip, as a strip of one tile: each pixel is the mean of the 2^squeeze that it spans, colours

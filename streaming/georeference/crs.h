@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/georeference/affine.h"
 
 struct pj_ctx;

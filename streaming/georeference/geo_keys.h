@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/georeference/geo_tags.h"
 
 namespace terrella {

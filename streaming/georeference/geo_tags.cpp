@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "streaming/cut/row_formats.h"
-#include "streaming/cut/tiff_open.h"
+#include "streaming/cut/input/row_formats.h"
+#include "streaming/cut/input/tiff_open.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/georeference/affine.h"
 
 namespace terrella {

@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "base/result.h"
 #include "geo/body.h"
 #include "geo/coordinates.h"
-#include "geo/result.h"
-#include "geo/tile_grid.h"
 #include "streaming/georeference/crs.h"
 #include "streaming/georeference/georeference.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "geo/number.h"
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/georeference/crs.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/url.h"
 
 namespace terrella::http {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/url.h"
 
 namespace terrella {

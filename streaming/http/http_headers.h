@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella::http {
 

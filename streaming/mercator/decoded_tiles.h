@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "streaming/image.h"
-#include "streaming/tile_source.h"
+#include "codecs/image.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "geo/tile_grid.h"
 #include "streaming/mercator/mercator_taps.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

@@ -7,7 +7,7 @@
 
 #include "streaming/mercator/decoded_tiles.h"
 #include "streaming/mercator/mercator_grid.h"
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "streaming/mercator/mercator_job.h"
-#include "streaming/tileset_check.h"
+#include "streaming/sets/tileset_check.h"
 
 namespace terrella {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geo/tile_grid.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 namespace {

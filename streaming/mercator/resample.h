@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 #include "streaming/mercator/mercator_grid.h"
 
 namespace terrella {

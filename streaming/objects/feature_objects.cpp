@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/number.h"
 #include "geo/great_circle.h"
-#include "geo/number.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {

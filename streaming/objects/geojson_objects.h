@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "geo/objects.h"
-#include "geo/result.h"
 
 namespace terrella {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace tinygltf {
 class Model;

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace terrella {
 

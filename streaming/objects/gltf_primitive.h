@@ -2,8 +2,8 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "base/result.h"
 #include "geo/objects.h"
-#include "geo/result.h"
 #include "streaming/objects/gltf_accessor.h"
 #include "streaming/objects/gltf_textures.h"
 #include "streaming/objects/object_style.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 #include "streaming/objects/gltf_model.h"
 
 namespace terrella {

@@ -4,8 +4,8 @@
 #include <map>
 #include <memory>
 
+#include "base/result.h"
 #include "geo/objects.h"
-#include "geo/result.h"
 #include "streaming/objects/gltf_accessor.h"
 
 namespace terrella {

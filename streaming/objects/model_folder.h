@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 
 namespace tinygltf {
 class Model;

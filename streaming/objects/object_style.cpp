@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "geo/number.h"
+#include "base/number.h"
 
 namespace terrella {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "geo/ellipsoid.h"
-#include "geo/tile_grid.h"
 #include "streaming/preload/region.h"
-#include "streaming/tile_range.h"
+#include "streaming/sets/tile_range.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

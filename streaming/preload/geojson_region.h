@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/preload/region.h"
 
 namespace terrella {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "geo/number.h"
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_text.h"
 #include "streaming/preload/geojson_region.h"

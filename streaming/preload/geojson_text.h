@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/result.h"
 #include "geo/map_plane.h"
-#include "geo/result.h"
 
 namespace terrella {
 

@@ -9,7 +9,7 @@
 #include "streaming/preload/answer_queue.h"
 #include "streaming/preload/store_tally.h"
 #include "streaming/preload/wanted_tiles.h"
-#include "streaming/tile_check.h"
+#include "streaming/sets/tile_check.h"
 
 namespace terrella {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/cache/tile_cache.h"
 #include "streaming/preload/tile_origin.h"
 #include "streaming/preload/tile_plan.h"

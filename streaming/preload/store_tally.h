@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
-#include "geo/tile_grid.h"
+#include "base/result.h"
 #include "streaming/cache/tile_cache.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

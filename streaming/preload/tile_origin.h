@@ -8,7 +8,7 @@
 
 #include "streaming/http/http_fetcher.h"
 #include "streaming/remote/remote_tile_set.h"
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geo/ellipsoid.h"
-#include "geo/tile_grid.h"
 #include "streaming/preload/region.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

@@ -7,7 +7,7 @@
 
 #include "geo/body.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/remote/xml_names.h"
+#include "streaming/remote/wmts/xml_names.h"
 
 namespace terrella {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
-#include "geo/tile_grid.h"
+#include "base/result.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

@@ -12,10 +12,10 @@
 #include "streaming/remote/source_json.h"
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/remote/wmts.h"
-#include "streaming/remote/xml_names.h"
-#include "streaming/tileset_json.h"
-#include "streaming/tms_xml.h"
+#include "streaming/remote/wmts/wmts.h"
+#include "streaming/remote/wmts/xml_names.h"
+#include "streaming/sets/tileset_json.h"
+#include "streaming/sets/tms_xml.h"
 
 namespace terrella {
 namespace {
@@ -145,9 +145,9 @@ class Describing {
     return set;
   }
 
-  Result<RemoteTileSet> follow(const SourceDescription& source, const std::string& address, const RemoteOptions& merged,
+  Result<RemoteTileSet> follow(const SourceDescription& source, const Url& address, const RemoteOptions& merged,
                                const RemoteOptions& options) {
-    const std::string where = for_people(address);
+    const std::string where = address.redacted();
     if (source.kind == SourceDescription::Kind::url_template) {
       // A description may hold its own headers for its own tiles: those of the command line were given for its host.
       Result<RemoteTileSet> set = template_tile_set(source.address, merged, !is_from_network(address), where);

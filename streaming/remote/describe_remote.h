@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/remote/remote_tile_set.h"
 

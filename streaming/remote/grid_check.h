@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "geo/result.h"
-#include "geo/tile_grid.h"
-#include "streaming/image.h"
+#include "base/result.h"
+#include "codecs/image.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 

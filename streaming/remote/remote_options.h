@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "streaming/tile_check.h"
+#include "streaming/sets/tile_check.h"
 
 namespace terrella {
 namespace {

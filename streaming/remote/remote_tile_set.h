@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
-#include "streaming/tile_source.h"
+#include "base/result.h"
 #include "streaming/url.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "geo/result.h"
+#include "base/result.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/remote/remote_tile_set.h"
 

@@ -3,11 +3,11 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "geo/tile_grid.h"
-#include "streaming/elevation/elevation_json.h"
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
-#include "streaming/tileset_check.h"
+#include "streaming/sets/elevation_json.h"
+#include "streaming/sets/tileset_check.h"
+#include "tiles/tile_grid.h"
 
 namespace terrella {
 namespace {
@@ -32,8 +32,8 @@ std::optional<int> integer_if(JsonFields& fields, const char* field, int least, 
 }
 
 std::optional<std::chrono::seconds> life_if(JsonFields& fields, const char* field) {
-  const auto seconds = integer_if(fields, field, 0, kMaxLife_s);
-  return seconds ? std::optional(std::chrono::seconds(*seconds)) : std::nullopt;
+  const auto life_s = integer_if(fields, field, 0, kMaxLife_s);
+  return life_s ? std::optional(std::chrono::seconds(*life_s)) : std::nullopt;
 }
 
 std::optional<double> root_span_if(JsonFields& fields) {

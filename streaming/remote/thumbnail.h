@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 
 namespace terrella {
 

@@ -8,7 +8,7 @@
 
 #include "streaming/remote/bulk_terms.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/tileset_check.h"
+#include "streaming/sets/tileset_check.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/console.h"
+#include "apps/setup/console.h"
 
 #include <gtest/gtest.h>
 

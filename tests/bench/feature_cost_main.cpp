@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "apps/bench/frame_timing.h"
-#include "apps/sky_data.h"
-#include "render/offscreen.h"
+#include "apps/setup/sky_data.h"
+#include "render/gl/offscreen.h"
+#include "streaming/sets/open_tile_set.h"
 
 #include <epoxy/gl.h>
 

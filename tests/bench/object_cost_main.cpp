@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "apps/bench/frame_timing.h"
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 
 #include <epoxy/gl.h>
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "scene/patch_selection.h"
-#include "scene/tile_coverage.h"
+#include "surface/patch_selection.h"
+#include "surface/tile_coverage.h"
 
 namespace {
 

@@ -5,7 +5,8 @@
 #include <thread>
 
 #include "cache/cache_test_support.h"
-#include "streaming/tile_source.h"
+#include "streaming/sets/open_tile_set.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 namespace {

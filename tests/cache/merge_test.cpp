@@ -9,6 +9,7 @@
 #include "cache/cache_test_support.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/merge_caches.h"
+#include "streaming/sets/open_tile_set.h"
 #include "streaming/tile_lister.h"
 
 namespace terrella {

@@ -7,6 +7,7 @@
 
 #include "picture_files.h"
 #include "streaming/cut.h"
+#include "streaming/sets/open_tile_set.h"
 #include "tiff_files.h"
 
 namespace terrella::test {

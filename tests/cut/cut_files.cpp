@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "streaming/sets/open_tile_set.h"
+
 namespace terrella::test {
 
 Image part_of(const Image& image, int x0, int y0, int width, int height) {

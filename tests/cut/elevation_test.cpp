@@ -10,6 +10,7 @@
 #include <random>
 
 #include "cut_files.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "picture_files.h"
 #include "streaming/cut.h"
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/input/row_reader.h"
 #include "streaming/cut/strip.h"
 
 namespace terrella::test {

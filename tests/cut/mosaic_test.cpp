@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "cut_files.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <random>
 
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/input/row_reader.h"
 
 namespace terrella::test {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "streaming/image.h"
-#include "streaming/tile_source.h"
+#include "codecs/image.h"
 #include "tests/support/scratch_folder.h"
+#include "tiles/tile_source.h"
 
 /// Pictures, files and tile sets that the cutter's tests share.
 namespace terrella::test {

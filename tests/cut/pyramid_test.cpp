@@ -7,6 +7,7 @@
 #include "picture_files.h"
 #include "reference_pyramid.h"
 #include "streaming/cut.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <tiffio.h>
 
 #include "picture_files.h"
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/input/row_reader.h"
 #include "tiff_files.h"
 
 namespace terrella::test {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 
 namespace terrella::test {
 

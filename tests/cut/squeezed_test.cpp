@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "codecs/image.h"
 #include "cut_files.h"
 #include "picture_files.h"
 #include "streaming/cut.h"
-#include "streaming/image.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

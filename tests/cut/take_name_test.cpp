@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "picture_files.h"
-#include "streaming/cut/part_name.h"
+#include "streaming/cut/output/part_name.h"
 
 namespace terrella::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 
 namespace terrella::test {
 

@@ -10,7 +10,8 @@
 #include <random>
 
 #include "../streaming/streaming_test_support.h"
-#include "streaming/cut/gray16_png.h"
+#include "streaming/cut/output/gray16_png.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

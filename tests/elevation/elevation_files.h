@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "streaming/elevation/elevation_source.h"
+#include "tiles/elevation_source.h"
 
 /// Rasters of heights, and tile sets of them as the cutter and GDAL write them.
 namespace terrella::test {

@@ -1,4 +1,4 @@
-#include "streaming/elevation/elevation_source.h"
+#include "tiles/elevation_source.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include "../streaming/streaming_test_support.h"
 #include "elevation_files.h"
 #include "streaming/cut.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "streaming/elevation/height_decoder.h"
+#include "tiles/height_decoder.h"
 
 #include <gtest/gtest.h>
 

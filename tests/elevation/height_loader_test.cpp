@@ -1,4 +1,4 @@
-#include "streaming/elevation/height_loader.h"
+#include "tiles/height_loader.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "../streaming/streaming_test_support.h"
+#include "codecs/png_codec.h"
 #include "elevation_files.h"
 #include "streaming/cut.h"
-#include "streaming/png_codec.h"
+#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "streaming/remote/wmts.h"
+#include "streaming/remote/wmts/wmts.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto set = terrella::parse_wmts_capabilities({reinterpret_cast<const char*>(data), size}, {}, "fuzz");

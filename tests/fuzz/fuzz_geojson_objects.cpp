@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "geo/body.h"
-#include "scene/object_batches.h"
+#include "objects/object_batches.h"
 #include "streaming/objects/geojson_objects.h"
 
 // From bytes to what the GPU would be given.

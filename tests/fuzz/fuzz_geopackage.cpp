@@ -6,8 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "streaming/tile_range.h"
-#include "streaming/tile_source.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/sets/tile_range.h"
+#include "tiles/tile_source.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "streaming/elevation/height_decoder.h"
+#include "tiles/height_decoder.h"
 
 // A tile of heights: what begins as a PNG is taken for whole numbers, anything else for floats in a TIFF.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr terrella::DecodeLimits kLimits{.max_side_px = 512, .max_bytes = 1UL << 20};

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "streaming/tileset_json.h"
+#include "streaming/sets/tileset_json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto info = terrella::parse_tileset_json({reinterpret_cast<const char*>(data), size}, "fuzz");

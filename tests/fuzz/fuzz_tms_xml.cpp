@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "streaming/tms_xml.h"
+#include "streaming/sets/tms_xml.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto tms = terrella::parse_tms_xml({reinterpret_cast<const char*>(data), size}, "fuzz");

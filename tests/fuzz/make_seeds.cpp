@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "streaming/cut/gray16_png.h"
-#include "streaming/image.h"
-#include "streaming/tileset_json.h"
+#include "codecs/image.h"
+#include "streaming/cut/output/gray16_png.h"
+#include "streaming/sets/tileset_json.h"
 #include "support/model_file.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "geo/number.h"
+#include "base/number.h"
 
 namespace terrella {
 namespace {

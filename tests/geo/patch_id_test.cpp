@@ -1,4 +1,4 @@
-#include "geo/patch_id.h"
+#include "surface/patch_id.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 #include "geo/body.h"
 #include "geo/great_circle.h"
-#include "streaming/tile_range.h"
+#include "streaming/sets/tile_range.h"
 #include "tests/preload/plan_support.h"
 
 namespace terrella {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "geo/body.h"
-#include "streaming/tile_range.h"
+#include "streaming/sets/tile_range.h"
 #include "tests/preload/plan_support.h"
 
 namespace terrella {

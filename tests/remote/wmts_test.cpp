@@ -1,4 +1,4 @@
-#include "streaming/remote/wmts.h"
+#include "streaming/remote/wmts/wmts.h"
 
 #include <gtest/gtest.h>
 

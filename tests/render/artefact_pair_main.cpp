@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/open_imagery.h"
-#include "apps/scene_objects.h"
-#include "apps/scene_options.h"
-#include "apps/write_file.h"
-#include "render/offscreen.h"
-#include "streaming/image.h"
+#include "apps/setup/open_imagery.h"
+#include "apps/setup/scene_objects.h"
+#include "apps/setup/scene_options.h"
+#include "apps/setup/write_file.h"
+#include "codecs/image.h"
+#include "render/gl/offscreen.h"
 
 namespace {
 

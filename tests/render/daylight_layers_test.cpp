@@ -9,7 +9,7 @@
 #include "gl_fixture.h"
 #include "layer_source.h"
 #include "painted_heights.h"
-#include "scene/daylight.h"
+#include "surface/daylight.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

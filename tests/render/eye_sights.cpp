@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "scene/stereo.h"
+#include "view/stereo.h"
 
 namespace terrella::test {
 namespace {

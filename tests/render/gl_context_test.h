@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::test {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/globe.h"
 #include "gl_context_test.h"
+#include "globe/globe.h"
 #include "painted_source.h"
 
 namespace terrella::test {

@@ -7,8 +7,8 @@
 #include "gl_dump.h"
 #include "gl_fixture.h"
 #include "layer_source.h"
-#include "render/gl_state.h"
-#include "render/shader_library.h"
+#include "render/gl/gl_state.h"
+#include "render/gl/shader_library.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

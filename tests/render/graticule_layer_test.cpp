@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gl_fixture.h"
-#include "scene/graticule.h"
+#include "objects/graticule.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

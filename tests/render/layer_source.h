@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::test {
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "codecs/image.h"
 #include "object_canvas.h"
-#include "streaming/image.h"
 #include "streaming/objects/gltf_model.h"
 #include "support/model_file.h"
 

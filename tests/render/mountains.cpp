@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "streaming/cut/gray16_png.h"
+#include "streaming/cut/output/gray16_png.h"
 
 namespace terrella::test {
 namespace {

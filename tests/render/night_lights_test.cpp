@@ -1,5 +1,5 @@
 // A patch's programs with NIGHT_LIGHTS: white imagery by day and by night, with a city and without.
-#include "render/night_lights.h"
+#include "render/surface/night_lights.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "render/frame_block.h"
-#include "render/offscreen.h"
-#include "render/shader_library.h"
+#include "render/gl/frame_block.h"
+#include "render/gl/offscreen.h"
+#include "render/gl/shader_library.h"
 
 namespace terrella::test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "geo/body.h"
 #include "gl_context_test.h"
-#include "render/frame_block.h"
-#include "render/object_pass.h"
+#include "render/gl/frame_block.h"
+#include "render/objects/object_pass.h"
 
 namespace terrella::test {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "streaming/cut/gray16_png.h"
+#include "streaming/cut/output/gray16_png.h"
 
 namespace terrella::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <mutex>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::test {
 

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "eye_sights.h"
-#include "scene/almanac.h"
-#include "scene/stereo.h"
+#include "sky/almanac.h"
 #include "tests/scene/patch_test_support.h"
+#include "view/stereo.h"
 
 namespace terrella::test {
 namespace {

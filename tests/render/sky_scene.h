@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "geo/camera.h"
-#include "render/gl_handle.h"
-#include "render/offscreen.h"
-#include "render/sky_pass.h"
+#include "render/gl/gl_handle.h"
+#include "render/gl/offscreen.h"
+#include "render/sky/sky_pass.h"
 
 namespace terrella::test {
 

@@ -1,5 +1,5 @@
 // Sun, Moon and stars against ephemerides in print, and against what everyone saw.
-#include "scene/almanac.h"
+#include "sky/almanac.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace terrella::test {
 namespace {
 
-// Stricter than what almanac.h promises: how UTC differs from UT1 does not show here, and moon98 is at its worst in none of
-// these rows. The nutation of greenwich_deg() is good to 0.0003°.
+// Stricter than what almanac.h promises: how UTC differs from UT1 does not show here, and moon98 is at its worst in
+// none of these rows. The nutation of greenwich_deg() is good to 0.0003°.
 constexpr double kPlace_deg = 0.002;
 constexpr double kMoonDistance_m = 20e3;
 constexpr double kNutation_deg = 0.005;  // the most by which true places differ from mean ones

@@ -1,5 +1,5 @@
 // The air's table against what a fine numerical integral of the same air says, and against what everyone has seen.
-#include "scene/atmosphere.h"
+#include "sky/atmosphere.h"
 
 #include <gtest/gtest.h>
 

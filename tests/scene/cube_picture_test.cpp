@@ -1,4 +1,4 @@
-#include "scene/cube_picture.h"
+#include "sky/cube_picture.h"
 
 #include <gtest/gtest.h>
 

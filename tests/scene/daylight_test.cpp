@@ -1,5 +1,5 @@
 // On which patches a layer by day or by night has anything to show.
-#include "scene/daylight.h"
+#include "surface/daylight.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scene/flight.h"
+#include "view/flight.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "geo/body.h"
-#include "scene/ground_frame.h"
+#include "view/ground_frame.h"
 
 namespace terrella {
 namespace {

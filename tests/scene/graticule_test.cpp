@@ -1,4 +1,4 @@
-#include "scene/graticule.h"
+#include "objects/graticule.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geo/body.h"
-#include "scene/surface_pin.h"
+#include "view/surface_pin.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/ground.h"
+#include "view/ground.h"
 
 #include <gtest/gtest.h>
 

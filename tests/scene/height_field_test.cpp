@@ -1,4 +1,4 @@
-#include "scene/height_field.h"
+#include "surface/height_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scene/limb.h"
+#include "surface/limb.h"
 
 #include <gtest/gtest.h>
 

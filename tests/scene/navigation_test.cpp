@@ -1,4 +1,4 @@
-#include "scene/navigation.h"
+#include "view/navigation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "geo/body.h"
-#include "scene/ground_frame.h"
-#include "scene/view_limits.h"
 #include "tests/scene/patch_test_support.h"
+#include "view/ground_frame.h"
+#include "view/view_limits.h"
 
 namespace terrella {
 namespace {

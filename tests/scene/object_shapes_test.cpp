@@ -1,4 +1,4 @@
-#include "scene/object_shapes.h"
+#include "objects/object_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "geo/body.h"
-#include "scene/object_batches.h"
+#include "objects/object_batches.h"
 
 namespace terrella {
 namespace {

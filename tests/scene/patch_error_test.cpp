@@ -4,7 +4,7 @@
 #include <array>
 
 #include "patch_test_support.h"
-#include "scene/patch_mesh.h"
+#include "surface/patch_mesh.h"
 
 namespace terrella::test {
 namespace {

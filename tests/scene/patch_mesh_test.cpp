@@ -1,4 +1,4 @@
-#include "scene/patch_mesh.h"
+#include "surface/patch_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "scene/patch_selection.h"
+#include "surface/patch_selection.h"
 
 #include <gtest/gtest.h>
 
 #include "patch_test_support.h"
 #include "relief_test_support.h"
-#include "scene/stereo.h"
+#include "view/stereo.h"
 
 namespace terrella::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "relief_test_support.h"
-#include "scene/navigation.h"
 #include "tests/scene/patch_test_support.h"
+#include "view/navigation.h"
 
 namespace terrella {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "scene/ground.h"
-#include "scene/relief.h"
+#include "surface/relief.h"
+#include "view/ground.h"
 
 namespace terrella::test {
 

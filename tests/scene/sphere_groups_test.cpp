@@ -1,4 +1,4 @@
-#include "scene/sphere_groups.h"
+#include "objects/sphere_groups.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "geo/body.h"
 #include "geo/camera.h"
-#include "scene/patch_mesh.h"
+#include "surface/patch_mesh.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/star_catalogue.h"
+#include "sky/star_catalogue.h"
 
 #include <gtest/gtest.h>
 

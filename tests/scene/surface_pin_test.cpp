@@ -1,4 +1,4 @@
-#include "scene/surface_pin.h"
+#include "view/surface_pin.h"
 
 #include <gtest/gtest.h>
 

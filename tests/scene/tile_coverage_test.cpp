@@ -1,4 +1,4 @@
-#include "scene/tile_coverage.h"
+#include "surface/tile_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "patch_test_support.h"
-#include "scene/patch_mesh.h"
+#include "surface/patch_mesh.h"
 
 namespace terrella::test {
 namespace {

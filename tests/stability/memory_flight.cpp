@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/flight.h"
 #include "tests/render/painted_heights.h"
+#include "view/flight.h"
 
 namespace terrella::test {
 namespace {

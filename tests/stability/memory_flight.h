@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "engine/globe.h"
-#include "render/offscreen.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::test {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "streaming/image.h"
+#include "codecs/image.h"
 #include "streaming_test_support.h"
 
 namespace terrella {

@@ -3,9 +3,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "streaming/tile_range.h"
-#include "streaming/tile_source.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/sets/tile_range.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 namespace {

@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <thread>
 
-#include "streaming/tile_range.h"
-#include "streaming/tile_source.h"
-#include "streaming/tileset_json.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/sets/tile_range.h"
+#include "streaming/sets/tileset_json.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "streaming/image.h"
-#include "streaming/tileset_json.h"
-#include "streaming/tms_xml.h"
+#include "codecs/image.h"
+#include "streaming/sets/tileset_json.h"
+#include "streaming/sets/tms_xml.h"
 #include "streaming_test_support.h"
 
 namespace terrella {

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "streaming/tile_range.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/sets/tile_range.h"
 #include "streaming_test_support.h"
 
 namespace terrella {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "streaming/tile_source.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::test {
 

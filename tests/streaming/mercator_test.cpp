@@ -7,8 +7,8 @@
 #include "mercator_planet.h"
 #include "streaming/mercator/mercator_grid.h"
 #include "streaming/mercator/mercator_source.h"
-#include "streaming/tile_loader.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_loader.h"
 
 namespace terrella {
 namespace {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <thread>
 
-#include "streaming/tile_loader.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_loader.h"
 
 namespace terrella {
 namespace {

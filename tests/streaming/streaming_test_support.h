@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "streaming/image.h"
-#include "streaming/tile_source.h"
+#include "codecs/image.h"
 #include "tests/support/scratch_folder.h"
+#include "tiles/tile_source.h"
 
 namespace terrella::test {
 

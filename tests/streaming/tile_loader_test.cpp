@@ -1,4 +1,4 @@
-#include "streaming/tile_loader.h"
+#include "tiles/tile_loader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "streaming/tile_range.h"
+#include "streaming/sets/tile_range.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "streaming/tile_texels.h"
+#include "tiles/tile_texels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "streaming/tileset_json.h"
+#include "streaming/sets/tileset_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "streaming/tms_xml.h"
+#include "streaming/sets/tms_xml.h"
 
 #include <gtest/gtest.h>
 

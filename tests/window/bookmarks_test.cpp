@@ -1,4 +1,4 @@
-#include "apps/viewer/bookmarks.h"
+#include "apps/viewer/tools/bookmarks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/viewer/gazetteer.h"
+#include "apps/viewer/tools/gazetteer.h"
 
 #include <gtest/gtest.h>
 

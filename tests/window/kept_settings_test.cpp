@@ -1,4 +1,4 @@
-#include "apps/viewer/kept_settings.h"
+#include "apps/viewer/tools/kept_settings.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/viewer/layer_panel.h"
+#include "apps/viewer/panels/layer_panel.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/viewer/measure_tool.h"
+#include "apps/viewer/tools/measure_tool.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "apps/viewer/readout.h"
+#include "apps/viewer/panels/readout.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "apps/viewer/input.h"
-#include "apps/viewer/screenshot.h"
+#include "apps/viewer/tools/screenshot.h"
 #include "geo/body.h"
 
 namespace terrella {

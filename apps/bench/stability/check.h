@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "geo/result.h"
-#include "render/shader_functions.h"
+#include "base/result.h"
+#include "render/gl/shader_functions.h"
 
 namespace terrella::bench {
 

@@ -4,8 +4,8 @@
 #include "apps/bench/stability/check.h"
 #include "geo/body.h"
 #include "render/frame_camera.h"
-#include "render/shader_library.h"
-#include "scene/render_modes.h"
+#include "render/gl/shader_library.h"
+#include "view/render_modes.h"
 
 namespace terrella::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "render/frame_camera.h"
-#include "render/shader_library.h"
-#include "render/vertex_attribute.h"
+#include "render/gl/shader_library.h"
+#include "render/gl/vertex_attribute.h"
 
 namespace terrella::bench {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "geo/body.h"
 #include "geo/camera.h"
-#include "render/gl_handle.h"
-#include "render/shader_functions.h"
-#include "scene/patch_mesh.h"
-#include "scene/patch_selection.h"
-#include "scene/tile_coverage.h"
+#include "render/gl/gl_handle.h"
+#include "render/gl/shader_functions.h"
+#include "surface/patch_mesh.h"
+#include "surface/patch_selection.h"
+#include "surface/tile_coverage.h"
 
 namespace terrella::bench {
 

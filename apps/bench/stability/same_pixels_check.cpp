@@ -2,8 +2,8 @@
 #include <cstdint>
 
 #include "apps/bench/stability/check.h"
-#include "engine/globe.h"
-#include "render/offscreen.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/stability/check.h"
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 
 namespace terrella::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "streaming/cut/row_reader.h"
+#include "streaming/cut/input/row_reader.h"
 
 namespace {
 

@@ -1,8 +1,9 @@
 // outside TILES OVERLAY GEOJSON OUTPUT.png: a globe in an OpenGL context that is not Terrella's.
 #include <epoxy/egl.h>
 #include <terrella/globe.h>
-#include <terrella/render/offscreen.h>
+#include <terrella/render/gl/offscreen.h>
 #include <terrella/streaming/objects/geojson_objects.h>
+#include <terrella/streaming/sets/open_tile_set.h>
 
 #include <fstream>
 

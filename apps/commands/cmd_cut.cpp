@@ -1,0 +1,208 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/commands/option_checks.h"
+#include "apps/setup/console.h"
+#include "apps/setup/progress.h"
+#include "apps/setup/stop_signals.h"
+#include "base/number.h"
+#include "geo/body.h"
+#include "streaming/cut.h"
+
+namespace terrella {
+namespace {
+
+constexpr const char* kCutExamples =
+    "Examples:\n"
+    "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
+    "  terrella cut alps.tif -o tiles --bounds 5,43,17,49 --format png\n"
+    "  terrella cut world.200412.3x21600x21600.??.jpg -o earth.gpkg     NASA's eight parts as one\n"
+    "  terrella cut nw.png ne.png sw.png se.png --mosaic 2x2 -o tiles\n"
+    "  terrella cut etopo5.png --elevation --offset -32768 -o relief.gpkg\n"
+    "  terrella cut huge.tif -o huge.gpkg --shard 3/8                   on each of 8 machines, 1/8 to 8/8, then\n"
+    "  terrella cut huge.tif -o huge.gpkg --join\n"
+    "Killed and started again with the same arguments it goes on, to the same bytes.";
+
+struct CutCommand {
+  std::vector<std::string> images;
+  std::string output;
+  CutOptions cut;
+  bool elevation = false;
+  CutElevation heights;
+  bool json = false;
+};
+
+Result<GeoRect> parse_bounds(const std::string& text) {
+  std::vector<Angle> sides;
+  for (const std::string_view piece : split_at_commas(text)) {
+    if (const auto degrees = read_number(piece)) sides.push_back(Angle::degrees(*degrees));
+  }
+  if (sides.size() != 4 || split_at_commas(text).size() != 4) {
+    return Error{fmt::format("{} is not W,S,E,N; write four numbers in degrees, as 5,43,17,49", in_quotes(text))};
+  }
+  const bool on_planet = std::abs(sides[0].deg()) <= 180.0 && std::abs(sides[2].deg()) <= 180.0 &&
+                         std::abs(sides[1].deg()) <= 90.0 && std::abs(sides[3].deg()) <= 90.0;
+  if (!on_planet || sides[0] == sides[2] || sides[1] >= sides[3]) {
+    return Error{
+        fmt::format("{}: it takes WEST and EAST in -180...180 (WEST > EAST crosses 180 degrees) and SOUTH < "
+                    "NORTH in -90...90",
+                    in_quotes(text))};
+  }
+  return GeoRect{.west = sides[0], .south = sides[1], .east = sides[2], .north = sides[3]};
+}
+
+/// Two whole numbers around a letter, as 4x2 or 3/8.
+Result<std::pair<int, int>> parse_pair(const std::string& text, char between, const char* wanted) {
+  const std::size_t at = text.find(between);
+  const auto first = read_number(std::string_view(text).substr(0, at));
+  const auto second = at == std::string::npos ? std::nullopt : read_number(std::string_view(text).substr(at + 1));
+  const auto is_count = [](double n) { return n >= 1.0 && n <= 100000.0 && n == std::floor(n); };
+  const double a = first.value_or(0.0), b = second.value_or(0.0);
+  if (is_count(a) && is_count(b)) return std::pair(static_cast<int>(a), static_cast<int>(b));
+  return Error{fmt::format("{} is not {}", in_quotes(text), wanted)};
+}
+
+Result<CutShard> parse_shard(const std::string& text) {
+  const auto pair = parse_pair(text, '/', "I/N, as 3/8");
+  if (!pair) return pair.error();
+  if (pair->first > pair->second) return Error{fmt::format("{}: I is at most N", in_quotes(text))};
+  return CutShard{.index = pair->first, .count = pair->second};
+}
+
+Result<MosaicGrid> parse_mosaic(const std::string& text) {
+  const auto pair = parse_pair(text, 'x', "COLSxROWS, as 4x2");
+  if (!pair) return pair.error();
+  return MosaicGrid{.columns = pair->first, .rows = pair->second};
+}
+
+void print_summary(const CutCommand& command, const CutSummary& summary) {
+  const TileGrid& grid = summary.grid;
+  if (command.json) {
+    const nlohmann::json result = {{"output", command.output},
+                                   {"tiles", summary.tiles},
+                                   {"bytes", summary.bytes},
+                                   {"tile_size", grid.tile_px},
+                                   {"root_span_deg", grid.root_span_deg},
+                                   {"min_level", grid.min_level},
+                                   {"max_level", grid.max_level}};
+    // A path need not be UTF-8.
+    print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  print_result("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB\n", command.output, summary.tiles, grid.tile_px,
+               grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
+}
+
+int run(CutCommand& command) {
+  command.cut.images.assign(command.images.begin(), command.images.end());
+  command.cut.output = command.output;
+  if (command.elevation) command.cut.elevation = command.heights;
+  const StopSignals signals;
+  Result<CutSummary> summary = Error{};
+  {
+    Progress progress("cutting " + command.cut.images.front().filename().string());
+    command.cut.progress = [&](std::int64_t done, std::int64_t total) {
+      progress.show(done, total);
+      return !StopSignals::came();
+    };
+    summary = cut(command.cut);
+  }
+  if (!summary) return fail("cut", summary.error().message);
+  print_summary(command, *summary);
+  return kDone;
+}
+
+void add_description_options(CLI::App& app, CutOptions& cut) {
+  app.add_option_function<std::string>(
+         "--body",
+         [&cut](const std::string& text) {
+           (void)parsed_or_throw("--body", parse_body(text));
+           cut.body = text;
+         },
+         "The planet that the picture shows; kept in the tile set")
+      ->type_name("earth|moon|mars|sphere|A,F");
+  add_choice<Projection>(app, "--projection", cut.projection,
+                         {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
+                         "What the picture's rows are linear in: latitude, or its sine");
+  add_choice<LatitudeKind>(app, "--latitude", cut.latitude,
+                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
+                           "Which latitude the picture's rows count: planetographic or planetocentric");
+  app.add_option("--name", cut.name, "What the tile set is called (default: the picture's file name)");
+  app.add_option("--attribution", cut.attribution, "Whom to thank for the picture; shown with it");
+}
+
+void add_input_options(CLI::App& app, CutCommand& command) {
+  CutOptions& cut = command.cut;
+  app.add_option_function<std::string>(
+         "--bounds", [&cut](const std::string& text) { cut.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
+         "What the picture covers, degrees; W > E crosses 180 (default: what the picture or files beside it say, else "
+         "the whole planet)")
+      ->type_name("W,S,E,N");
+  app.add_option_function<std::string>(
+         "--mosaic", [&cut](const std::string& text) { cut.mosaic = parsed_or_throw("--mosaic", parse_mosaic(text)); },
+         "The pictures form a grid, named in rows from the north-west (default: by NASA's names A1 to D2, else by "
+         "what they say of their place)")
+      ->type_name("COLSxROWS");
+  CLI::Option* elevation = app.add_flag("--elevation", command.elevation, "The picture holds heights: 16-bit tiles");
+  app.add_option("--scale", command.heights.scale,
+                 "Metres = number * scale + offset (default: 1; of Float32: by range)")
+      ->needs(elevation);
+  app.add_option("--offset", command.heights.offset, "Metres that are added (default: 0; of Float32: by range)")
+      ->needs(elevation);
+  app.add_option("--nodata", command.heights.nodata, "The value in the picture that says that there is no height")
+      ->needs(elevation);
+}
+
+void add_work_options(CLI::App& app, CutCommand& command) {
+  CutOptions& cut = command.cut;
+  app.add_option("--jobs", cut.jobs, "Threads that encode tiles; 0: as many as cores")
+      ->check(whole_number_in(0, 256))
+      ->capture_default_str();
+  CLI::Option* shard = app.add_option_function<std::string>(
+      "--shard", [&cut](const std::string& text) { cut.shard = parsed_or_throw("--shard", parse_shard(text)); },
+      "Do part I of N alone, kept in OUT.shard-I-of-N until --join");
+  shard->type_name("I/N");
+  app.add_flag("--join", cut.join, "Make the output of all shards, and remove them")->excludes(shard);
+}
+
+}  // namespace
+
+void add_cut_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("cut", "Cuts a picture of a planet into a tile set");
+  sub.footer(kCutExamples);
+  const auto command = std::make_shared<CutCommand>();
+  CutOptions& cut = command->cut;
+  sub.add_option("image", command->images, "The picture, or the parts of one: JPEG, PNG, TIFF or BigTIFF")
+      ->required()
+      ->type_name("IMAGE...");
+  sub.add_option("-o,--output", command->output, "What to write: a GeoPackage if it ends in .gpkg, else a folder")
+      ->required()
+      ->type_name("OUT.gpkg|DIR");
+  sub.add_option("--tile-size", cut.tile_px, "Pixels a side of a tile, an even number")
+      ->check(whole_number_in(16, 4096))
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return text.back() % 2 == 0 ? std::string() : text + " is odd; it takes an even number";
+          },
+          "even"))
+      ->capture_default_str();
+  sub.add_option("--quality", cut.quality, "Of JPEG tiles")->check(whole_number_in(1, 100))->capture_default_str();
+  sub.add_option_function<std::string>(
+         "--format",
+         [&cut](const std::string& text) { cut.format = text == "png" ? ImageFormat::png : ImageFormat::jpeg; },
+         "Of the tiles (default: png if the picture has transparency, else jpg)")
+      ->check(CLI::IsMember({"jpg", "png"}))
+      ->type_name("jpg|png");
+  add_input_options(sub, *command);
+  add_description_options(sub, cut);
+  add_work_options(sub, *command);
+  sub.add_flag("--force", cut.force, "Replace a tile set that was cut from other pictures; other files stay");
+  sub.add_flag("--json", command->json, "Print the result as one JSON object");
+  sub.callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace terrella

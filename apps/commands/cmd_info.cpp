@@ -1,0 +1,146 @@
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/commands/commands.h"
+#include "apps/commands/picture_report.h"
+#include "apps/commands/tile_set_report.h"
+#include "apps/commands/verify_tiles.h"
+#include "apps/setup/console.h"
+#include "apps/setup/open_imagery.h"
+#include "apps/setup/stop_signals.h"
+#include "streaming/cache/cache_report.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/sets/tile_range.h"
+#include "tiles/tile_source.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoOptions {
+  Url tile_set;
+  bool verify = false;
+  bool json = false;
+};
+
+constexpr const char* kInfoExamples =
+    "Examples:\n"
+    "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
+    "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
+    "  terrella info planet.gpkg --json      the same for a program to read\n"
+    "  terrella info moon.tif                where a picture says that it lies, and how it is shown, or why not";
+
+std::optional<std::uintmax_t> size_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    const std::uintmax_t size = fs::file_size(path, error);
+    return error ? std::nullopt : std::optional(size);
+  }
+  std::uintmax_t sum = 0;
+  for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end && !StopSignals::came();
+       entry.increment(error)) {
+    std::error_code vanished;
+    if (entry->is_regular_file(vanished)) sum += entry->file_size(vanished);
+  }
+  return error ? std::nullopt : std::optional(sum);
+}
+
+std::vector<LevelReport> count_levels(TileSource& source) {
+  const TileGrid& grid = source.info().grid;
+  std::vector<LevelReport> levels;
+  for (int level = grid.min_level; level <= grid.max_level; ++level) {
+    levels.push_back({level, tile_span_deg(grid, level), count_places(grid, level), source.count_tiles(level)});
+  }
+  return levels;
+}
+
+/// A line on standard error every second or so: results go to standard output alone. Stops on a signal.
+auto progress_lines() {
+  return [last = std::chrono::steady_clock::now()](std::int64_t done, std::int64_t total) mutable {
+    if (StopSignals::came()) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < std::chrono::seconds(1)) return true;
+    last = now;
+    print_message("{} of {} tiles read\n", done, total);
+    return true;
+  };
+}
+
+/// Tiles are checked as they are stored: those of a set in Web Mercator, not what is made of them.
+Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSource> source, bool is_cache) {
+  if (source->info().made_of) {
+    auto stored = open_stored_tile_set(options.tile_set.with_secrets());
+    if (!stored) return stored.error();
+    source = *std::move(stored);
+  }
+  Result<VerifyReport> verified = verify_tiles(source, progress_lines());
+  if (!verified) return Error{options.tile_set.redacted() + ": " + verified.error().message};
+  // A cache is not meant to have all tiles of its source.
+  if (is_cache) verified->absent = 0;
+  return verified;
+}
+
+int run_picture_info(const InfoOptions& options) {
+  const Result<std::string> report = picture_report(options.tile_set.with_secrets(), options.json);
+  if (!report) return fail("info", report.error().message);
+  print_result("{}", *report);
+  return kDone;
+}
+
+int run_info(const InfoOptions& options) {
+  const StopSignals signals;
+  // A picture is cut only to have its tiles checked.
+  if (is_picture(options.tile_set.with_secrets()) && !options.verify) return run_picture_info(options);
+  SceneOptions scene;
+  scene.tile_set = options.tile_set;
+  const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
+  if (!source) return fail("info", source.error().message);
+  const std::string& path = options.tile_set.with_secrets();
+  TileSetReport report{
+      .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
+  report.size_bytes = size_of(path);
+  report.levels = count_levels(**source);
+  if (StopSignals::came()) {
+    return fail("info", options.tile_set.redacted() + ": stopped before its tiles were counted");
+  }
+  if (is_cache(path)) {
+    const std::int64_t now_unix_s = std::time(nullptr);
+    Result<CacheReport> cache = options.verify ? verify_cache(path, now_unix_s) : read_cache_report(path, now_unix_s);
+    if (!cache) return fail("info", cache.error().message);
+    report.cache = *std::move(cache);
+  }
+  if (options.verify) {
+    Result<VerifyReport> verified = verify(options, *source, report.cache.has_value());
+    if (!verified) return fail("info", verified.error().message);
+    report.verified = *std::move(verified);
+  }
+  print_result("{}", options.json ? to_json(report) : to_text(report));
+  const bool damaged = report.cache && report.cache->problems && !report.cache->problems->empty();
+  return damaged || (report.verified && report.verified->bad > 0) ? kFailed : kDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("info", "Say what a tile set holds or what a picture says of its place, and check it.");
+  command->footer(kInfoExamples);
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
+  command->add_flag(
+      "--verify", options->verify,
+      "decode every tile, name the broken ones, and check a cache's database; exit code 1 if there are any");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, &exit_code] { exit_code = run_info(*options); });
+}
+
+}  // namespace terrella

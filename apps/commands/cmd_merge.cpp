@@ -1,0 +1,82 @@
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/commands/commands.h"
+#include "apps/setup/console.h"
+#include "apps/setup/progress.h"
+#include "apps/setup/stop_signals.h"
+#include "streaming/cache/merge_caches.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MergeCommand {
+  std::vector<std::string> caches;
+  std::string output;
+  bool json = false;
+};
+
+constexpr const char* kMergeExamples =
+    "Examples:\n"
+    "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
+    "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
+    "A tile wins over an absence, else the record stored later. Levels may differ; pinned tiles stay pinned.";
+
+void print_summary(const MergeCommand& command, const MergeSummary& summary) {
+  if (command.json) {
+    const nlohmann::ordered_json result{{"output", command.output},
+                                        {"caches", command.caches},
+                                        {"tiles", summary.tiles},
+                                        {"absences", summary.absences},
+                                        {"dropped", summary.dropped}};
+    // A path need not be UTF-8.
+    print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  print_result("{}: {} tiles and {} absences from {} caches, {} older records left out\n", command.output,
+               summary.tiles, summary.absences, command.caches.size(), summary.dropped);
+}
+
+int run_merge(const MergeCommand& command) {
+  const std::vector<fs::path> caches(command.caches.begin(), command.caches.end());
+  const StopSignals signals;
+  Result<MergeSummary> summary = Error{};
+  {
+    Progress progress("merging into " + command.output);
+    summary = merge_caches(caches, command.output, [&](std::int64_t done, std::int64_t total) {
+      progress.show(done, total);
+      return !StopSignals::came();
+    });
+  }
+  if (!summary) return fail("merge", summary.error().message);
+  print_summary(command, *summary);
+  return kDone;
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("merge", "Join caches of one source, losing nothing.");
+  command->footer(kMergeExamples);
+  const auto options = std::make_shared<MergeCommand>();
+  command->add_option("CACHE", options->caches, "caches that `preload` or `view` filled from one source")
+      ->required()
+      ->type_name("CACHE...");
+  command->add_option("-o,--output", options->output, "the cache to make; replaced only if it is one of the caches")
+      ->required()
+      ->type_name("OUT.gpkg");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->callback([options, &exit_code] { exit_code = run_merge(*options); });
+}
+
+}  // namespace terrella

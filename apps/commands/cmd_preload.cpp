@@ -1,0 +1,258 @@
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "apps/commands/commands.h"
+#include "apps/commands/lack_report.h"
+#include "apps/preload/preload_options.h"
+#include "apps/preload/preload_plan.h"
+#include "apps/preload/preload_progress.h"
+#include "apps/preload/preload_report.h"
+#include "apps/preload/preload_room.h"
+#include "apps/preload/preload_source.h"
+#include "apps/setup/console.h"
+#include "apps/setup/open_files.h"
+#include "apps/setup/stop_signals.h"
+#include "apps/setup/tile_list_file.h"
+#include "streaming/preload/wanted_tiles.h"
+
+namespace terrella {
+namespace {
+
+constexpr const char* kPreloadExamples =
+    "Examples:\n"
+    "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
+    "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
+    "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
+    "Preloaded tiles are pinned: no limit of a viewer evicts them. To let go of them:\n"
+    "  terrella preload wmts.json --release -o trip.gpkg";
+
+constexpr int kMostSampled = 20;
+constexpr double kSampleRate = 10.0;      // requests a second
+constexpr int kQuestionsAConnection = 8;  // under way at once where a connection carries several
+constexpr std::chrono::hours kDay{24};
+
+HttpOptions network_options(const PreloadCommand& command) {
+  HttpOptions http = command.http;
+  http.in_flight_per_host = std::max(32, http.connections_per_host * kQuestionsAConnection);
+  // Who asks for a rate does not want the first second's requests at once.
+  if (http.rate_per_host > 0.0) http.burst = std::clamp(http.rate_per_host / 4.0, 1.0, http.burst);
+  return http;
+}
+
+std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
+  if (!command.refresh_older_than_days) return std::nullopt;
+  return std::chrono::duration_cast<std::chrono::seconds>(*command.refresh_older_than_days * kDay);
+}
+
+PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
+  PreloadOptions options;
+  options.tile_px = source.set.info.grid.tile_px;
+  options.refresh_older_than = refresh_age(command);
+  options.tile_life = source.set.tile_life.value_or(options.tile_life);
+  options.absence_life = source.set.absence_life.value_or(options.absence_life);
+  options.expires = source.remote;
+  return options;
+}
+
+Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, const PreloadSource& source) {
+  CacheOptions options;
+  options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
+  options.on_locked = [output = command.output] {
+    print_message("terrella preload: {} is locked by another program; waiting for it, a minute at most\n", output);
+  };
+  auto cache = TileCache::open(command.output, source.set.info, source.key, options);
+  if (cache && !(*cache)->set_aside().empty()) {
+    print_message("terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
+                  (*cache)->set_aside().string());
+  }
+  if (!cache) return cache.error();
+  return *std::move(cache);
+}
+
+/// What a cache has of a plan.
+struct Held {
+  std::int64_t there = 0;    ///< fresh
+  std::int64_t settled = 0;  ///< WantedTiles::settled()
+};
+
+/// Nothing, if there is no such file.
+Result<Held> count_held(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(command.output, unknown)) return Held{};
+  const auto cache = open_cache(command, source);
+  if (!cache) return cache.error();
+  WantedTiles wanted(plan, **cache, refresh_age(command));
+  while (!wanted.done()) {
+    if (const auto next = wanted.next(); !next) return next.error();
+  }
+  return Held{wanted.there(), wanted.settled()};
+}
+
+SizeSample take_sample(const PreloadSource& source, const TilePlan& plan) {
+  return sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
+}
+
+/// Before anything is asked for but a sample: the plan must fit into the cache.
+Status check_room(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  if (command.cache_size_mb == 0) return Done{};
+  const auto held = count_held(command, source, plan);
+  if (!held) return held.error();
+  const RoomNeed need = room_need(command, plan, held->settled);
+  if (surely_fits(command, need, source.set.info.grid.tile_px)) return Done{};
+  if (auto no_room = find_no_room(command, plan, need, take_sample(source, plan))) return *std::move(no_room);
+  return Done{};
+}
+
+int release(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(command.output, unknown)) return fail("preload", command.output + ": no such file");
+  const auto cache = open_cache(command, source);
+  if (!cache) return fail("preload", cache.error().message);
+  const auto released = pin_planned(plan, **cache, false);
+  if (!released) return fail("preload", released.error().message);
+  if (command.json) {
+    print_result("{}", to_json(ReleaseReport{command.output, *released}));
+  } else {
+    print_result("{}: {} tiles released; viewers with --cache-size may evict them\n", command.output, *released);
+  }
+  return kDone;
+}
+
+int forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  PreloadForecast forecast{.levels = plan.counts(), .sample = {}, .no_room = {}};
+  const auto held = count_held(command, source, plan);
+  if (!held) return fail("preload", held.error().message);
+  forecast.there = held->there;
+  forecast.rate = command.http.rate_per_host;
+  forecast.jobs = command.http.connections_per_host;
+  if (!command.offline) {
+    forecast.sample = take_sample(source, plan);
+    forecast.no_room = find_no_room(command, plan, room_need(command, plan, held->settled), forecast.sample);
+  }
+  print_result("{}", command.json ? to_json(forecast) : to_text(forecast));
+  return kDone;
+}
+
+/// What a person is told of a run that is not all good, and the exit code.
+int conclude(const PreloadCommand& command, const PreloadResult& result) {
+  const PreloadCounts& c = result.counts;
+  const char* again = "the same command goes on where this one ended";
+  if (result.end == PreloadEnd::stopped) {
+    print_message("terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned, again);
+    return kDoneInPart;
+  }
+  if (result.end == PreloadEnd::source_down) {
+    print_message("terrella preload: given up, {} does not answer any more; {}\n", command.source.redacted(), again);
+    return kDoneInPart;
+  }
+  if (c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned) {
+    print_message("terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
+                  c.planned, command.source.redacted());
+    return kDoneInPart;
+  }
+  if (c.no_room > 0) {
+    print_message(
+        "terrella preload: {} tiles have no room under --cache-size {}; what was stored is kept; give a larger "
+        "--cache-size, or fewer levels\n",
+        c.no_room, command.cache_size_mb);
+  }
+  if (c.kept > 0) {
+    print_message(
+        "terrella preload: {} tiles that were stored are no longer on the server; the stored ones were kept; is "
+        "the address still right?\n",
+        c.kept);
+  }
+  if (c.lacking() == 0) return c.kept == 0 ? kDone : kDoneInPart;
+  print_message("terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
+                command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
+  return kDoneInPart;
+}
+
+int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  if (const Status room = check_room(command, source, plan); !room) return fail("preload", room.error().message);
+  auto lacks = LackReport::open(command.missing_file);
+  if (!lacks) return fail("preload", lacks.error().message);
+  auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
+  if (!stored) return fail("preload", stored.error().message);
+  const auto cache = open_cache(command, source);
+  if (!cache) return fail("preload", cache.error().message);
+  PreloadOptions options = preload_options(command, source);
+  options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };
+  if (!command.stored_file.empty()) options.on_stored = [&](const TileId& id) { stored->add(id); };
+  const auto begun = std::chrono::steady_clock::now();
+  Result<PreloadResult> result = Error{};
+  {
+    PreloadProgress progress;
+    options.progress = [&](const PreloadCounts& counts) {
+      progress.show(counts);
+      return !StopSignals::came();
+    };
+    result = preload(plan, **cache, source.make_origin, options);
+  }
+  if (!result)
+    return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const PreloadReport report{command.output, *result, lacks->groups(), seconds};
+  print_result("{}", command.json ? to_json(report) : to_text(report));
+  for (const Status& listed : {lacks->close(), stored->close()}) {
+    if (!listed) return fail("preload", listed.error().message);
+  }
+  return conclude(command, *result);
+}
+
+/// Connections that cannot be opened would look like a server that fails.
+void fit_jobs(PreloadCommand& command) {
+  const int asked = command.http.connections_per_host;
+  int& jobs = command.http.connections_per_host;
+  jobs = connections_that_fit(asked);
+  if (jobs == asked) return;
+  print_message(
+      "terrella preload: --jobs {} needs more open files than this process may have, so it is --jobs {}; "
+      "`ulimit -n {}` before it allows all\n",
+      asked, jobs, asked + 64);
+}
+
+int run(PreloadCommand& command) {
+  fit_jobs(command);
+  if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
+  const StopSignals signals;
+  HttpOptions http = network_options(command);
+  if (command.dry_run) {
+    const double rate = http.rate_per_host;
+    http.rate_per_host = rate > 0.0 ? std::min(rate, kSampleRate) : kSampleRate;
+    http.attempts = 1;
+  }
+  const auto source = open_preload_source(command.source, command.remote, http);
+  if (!source) return fail("preload", source.error().message);
+  if (!source->set.refuse_bulk.empty())
+    return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
+  const auto plan = make_preload_plan(command, source->set.info);
+  if (!plan) return fail("preload", plan.error().message);
+  if (command.release) return release(command, *source, **plan);
+  return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);
+}
+
+}  // namespace
+
+void add_preload_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline.");
+  sub.footer(kPreloadExamples);
+  const auto command = std::make_shared<PreloadCommand>();
+  add_preload_options(sub, *command);
+  sub.callback([command, &exit_code] {
+    if (const Status together = check_together(*command); !together) {
+      throw CLI::ValidationError("preload", together.error().message);
+    }
+    exit_code = run(*command);
+  });
+}
+
+}  // namespace terrella

@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <deque>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/commands.h"
+#include "apps/commands/option_checks.h"
+#include "apps/setup/console.h"
+#include "apps/setup/eye_place.h"
+#include "apps/setup/open_imagery.h"
+#include "apps/setup/process.h"
+#include "apps/setup/scene_layers.h"
+#include "apps/setup/scene_objects.h"
+#include "apps/setup/scene_options.h"
+#include "apps/setup/scene_overlays.h"
+#include "apps/setup/stop_signals.h"
+#include "apps/setup/write_file.h"
+#include "codecs/image.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
+
+namespace terrella {
+namespace {
+
+struct RenderCommand {
+  SceneOptions scene;
+  std::string output;
+  double timeout_s = 600.0;
+  bool json = false;
+};
+
+Status write_png(const std::filesystem::path& path, Viewport size, std::vector<std::uint8_t> rgba) {
+  const Result<std::vector<std::byte>> png = encode_png({size.width_px, size.height_px, std::move(rgba)});
+  if (!png) return Error{path.string() + ": " + png.error().message};
+  return write_file(path, *png);
+}
+
+struct Rendered {
+  FrameStats stats;
+  std::vector<LackingTile> lacking, lacking_heights;
+  std::vector<std::string> attributions;
+  bool all_objects = true;  ///< nothing in the file of --objects was wrong
+};
+
+constexpr std::size_t kMostNamed = 16;
+constexpr std::size_t kMostReasons = 4;
+
+std::string name_of(const LackingTile& tile) {
+  return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
+}
+
+/// Tiles of heights that failed, or that had not come when time was up.
+int heights_without(const FrameStats& stats) { return stats.heights_lacked + stats.heights_missing; }
+
+void report(const RenderCommand& command, const Rendered& rendered) {
+  const FrameStats& stats = rendered.stats;
+  const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
+  if (command.json) {
+    nlohmann::json result = {{"output", command.output},
+                             {"tiles_asked", stats.tiles_wanted},
+                             {"tiles_got", got},
+                             {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
+                             {"patches", stats.patches},
+                             {"band_patches", stats.band_patches},
+                             {"draw_calls", stats.draw_calls},
+                             {"triangles", stats.triangles},
+                             {"attributions", rendered.attributions}};
+    for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
+    if (!command.scene.elevation.empty()) result["heights_lacked"] = heights_without(stats);
+    for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
+    print_result("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  print_result("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
+               stats.tiles_lacked + stats.tiles_missing);
+  if (!rendered.attributions.empty()) {
+    print_result("{}: thanks to {}\n", command.output,
+                 one_line(fmt::format("{}", fmt::join(rendered.attributions, "; "))));
+  }
+  if (heights_without(stats) > 0) {
+    print_result("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
+  }
+}
+
+/// A picture of no tile would look like the planet, and is none.
+Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& lacking) {
+  if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
+  std::string message =
+      fmt::format("none of the {} tiles of this picture came, nothing was written", stats.tiles_wanted);
+  if (stats.tiles_missing > 0) message += "; --timeout gives them longer";
+  for (std::size_t k = 0; k < std::min(lacking.size(), kMostReasons); ++k)
+    message += "\n  lacks " + name_of(lacking[k]);
+  return Error{message};
+}
+
+/// Renders until settled, or until the deadline, and looks for a signal a few times a second.
+void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline) {
+  constexpr std::chrono::milliseconds kBetweenLooks{200};
+  while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
+    const auto until = std::min(deadline, std::chrono::steady_clock::now() + kBetweenLooks);
+    if (globe.render_until_settled(framebuffer, size, until)) return;
+  }
+}
+
+/// Renders until all tiles have come, or until time is up. The eye follows the ground as heights raise it.
+void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
+  constexpr int kMostMoves = 4;  // finer heights move the ground less and less
+  const auto limit =
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  const bool may_be_under = may_be_underground(command.scene);
+  Camera camera = out_of_ground(wanted, 0.0, may_be_under);
+  for (int move = 0; move < kMostMoves; ++move) {
+    globe.set_camera(camera);
+    wait_for_tiles(globe, framebuffer, command.scene.size, deadline);
+    camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
+    if (camera.eye.height_m == globe.camera().eye.height_m) break;
+  }
+  tell_of_move("render", wanted, globe.camera());
+}
+
+/// By trials with Mesa's software driver and its compiler, which end the program when memory runs out: limits up to
+/// 900 MB did so now and then.
+Status check_drawing_memory(Viewport size) {
+  constexpr std::size_t kDriver_bytes = 1'200'000'000;
+  constexpr std::size_t kBytesAPixel = 32;
+  const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  return check_memory(kDriver_bytes + kBytesAPixel * pixels,
+                      fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
+}
+
+std::vector<std::string> inputs_of(const SceneOptions& scene) {
+  std::vector<std::string> inputs = {scene.objects};
+  for (const Url* url : {&scene.tile_set, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
+    inputs.push_back(url->with_secrets());
+  }
+  for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
+  return inputs;
+}
+
+Result<Rendered> render_picture(const RenderCommand& command) {
+  const std::vector<std::string> inputs = inputs_of(command.scene);
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
+  Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
+  if (!imagery) return imagery.error();
+  Result<std::optional<ElevationSource>> elevation = open_elevation(command.scene);
+  if (!elevation) return elevation.error();
+  const Result<Body> body = scene_body(command.scene, (*imagery)->info());
+  if (!body) return body.error();
+  SceneOptions layers = command.scene;
+  layers.body = *body;
+  if (const Status eye = check_eye(command.scene, *body, command.scene.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
+  if (const Status room = check_drawing_memory(command.scene.size); !room) return room.error();
+  const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
+  if (!context) return context.error();
+  GlobeOptions options = globe_options(command.scene, *body);
+  // Nobody watches the frames in between: as much as has come goes up at once.
+  options.upload_bytes_per_frame = options.gpu_bytes;
+  options.upload_time_per_frame = std::chrono::seconds(1);
+  options.relief_meshes_per_frame = std::numeric_limits<int>::max();
+  add_sky_data(options);
+  if (!command.scene.objects.empty()) add_label_font(options);
+  Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
+  if (!globe) return globe.error();
+  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
+  if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
+  const Result<bool> objects = add_objects(**globe, command.scene);
+  if (!objects) return objects.error();
+  const OffscreenTarget target(command.scene.size);
+  render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
+  if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
+  const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
+  // Rendering takes its time: another file may have come under the name.
+  if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
+  const Status written = write_png(command.output, command.scene.size, target.read());
+  if (!written) return written.error();
+  const auto& lacking = (*globe)->lacking();
+  const auto& heights = (*globe)->lacking_heights();
+  return Rendered{
+      stats, {lacking.begin(), lacking.end()}, {heights.begin(), heights.end()}, (*globe)->attributions(), *objects};
+}
+
+int run(const RenderCommand& command) {
+  const StopSignals signals;
+  const Result<Rendered> rendered = render_picture(command);
+  if (!rendered) {
+    return fail("render", rendered.error().message);
+  }
+  report(command, *rendered);
+  const FrameStats& stats = rendered->stats;
+  if (stats.tiles_lacked + stats.tiles_missing + heights_without(stats) == 0) {
+    return rendered->all_objects ? kDone : kDoneInPart;
+  }
+  for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
+    print_message("terrella render: lacks {}\n", name_of(rendered->lacking[k]));
+  }
+  for (std::size_t k = 0; k < std::min(rendered->lacking_heights.size(), kMostNamed); ++k) {
+    print_message("terrella render: {} lacks the heights {}; coarser ones stand there\n",
+                  command.scene.elevation.redacted(), name_of(rendered->lacking_heights[k]));
+  }
+  return kDoneInPart;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub =
+      *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
+  auto command = std::make_shared<RenderCommand>();
+  add_scene_options(sub, command->scene);
+  sub.add_option("-o,--output", command->output, "PNG file to write")->required();
+  sub.get_option("--night")->needs(sub.get_option("--time"));  // without one it is day everywhere
+  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")
+      ->check(number_in(0.0, 1e6))
+      ->capture_default_str();
+  sub.add_flag("--json", command->json, "Print the result as one JSON object");
+  sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
+  sub.callback([command, &exit_code] { exit_code = run(*command); });
+}
+
+}  // namespace terrella

@@ -1,0 +1,175 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/commands/commands.h"
+#include "apps/setup/console.h"
+#include "apps/setup/eye_place.h"
+#include "apps/setup/open_imagery.h"
+#include "apps/setup/scene_layers.h"
+#include "apps/setup/scene_objects.h"
+#include "apps/setup/scene_options.h"
+#include "apps/setup/scene_overlays.h"
+#include "apps/setup/stop_signals.h"
+#include "apps/viewer/viewer.h"
+#include "streaming/remote/describe_remote.h"
+
+namespace terrella {
+namespace {
+
+constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
+constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // of a size that was kept
+
+constexpr const char* kHelpFooter =
+    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
+    "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
+    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that,\n"
+    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks; files dropped onto the window become layers,\n"
+    "F1 or ? lists the keys, Esc leaves.\n"
+    "\n"
+    "Examples:\n"
+    "  terrella view                                      the Earth\n"
+    "  terrella view moon.jpg --body moon                 a picture of the whole Moon\n"
+    "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
+
+struct ViewOptions {
+  SceneOptions scene;
+  bool print_camera = false;
+  bool full_screen = false;
+  KeptSettings kept, start;
+  bool first_run = false;
+  std::string message;
+};
+
+// The command line goes before what earlier runs have kept.
+void begin_as_kept(ViewOptions& options, const CLI::App& command) {
+  const auto file = settings_file();
+  if (!file) return;
+  LoadedSettings loaded = load_settings(*file);
+  options.first_run = loaded.first_run;
+  options.message = std::move(loaded.complaint);
+  const KeptSettings& kept = options.kept = options.start = loaded.settings;
+  SceneOptions& scene = options.scene;
+  const auto said = [&command](const char* option) { return command.count(option) > 0; };
+  if (!said("--size") && kept.width_px > 0 && kept.height_px > 0) {
+    scene.size = {std::max(kept.width_px, kSmallestWindow.width_px),
+                  std::max(kept.height_px, kSmallestWindow.height_px)};
+  }
+  if (said("--sky")) options.start.sky = scene.sky;
+  if (!said("--surface-alpha")) scene.surface.alpha = kept.opacity;
+  if (!said("--exaggeration")) scene.exaggeration = kept.exaggeration;
+  if (!said("--stereo")) scene.stereo.mode = kept.stereo;
+}
+
+/// The name of a file alone; the whole address of a set on the network, whose last part is "{y}.jpg" for most.
+std::string layer_name(const Url& tile_set) {
+  const std::string shown = tile_set.without_query();
+  const std::string name = is_remote(tile_set) ? shown : std::filesystem::path(shown).filename().string();
+  return one_line(name.empty() ? shown : name);
+}
+
+LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
+  return {.id = id, .name = layer_name(tile_set), .bounds = {}, .look = look};
+}
+
+/// In the order that add_overlays(), add_image_layers() and add_objects() have made them.
+std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
+  std::vector<LayerRow> rows;
+  if (globe.has_relief()) {
+    rows.push_back({.kind = LayerKind::heights, .name = layer_name(scene.elevation), .bounds = {}});
+  }
+  std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
+  for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
+  if (!scene.night.empty()) names.push_back(scene.night);
+  if (!scene.clouds.tile_set.empty()) names.push_back(scene.clouds.tile_set);
+  const std::vector<LayerId> ids = globe.imagery();
+  for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
+    const auto look = globe.look(ids[i]);
+    rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
+    if (i > 0) continue;
+    rows.back().bounds = if_a_part(first.grid.bounds);
+    rows.back().finest_level = first.grid.max_level;
+  }
+  for (const LayerId id : globe.objects()) {
+    rows.push_back({.id = id,
+                    .kind = LayerKind::objects,
+                    .name = std::filesystem::path(scene.objects).filename().string(),
+                    .bounds = {}});
+  }
+  return rows;
+}
+
+int view(const ViewOptions& options) {
+  if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
+  // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
+  auto window = Window::create("Terrella", options.scene.size);
+  if (!window) return fail("view", window.error().message);
+  // A picture that is being cut must not be left half done; the window itself may be ended at any time.
+  std::optional<StopSignals> signals(std::in_place);
+  auto imagery = open_imagery(options.scene);
+  if (!imagery) return fail("view", imagery.error().message);
+  auto elevation = open_elevation(options.scene);
+  if (!elevation) return fail("view", elevation.error().message);
+  const auto body = scene_body(options.scene, (*imagery)->info());
+  if (!body) return fail("view", body.error().message);
+  if (const Status eye = check_eye(options.scene, *body, options.scene.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
+  GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
+  add_sky_data(globe_options_with_sky);
+  add_label_font(globe_options_with_sky);
+  const TileSetInfo first = (*imagery)->info();
+  SceneOptions layers = options.scene;
+  layers.body = *body;
+  auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
+  if (!globe) return fail("view", globe.error().message);
+  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return fail("view", overlaid.error().message);
+  if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
+  if (const Result<bool> added = add_objects(**globe, options.scene); !added)
+    return fail("view", added.error().message);
+  if (StopSignals::came()) return fail("view", "stopped");
+  signals.reset();
+  (*window)->show();
+  if (options.full_screen) (*window)->toggle_full_screen();
+  const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());
+  // Heights that come later raise the eye with the ground, as everywhere in the window.
+  const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
+  tell_of_move("view", wanted, start);
+  const ViewerOptions viewer_options{.camera = start,
+                                     .print_camera = options.print_camera,
+                                     .layers = layer_rows(**globe, options.scene, first),
+                                     .heights = *elevation,
+                                     .files = layers,
+                                     .kept = options.kept,
+                                     .start = options.start,
+                                     .first_run = options.first_run,
+                                     .message = options.message};
+  Viewer(**window, **globe, viewer_options).run();
+  return kDone;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("view", "Turn a globe in a window");
+  const auto options = std::make_shared<ViewOptions>();
+  options->scene.size = kWindow;
+  add_scene_options(*command, options->scene);
+  command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
+  command->add_flag("--print-camera", options->print_camera,
+                    "Print the camera, as --camera takes it, on standard output each time it comes to rest");
+  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F goes back to a window");
+  command->footer(kHelpFooter);
+  command->callback([options, command, &exit_code] {
+    begin_as_kept(*options, *command);
+    exit_code = view(*options);
+  });
+}
+
+}  // namespace terrella

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "geo/camera.h"
+
+namespace terrella {
+
+/// A check for a number in [low, high]. NaN, which passes CLI11's own range, text after the number and hexadecimal are
+/// refused; the message has the value and the range, and CLI11 puts the option's name before it.
+[[nodiscard]] CLI::Validator number_in(double low, double high);
+[[nodiscard]] CLI::Validator whole_number_in(long low, long high);
+
+/// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
+[[nodiscard]] Result<Viewport> parse_size(std::string_view text);
+
+/// Reads a length of at least 0 metres, or "off", which is none.
+[[nodiscard]] Result<std::optional<double>> parse_length_or_off(std::string_view text);
+
+/// The value, or a CLI::ValidationError that names the option.
+template <class T>
+[[nodiscard]] T parsed_or_throw(const char* option, Result<T> parsed) {
+  if (!parsed) throw CLI::ValidationError(option, parsed.error().message);
+  return std::move(parsed).value();
+}
+
+/// Adds an option whose value is one of a few words.
+template <class Value, class Target>
+CLI::Option* add_choice(CLI::App& command, const char* option, Target& target,
+                        std::vector<std::pair<std::string, Value>> words, const char* help) {
+  std::string names;
+  for (const auto& [word, value] : words) names += (names.empty() ? "" : "|") + word;
+  const auto choose = [&target, words = std::move(words), names, option](const std::string& text) {
+    for (const auto& [word, value] : words) {
+      if (word == text) {
+        target = value;
+        return;
+      }
+    }
+    throw CLI::ValidationError(option, "'" + text + "' is none of " + names);
+  };
+  return command.add_option_function<std::string>(option, choose, help)->type_name(names);
+}
+
+}  // namespace terrella

@@ -1,0 +1,163 @@
+#include "apps/preload/preload_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/commands/option_checks.h"
+#include "apps/commands/remote_set_options.h"
+#include "base/number.h"
+#include "tiles/tile_grid.h"
+
+namespace terrella {
+namespace {
+
+Result<LevelRange> parse_levels(const std::string& text) {
+  const std::size_t dash = text.find('-');
+  const auto first = read_number(text.substr(0, dash));
+  const auto last = dash == std::string::npos ? first : read_number(text.substr(dash + 1));
+  const auto is_level = [](const std::optional<double>& n) {
+    return n && *n >= 0 && *n <= kMaxTileLevel && *n == std::floor(*n);
+  };
+  if (!is_level(first) || !is_level(last) || *first > *last) {
+    return Error{
+        fmt::format("{} is no range of levels; write FIRST-LAST, as 0-8, in 0...{}", in_quotes(text), kMaxTileLevel)};
+  }
+  return LevelRange{static_cast<int>(*first), static_cast<int>(*last)};
+}
+
+Result<GeoRect> parse_box(const std::string& text) {
+  std::vector<double> sides;
+  const auto pieces = split_at_commas(text);
+  for (const std::string_view piece : pieces) {
+    if (const auto degrees = read_number(piece)) sides.push_back(*degrees);
+  }
+  if (sides.size() != 4 || pieces.size() != 4) {
+    return Error{fmt::format("{} is not W,S,E,N; write four numbers in degrees, as 5,43,17,49", in_quotes(text))};
+  }
+  const bool on_planet = std::abs(sides[0]) <= 180.0 && std::abs(sides[2]) <= 180.0 && std::abs(sides[1]) <= 90.0 &&
+                         std::abs(sides[3]) <= 90.0;
+  if (!on_planet || sides[1] >= sides[3] || sides[0] == sides[2]) {
+    return Error{fmt::format("{}: WEST and EAST take -180...180 (WEST > EAST crosses 180°), SOUTH < NORTH -90...90",
+                             in_quotes(text))};
+  }
+  return GeoRect{.west = Angle::degrees(sides[0]),
+                 .south = Angle::degrees(sides[1]),
+                 .east = Angle::degrees(sides[2]),
+                 .north = Angle::degrees(sides[3])};
+}
+
+Result<Shard> parse_shard(const std::string& text) {
+  constexpr double kMostShards = 1e6;
+  const std::size_t slash = text.find('/');
+  const auto index = read_number(text.substr(0, slash));
+  const auto count = slash == std::string::npos ? read_number("") : read_number(text.substr(slash + 1));
+  const auto is_count = [](const std::optional<double>& n) {
+    return n && *n >= 1 && *n <= kMostShards && *n == std::floor(*n);
+  };
+  if (!is_count(index) || !is_count(count) || index > count) {
+    return Error{fmt::format("{} is no shard; write I/N with I in 1...N, as 3/16", in_quotes(text))};
+  }
+  return Shard{static_cast<std::int64_t>(index.value_or(1.0)), static_cast<std::int64_t>(count.value_or(1.0))};
+}
+
+void add_area_options(CLI::App& app, PreloadCommand& command) {
+  app.add_option_function<std::string>(
+         "--levels",
+         [&command](const std::string& text) { command.levels = parsed_or_throw("--levels", parse_levels(text)); },
+         "Of tiles, coarsest to finest (default: all that the set has)")
+      ->type_name("A-B");
+  app.add_option_function<std::vector<std::string>>(
+         "--bbox",
+         [&command](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             command.boxes.push_back(parsed_or_throw("--bbox", parse_box(text)));
+           }
+         },
+         "A box, degrees; WEST > EAST crosses 180°. May be given again")
+      ->type_name("W,S,E,N")
+      ->allow_extra_args(false);
+  app.add_option("--polygon", command.polygons, "GeoJSON polygons; edges are great circles. May be given again")
+      ->type_name("F.geojson")
+      ->allow_extra_args(false);
+  app.add_option("--flight", command.flight,
+                 "GeoJSON LineString of the eye's places and heights: what the viewer would ask for along it")
+      ->type_name("F.geojson");
+  app.add_option_function<std::string>(
+         "--size", [&command](const std::string& text) { command.size = parsed_or_throw("--size", parse_size(text)); },
+         "Of the viewer's window, for --flight (default 1920x1080)")
+      ->type_name("WxH");
+  app.add_option_function<std::string>(
+         "--shard",
+         [&command](const std::string& text) { command.shard = parsed_or_throw("--shard", parse_shard(text)); },
+         "Only the I-th of N equal parts, for several machines; see terrella merge")
+      ->type_name("I/N");
+}
+
+void add_network_options(CLI::App& app, PreloadCommand& command) {
+  app.add_option("--jobs", command.http.connections_per_host, "Connections to a host")
+      ->check(whole_number_in(1, 64))
+      ->capture_default_str();
+  app.add_option("--rate", command.http.rate_per_host,
+                 "Requests a second to a host, retries included (default: no limit)")
+      ->check(number_in(0.01, 1e6));
+  app.add_option_function<int>(
+         "--retries", [&command](int retries) { command.http.attempts = retries + 1; },
+         "Of a request that failed, with growing pauses (default 4)")
+      ->check(whole_number_in(0, 19));
+  app.add_option("--refresh-older-than", command.refresh_older_than_days,
+                 "Ask again, with conditional requests, for what was stored so long ago (default: what has expired)")
+      ->type_name("DAYS")
+      ->check(number_in(0.0, 36500.0));
+  app.add_option("--ca-file", command.http.ca_file, "Certificates to trust instead of the system's")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_preload_options(CLI::App& app, PreloadCommand& command) {
+  app.add_option("SOURCE", command.source,
+                 "URL template, address of a WMTS capabilities document, source description, or tile set on disk")
+      ->required();
+  app.add_option("-o,--output", command.output, "The cache: made if it is not there, else added to")
+      ->required()
+      ->type_name("CACHE.gpkg");
+  add_area_options(app, command);
+  add_remote_set_options(app, command.remote);
+  add_choice<Projection>(app, "--projection", command.remote.projection,
+                         {{"equirectangular", Projection::equirectangular},
+                          {"equal-area", Projection::equal_area},
+                          {"web-mercator", Projection::web_mercator}},
+                         "Of a URL template: what its rows are linear in (default equirectangular)");
+  add_network_options(app, command);
+  app.add_option(
+         "--cache-size", command.cache_size_mb,
+         "Of the cache in MB; what the plan needs beyond it is refused. Tiles that viewers left go first, preloaded "
+         "ones never")
+      ->type_name("MB")
+      ->check(whole_number_in(1, 1L << 40));
+  app.add_option("--missing", command.missing_file, "Write the tiles that are missing in the end, and why")
+      ->type_name("FILE");
+  app.add_option("--stored", command.stored_file, "Append each tile as LEVEL/X/Y once it is safely stored")
+      ->type_name("FILE");
+  app.add_flag("--dry-run", command.dry_run, "Say how many tiles, bytes (by a sample) and how long; store nothing");
+  app.add_flag("--release", command.release,
+               "Ask for nothing: the plan's tiles that are there may be evicted again, by viewers with --cache-size");
+  app.add_flag("--offline", command.offline, "With --dry-run: take no sample");
+  app.add_flag("--json", command.json, "Print the result as one JSON object");
+}
+
+Status check_together(const PreloadCommand& command) {
+  if (command.offline && !command.dry_run) {
+    return Error{"--offline goes with --dry-run: without the network there is nothing to bring"};
+  }
+  if (command.release && command.dry_run) return Error{"--release and --dry-run: one at a time"};
+  if (!command.flight.empty() && (!command.boxes.empty() || !command.polygons.empty())) {
+    return Error{"--flight and --bbox or --polygon: one at a time; the same cache takes both, one after the other"};
+  }
+  if (!command.output.ends_with(".gpkg")) {
+    return Error{in_quotes(command.output) + ": --output names a GeoPackage, something that ends in .gpkg"};
+  }
+  return Done{};
+}
+
+}  // namespace terrella

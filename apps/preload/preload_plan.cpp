@@ -1,0 +1,74 @@
+#include "apps/preload/preload_plan.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "apps/commands/flight_tiles.h"
+#include "geo/body.h"
+#include "streaming/mercator/mercator_grid.h"
+#include "streaming/preload/geojson_region.h"
+
+namespace terrella {
+namespace {
+
+Result<LevelRange> levels_of(const PreloadCommand& command, const TileGrid& grid) {
+  const LevelRange has{grid.min_level, grid.max_level};
+  if (!command.levels) return has;
+  if (command.levels->first < has.first || command.levels->last > has.last) {
+    return Error{fmt::format("--levels {}-{}: {} has levels {} to {}", command.levels->first, command.levels->last,
+                             command.source.redacted(), has.first, has.last)};
+  }
+  return *command.levels;
+}
+
+Result<Region> region_of(const PreloadCommand& command) {
+  Region region;
+  for (const GeoRect& box : command.boxes) region.add_box(box);
+  for (const std::string& path : command.polygons) {
+    const auto polygons = read_geojson_region(path);
+    if (!polygons) return polygons.error();
+    region.add(*polygons);
+  }
+  return region;
+}
+
+/// In Web Mercator: what the tiles that are drawn are made of.
+std::vector<TileId> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body, Viewport size,
+                                     const TileGrid& grid) {
+  if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});
+  std::set<TileId> stored;
+  for (const TileId& id : tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size})) {
+    for (const MercatorPiece& piece : plan_tile(grid, id).pieces) stored.insert(piece.id);
+  }
+  return {stored.begin(), stored.end()};
+}
+
+Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command, const TileSetInfo& info) {
+  const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
+  if (!body) return body.error();
+  const auto levels = levels_of(command, info.grid);
+  if (!levels) return levels.error();
+  if (!command.flight.empty()) {
+    auto path = read_flight(command.flight);
+    if (!path) return path.error();
+    std::vector<TileId> tiles = tiles_flown_over(*path, *body, command.size, info.grid);
+    std::erase_if(tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
+    return std::shared_ptr<const TilePlan>(plan_list(std::move(tiles)));
+  }
+  auto region = region_of(command);
+  if (!region) return region.error();
+  return std::shared_ptr<const TilePlan>(
+      plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const TilePlan>> make_preload_plan(const PreloadCommand& command, const TileSetInfo& info) {
+  auto whole = whole_plan(command, info);
+  if (!whole || !command.shard) return whole;
+  return std::shared_ptr<const TilePlan>(shard_of(*std::move(whole), *command.shard));
+}
+
+}  // namespace terrella

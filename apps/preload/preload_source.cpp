@@ -1,0 +1,72 @@
+#include "apps/preload/preload_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <utility>
+
+#include "apps/setup/stop_signals.h"
+#include "streaming/remote/describe_remote.h"
+#include "streaming/sets/open_tile_set.h"
+
+namespace terrella {
+namespace {
+
+Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
+  const auto fetch = [&](const Url& url, const std::vector<std::string>& headers) {
+    return fetch_document(http, url, headers);
+  };
+  auto set = describe_remote(source, remote, fetch);
+  if (!set) return set.error();
+  PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
+  opened.make_origin = [set = *std::move(set), http](TileOrigin::OnAnswer on_answer) {
+    return network_origin(set, http, std::move(on_answer));
+  };
+  return opened;
+}
+
+Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
+  const std::string& source = named.with_secrets();
+  auto tiles = open_stored_tile_set(source);
+  if (!tiles) return tiles.error();
+  // A cache has no place for what GeoPackages say of single tiles' heights.
+  if ((*tiles)->info().elevation) {
+    return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
+  }
+  const std::shared_ptr<TileSource> shared = *std::move(tiles);
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(source, unknown);
+  PreloadSource opened{.set = {}, .key = "file:" + (unknown ? source : whole.string()), .make_origin = {}};
+  opened.set.info = shared->info();
+  opened.make_origin = [shared, jobs](TileOrigin::OnAnswer on_answer) {
+    return disk_origin(shared, jobs, std::move(on_answer));
+  };
+  return opened;
+}
+
+}  // namespace
+
+Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
+  return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
+}
+
+Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
+                                              const std::vector<std::string>& headers) {
+  std::promise<HttpReply> promise;
+  std::future<HttpReply> answer = promise.get_future();
+  HttpFetcher fetcher(http, [&promise](HttpReply&& reply) { promise.set_value(std::move(reply)); });
+  HttpRequest request;
+  request.url = url;
+  request.headers = headers;
+  fetcher.submit(std::move(request));
+  constexpr std::chrono::milliseconds kBetweenLooks{100};
+  while (answer.wait_for(kBetweenLooks) != std::future_status::ready) {
+    if (StopSignals::came()) return Error{"stopped before it answered"};
+  }
+  HttpReply reply = answer.get();
+  if (reply.outcome != HttpOutcome::content) return Error{reply.why};
+  return std::move(reply.body);
+}
+
+}  // namespace terrella

@@ -1,0 +1,37 @@
+#include "apps/setup/data_dir.h"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> data_folders() {
+  if (const char* chosen = std::getenv("TERRELLA_DATA"); chosen != nullptr && *chosen != '\0') return {chosen};
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  if (failed) return {};
+  const fs::path folder = program.parent_path();
+  return {folder / "data", folder.parent_path() / "share" / "terrella"};
+}
+
+}  // namespace
+
+fs::path data_file(std::string_view name) {
+  std::string tried;
+  for (const fs::path& folder : data_folders()) {
+    fs::path candidate = folder / name;
+    std::error_code failed;
+    if (fs::is_regular_file(candidate, failed)) return candidate;
+    tried += fmt::format("\n  {}", candidate.string());
+  }
+  throw BrokenInstallation(fmt::format(
+      "the installation lacks {}; looked for{}\nBuild or install it again, or name its folder in TERRELLA_DATA.", name,
+      tried));
+}
+
+}  // namespace terrella

@@ -1,0 +1,240 @@
+#include "apps/setup/open_imagery.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+#include "apps/setup/data_dir.h"
+#include "apps/setup/no_cache.h"
+#include "apps/setup/open_remote.h"
+#include "apps/setup/progress.h"
+#include "apps/setup/stop_signals.h"
+#include "apps/setup/user_folder.h"
+#include "streaming/cut.h"
+#include "streaming/cut/input/row_reader.h"
+#include "streaming/remote/describe_remote.h"
+#include "streaming/remote/web_address.h"
+#include "streaming/sets/open_tile_set.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tile set of which the command line knows better than its own description.
+class DescribedSource : public TileSource {
+ public:
+  DescribedSource(std::shared_ptr<TileSource> tiles, TileSetInfo info)
+      : tiles_(std::move(tiles)), info_(std::move(info)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
+
+ private:
+  std::shared_ptr<TileSource> tiles_;
+  TileSetInfo info_;
+};
+
+/// A folder of its own under the system's temporary folder, removed with all that is in it at the end.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Result<std::unique_ptr<ScratchFolder>> make_scratch_folder() {
+  std::error_code failed;
+  std::string name = (fs::temp_directory_path(failed) / "terrella-XXXXXX").string();
+  if (failed || mkdtemp(name.data()) == nullptr) {
+    return Error{
+        fmt::format("{}: cannot make a temporary folder there; set TMPDIR to a folder that can be written", name)};
+  }
+  return std::make_unique<ScratchFolder>(name);
+}
+
+/// Keeps the scratch folder for as long as its tiles are read. Members are destroyed last to first: tiles, then folder.
+class ScratchSource : public TileSource {
+ public:
+  ScratchSource(std::unique_ptr<ScratchFolder> folder, std::unique_ptr<TileSource> tiles)
+      : folder_(std::move(folder)), tiles_(std::move(tiles)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
+
+ private:
+  std::unique_ptr<ScratchFolder> folder_;
+  std::unique_ptr<TileSource> tiles_;
+};
+
+/// What is said of the picture's body and latitudes goes into the cut, which compares it with what the picture says.
+Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
+                                                 const SceneOptions& options, const CutProgress& told) {
+  CutOptions cut;
+  if (options.body && options.body->name != earth().name) cut.body = options.body->name;
+  cut.latitude = options.latitude.value_or(cut.latitude);
+  cut.images = {picture};
+  cut.name = picture.stem().string();
+  Progress progress("cutting " + picture.filename().string());
+  cut.progress = told ? told : [&progress](std::int64_t done, std::int64_t total) {
+    progress.show(done, total);
+    return !StopSignals::came();
+  };
+  const auto tiles = cut_into_cache(cut, folder);
+  if (!tiles) return tiles.error();
+  return open_tile_set(*tiles);
+}
+
+Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const SceneOptions& options,
+                                                 const CutProgress& told) {
+  if (options.cache != "off") {
+    const auto folder = picture_cache_folder(options.cache);
+    auto kept =
+        folder ? cut_and_open(picture, *folder, options, told) : Result<std::unique_ptr<TileSource>>(folder.error());
+    if (kept || (folder && can_write_into(*folder))) return kept;
+    say_without_cache(kept.error());
+  }
+  auto scratch = make_scratch_folder();
+  if (!scratch) return scratch.error();
+  auto tiles = cut_and_open(picture, (*scratch)->path(), options, told);
+  if (!tiles) return tiles.error();
+  return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
+}
+
+Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
+  if (is_remote(options.tile_set)) return open_remote(options);
+  if (const Status found = find_imagery(options); !found) return found.error();
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+  const bool said_geodetic = options.projection == Projection::equirectangular;
+  auto tiles = is_picture(path) ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+/// Options to open the heights with. What is said of TILESET, its rows and its server, is not said of them. A cache
+/// holds one source's tiles: theirs stands beside a --cache that is given.
+SceneOptions heights_options(const SceneOptions& options) {
+  SceneOptions heights = options;
+  heights.tile_set = options.elevation;
+  heights.projection.reset();
+  heights.latitude.reset();
+  heights.remote = {};
+  if (!options.cache.empty() && options.cache != "off") {
+    const fs::path cache = options.cache;
+    heights.cache = (cache.parent_path() / (cache.stem().string() + "-heights.gpkg")).string();
+  }
+  return heights;
+}
+
+/// `field`: the field of a description that the address goes into.
+Error no_meaning(const Url& address, const char* field) {
+  return Error{fmt::format(
+      "{}: nothing says what the numbers in its tiles mean in metres; write a description that does, for example "
+      "heights.json with {{\"{}\": \"…\", \"max_level\": 8, \"elevation\": {{\"scale\": 1, \"offset\": -32768}}}}, and "
+      "give "
+      "--elevation heights.json (streaming/remote/README.md)",
+      address.redacted(), field)};
+}
+
+}  // namespace
+
+bool begins_as_picture(const fs::path& path) {
+  std::array<char, 8> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), head.size());
+  const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
+  using namespace std::string_view_literals;
+  // JPEG, PNG, TIFF and BigTIFF in either byte order.
+  constexpr std::array kStarts = {"\xff\xd8\xff"sv, "\x89PNG\r\n\x1a\n"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
+}
+
+bool is_picture(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return false;
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+  return std::ranges::find(kExtensions, extension) != kExtensions.end() || begins_as_picture(path);
+}
+
+Result<fs::path> picture_cache_folder(const std::string& cache) {
+  if (!cache.empty()) {
+    const fs::path path = cache;
+    if (path.extension() == ".gpkg") return path.parent_path() / (path.stem().string() + "-pictures");
+    return path;
+  }
+  if (const auto folder = user_folder("XDG_CACHE_HOME", ".cache")) return *folder;
+  return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
+}
+
+Status find_imagery(const SceneOptions& options) {
+  if (is_remote(options.tile_set)) return Done{};
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
+  return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
+}
+
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
+  auto tiles = open_named(options, progress);
+  if (!tiles) return tiles.error();
+  TileSetInfo info = (*tiles)->info();
+  const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
+  if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
+    return Error{options.tile_set.redacted() +
+                 (mercator ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                           : ": it is not in Web Mercator by what it says of itself, as --projection "
+                             "says; leave that out")};
+  }
+  if (mercator) return tiles;
+  info.grid.projection = options.projection.value_or(info.grid.projection);
+  info.grid.latitude = options.latitude.value_or(info.grid.latitude);
+  if (info.grid == (*tiles)->info().grid) return tiles;
+  return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
+}
+
+Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+  auto tiles = open_any_tiles(options);
+  if (!tiles || !(*tiles)->info().elevation) return tiles;
+  return Error{
+      fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
+                  "--elevation {0}",
+                  options.tile_set.redacted())};
+}
+
+Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
+  if (options.elevation.empty()) return std::optional<ElevationSource>();
+  if (is_picture(options.elevation.with_secrets())) {
+    return Error{
+        fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
+                    "of one of 16 bits "
+                    "or floats a pixel",
+                    options.elevation.redacted())};
+  }
+  // Known without a request: only a description says what a server's numbers mean.
+  if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
+  auto tiles = open_any_tiles(heights_options(options));
+  if (!tiles) return tiles.error();
+  if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
+  auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
+  if (!source) return source.error();
+  return std::optional<ElevationSource>(*std::move(source));
+}
+
+}  // namespace terrella

@@ -1,0 +1,153 @@
+#include "apps/setup/open_remote.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "apps/preload/preload_source.h"
+#include "apps/setup/console.h"
+#include "apps/setup/no_cache.h"
+#include "apps/setup/open_imagery.h"
+#include "base/hash_mix.h"
+#include "codecs/image.h"
+#include "streaming/cache/tile_cache.h"
+#include "streaming/mercator/mercator_source.h"
+#include "streaming/remote/describe_remote.h"
+#include "streaming/remote/grid_check.h"
+#include "streaming/remote/remote_source.h"
+#include "streaming/sets/open_tile_set.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a URL template that nobody said more about: finer than most servers; where they end, ancestors stand in.
+constexpr int kTemplateMaxLevel = 18;
+constexpr std::size_t kMaxNameBytes = 60;
+constexpr std::uint64_t kMegabyte = 1'000'000;
+
+/// The address without its secrets as a file's name, and a number for the rest: a new key or password is no new source.
+std::string cache_name(const SceneOptions& options) {
+  std::string name;
+  for (const char c : options.tile_set.without_query().substr(0, kMaxNameBytes)) {
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  }
+  const RemoteOptions& r = options.remote;
+  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.tile_set), r.layer, r.matrix_set,
+                                  r.style, r.time, r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  if (options.projection == Projection::web_mercator) whole += "|web-mercator";
+  return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
+}
+
+Result<fs::path> cache_file(const SceneOptions& options) {
+  if (!options.cache.empty()) return fs::path(options.cache);
+  const auto folder = picture_cache_folder({});
+  if (!folder) return folder.error();
+  std::error_code failed;
+  fs::create_directories(*folder, failed);
+  if (failed) return Error{fmt::format("{}: cannot be made: {}", folder->string(), failed.message())};
+  return *folder / cache_name(options);
+}
+
+Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
+  if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
+  const auto file = cache_file(options);
+  if (!file) return file.error();
+  std::error_code failed;
+  if (!fs::exists(*file, failed)) {
+    return Error{
+        fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
+                    "--offline",
+                    options.tile_set.redacted(), file->string())};
+  }
+  auto tiles = open_tile_set(*file);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+HttpOptions network_options() {
+  HttpOptions http;
+  http.attempts = 3;
+  // As a person turns the globe: no server should take it for an attack.
+  http.rate_per_host = 200.0;
+  http.burst = 100.0;
+  return http;
+}
+
+std::shared_ptr<TileCache> go_without(const Error& why) {
+  say_without_cache(why);
+  return nullptr;
+}
+
+/// None, if it is off or its place cannot be written. A file that is something else is refused.
+Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const RemoteTileSet& set) {
+  if (options.cache == "off") return std::shared_ptr<TileCache>();
+  const auto file = cache_file(options);
+  if (!file) return go_without(file.error());
+  CacheOptions cache_options{.max_bytes = options.cache_size_mb * kMegabyte};
+  cache_options.on_locked = [name = file->string()] {
+    print_message("terrella: {} is locked by another program; waiting for it, a minute at most\n", name);
+  };
+  auto cache = TileCache::open(*file, set.info, source_key(set), cache_options);
+  if (!cache && cache.error().cannot_write) return go_without(cache.error());
+  if (!cache) return cache.error();
+  if (!(*cache)->set_aside().empty()) {
+    print_message("terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
+                  (*cache)->set_aside().string());
+  }
+  return *std::move(cache);
+}
+
+bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid) {
+  if (cache == nullptr) return false;
+  const auto root = cache->peek({grid.min_level, 0, 0});
+  return root && *root;
+}
+
+bool is_template(const SceneOptions& options) {
+  return options.tile_set.with_secrets().find("{z}") != std::string::npos;
+}
+
+/// A URL template says nothing of its grid: before the first picture a few tiles are compared, so that a mistaken one
+/// is named rather than drawn. Not for a set that was drawn before: its cache has tiles.
+Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
+  const auto fetch = [&](const TileId& id) -> Result<std::optional<Image>> {
+    const auto bytes = fetch_document(http, tile_url(set, id), set.headers);
+    if (!bytes) return std::optional<Image>();
+    auto image = decode_image(*bytes, DecodeLimits{});
+    return image ? std::optional<Image>(*std::move(image)) : std::nullopt;
+  };
+  const auto check = check_grid(fetch, set.info.grid);
+  if (!check) return Done{};  // what cannot be fetched now tells nothing
+  if (check->verdict == GridCheck::Verdict::fits || check->verdict == GridCheck::Verdict::cannot_tell) return Done{};
+  return Error{fmt::format("{}: {}", set.info.name, check->advice)};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
+  if (options.offline) return open_offline(options);
+  const HttpOptions http = network_options();
+  RemoteOptions remote = options.remote;
+  if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
+  if (options.projection) remote.projection = options.projection;
+  auto set = describe_remote(
+      options.tile_set, remote,
+      [&http](const Url& url, const std::vector<std::string>& headers) { return fetch_document(http, url, headers); });
+  if (!set) return set.error();
+  auto cache = open_cache(options, *set);
+  if (!cache) return cache.error();
+  if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
+    if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
+  }
+  // The cache has the tiles as the server has them.
+  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+}  // namespace terrella

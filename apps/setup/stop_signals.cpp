@@ -1,0 +1,28 @@
+#include "apps/setup/stop_signals.h"
+
+namespace terrella {
+namespace {
+
+volatile std::sig_atomic_t g_came = 0;
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  g_came = 0;
+  struct sigaction action {};
+  action.sa_handler = [](int) { g_came = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    const bool nohup = kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN;
+    if (!nohup) sigaction(kSignals[i], &action, nullptr);
+  }
+}
+
+StopSignals::~StopSignals() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+}
+
+bool StopSignals::came() { return g_came != 0; }
+
+}  // namespace terrella

@@ -1,0 +1,48 @@
+#include "apps/viewer/panels/picture_panel.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/viewer/panels/panel_items.h"
+
+namespace terrella {
+namespace {
+
+constexpr float kPictureWidth = 22.0F;  // of the text's height
+
+}  // namespace
+
+PictureAsk draw_picture_panel(PicturePanel& panel, Viewport window, int most_px) {
+  const float unit = ImGui::GetFontSize();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  if (panel.width_px <= 0) {
+    panel.width_px = std::min(2 * window.width_px, most_px);
+    panel.height_px = std::min(2 * window.height_px, most_px);
+  }
+  ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(kPictureWidth * unit, size.x), 0.0F});
+  ImGui::SetNextWindowBgAlpha(0.9F);
+  if (panel.just_opened) ImGui::SetNextWindowFocus();
+  ImGui::Begin(kPictureTitle, nullptr, kPanelWindow);
+  ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
+  if (std::exchange(panel.just_opened, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputInt("Width", &panel.width_px, 64, 1024);
+  tip("Pixels. The picture shows what the window shows, as far across as fits its height.");
+  ImGui::InputInt("Height", &panel.height_px, 64, 1024);
+  tip("Pixels.");
+  panel.width_px = std::clamp(panel.width_px, 1, most_px);
+  panel.height_px = std::clamp(panel.height_px, 1, most_px);
+  const bool save = ImGui::Button("Save");
+  tip("Waits until every tile of it is there, then saves it as PNG in the folder that the program was started in.");
+  ImGui::SameLine();
+  const bool close = ImGui::Button("Close");
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextDisabled("Without panels. F12 saves the window as it is.");
+  ImGui::PopTextWrapPos();
+  ImGui::PopItemWidth();
+  ImGui::End();
+  if (save) return PictureAsk::save;
+  return close ? PictureAsk::close : PictureAsk::none;
+}
+
+}  // namespace terrella

@@ -1,0 +1,169 @@
+#include "apps/viewer/panels/ui.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+namespace terrella {
+namespace {
+
+constexpr float kText_px = 15.0F;
+
+// Where distributions put DejaVu Sans; without it ImGui's own small font serves.
+constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+// Latin, general punctuation, arrows, the minus sign: pairs of first and last.
+constexpr ImWchar kGlyphs[] = {0x20, 0x17F, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0};
+
+void load_font(float scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  std::error_code missing;
+  for (const char* path : kFonts) {
+    if (!std::filesystem::exists(path, missing)) continue;
+    if (io.Fonts->AddFontFromFileTTF(path, kText_px * scale, nullptr, kGlyphs) != nullptr) return;
+  }
+  ImFontConfig config;
+  config.SizePixels = 13.0F * scale;
+  io.Fonts->AddFontDefault(&config);
+}
+
+void set_style(float scale) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  ImGui::StyleColorsDark();
+  style.WindowRounding = 7.0F;
+  style.WindowBorderSize = 0.0F;
+  style.WindowPadding = ImVec2(12.0F, 7.0F);
+  style.ItemSpacing = ImVec2(10.0F, 5.0F);
+  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05F, 0.08F, 0.12F, 0.72F);
+  style.Colors[ImGuiCol_Text] = ImVec4(0.91F, 0.94F, 0.97F, 1.0F);
+  style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62F, 0.70F, 0.78F, 1.0F);
+  style.ScaleAllSizes(scale);
+}
+
+// Where the window's units are larger than pixels the font is made at pixel size and shown at unit size.
+void fit_to(const Window& window) {
+  const float unit_px = static_cast<float>(window.pixels_per_unit().x);
+  load_font(window.text_scale());
+  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
+  set_style(window.text_scale() / unit_px);
+}
+
+bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
+
+/// Letters do something with Ctrl only.
+bool panels_act_on(int key) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool letter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+  return (!letter || io.KeyCtrl) && std::ranges::find(io.KeyMap, key) != std::end(io.KeyMap);
+}
+
+}  // namespace
+
+Ui::Ui(const Window& window) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
+  fit_to(window);
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Ui::~Ui() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Ui::begin_frame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  hand_over_waiting();
+  ImGui::NewFrame();
+}
+
+void Ui::end_frame() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Ui::take_events(bool on) {
+  int& flags = ImGui::GetIO().ConfigFlags;
+  flags = on ? ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NavEnableKeyboard
+             : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
+}
+
+bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
+
+void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(panel_has_keyboard() ? nullptr : title); }
+
+void Ui::rescale(const Window& window) {
+  ImGui::GetIO().Fonts->Clear();
+  fit_to(window);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew at the next frame's begin
+}
+
+bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {
+  if (!takes_events()) return false;
+  ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::on_scroll(GLFWwindow* window, double x, double y) {
+  if (!takes_events()) return false;
+  ImGui_ImplGlfw_ScrollCallback(window, x, y);
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::on_key(int key, int action) {
+  const bool known = key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown);
+  if (known && action == GLFW_PRESS) waiting_.push_back({Stroke::press, unsigned(key)});
+  if (known && action == GLFW_RELEASE) waiting_.push_back({Stroke::release, unsigned(key)});
+  return takes_events() && ImGui::GetIO().WantCaptureKeyboard;
+}
+
+bool Ui::on_character(unsigned character) {
+  const bool keeps = text_expected_ || (takes_events() && ImGui::GetIO().WantTextInput);
+  if (keeps) waiting_.push_back({Stroke::character, character});
+  return keeps;
+}
+
+// ImGui looks at keys once a frame. It gets one change of a key that panels act on, and nothing after that, so that it
+// misses no key that is let go at once or pressed twice, and a character comes before or after Backspace as written.
+void Ui::hand_over_waiting() {
+  if (field_ready_) text_expected_ = false;
+  bool acts = false;
+  while (!waiting_.empty() && !acts) {
+    const KeyEvent event = waiting_.front();
+    if (event.stroke == Stroke::character) {
+      if (text_expected_) return;
+      ImGui::GetIO().AddInputCharacter(event.code);
+    } else {
+      const int key = int(event.code), action = event.stroke == Stroke::press ? GLFW_PRESS : GLFW_RELEASE;
+      ImGui_ImplGlfw_KeyCallback(nullptr, key, 0, action, 0);
+      acts = takes_events() && panels_act_on(key);
+    }
+    waiting_.pop_front();
+  }
+}
+
+void Ui::expect_text(bool on) {
+  text_expected_ = on;
+  field_ready_ = false;
+  if (!on) std::erase_if(waiting_, [](const KeyEvent& event) { return event.stroke == Stroke::character; });
+}
+
+void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterCallback(window, entered); }
+
+void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
+
+double Ui::text_height() { return double(ImGui::GetFontSize()); }
+
+}  // namespace terrella

@@ -1,0 +1,124 @@
+#include "apps/viewer/tools/dropped_files.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+#include "streaming/file_bytes.h"
+#include "streaming/objects/gltf_model.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::size_t kGeoJsonHead = 4096;
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+// Both descriptions of sources and GeoJSON end in .json; only the latter says so of itself.
+bool is_geojson(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".geojson") return true;
+  if (extension != ".json") return false;
+  const auto bytes = read_head(path, kGeoJsonHead);
+  if (!bytes) return false;
+  const std::string_view head(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  constexpr std::string_view kTypes[] = {"\"Feature",        "\"Point\"",           "\"LineString\"",
+                                         "\"Polygon\"",      "\"MultiPoint",        "\"MultiLineString",
+                                         "\"MultiPolygon\"", "\"GeometryCollection"};
+  return std::ranges::any_of(kTypes, [head](std::string_view type) { return head.find(type) != head.npos; });
+}
+
+Result<ObjectFile> open_model(const std::filesystem::path& path, const Geodetic& place) {
+  Result<ModelFile> model = read_gltf_model(path);
+  if (!model) return model.error();
+  ObjectFile file{.scene = {}, .complaints = std::move(model->complaints), .complaints_left_out = 0};
+  file.scene.meshes.push_back({.model = std::move(model->model), .place = place});
+  return file;
+}
+
+Result<OpenedFile> open_objects(const std::filesystem::path& path, Result<ObjectFile> file) {
+  if (!file) return file.error();
+  return OpenedFile{path, *std::move(file)};
+}
+
+}  // namespace
+
+Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options, const Geodetic& place,
+                                const CutProgress& progress) {
+  const std::string extension = lower_extension(path);
+  if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
+  if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
+  SceneOptions tiles_options = options;
+  tiles_options.tile_set = path.string();
+  tiles_options.projection.reset();
+  tiles_options.latitude.reset();
+  tiles_options.remote = {};
+  if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
+  auto tiles = open_any_tiles(tiles_options, progress);
+  if (!tiles) return tiles.error();
+  if (!(*tiles)->info().elevation) return OpenedFile{path, *std::move(tiles)};
+  auto heights = ElevationSource::open(*std::move(tiles), path.string());
+  if (!heights) return heights.error();
+  return OpenedFile{path, *std::move(heights)};
+}
+
+DroppedFiles::~DroppedFiles() {
+  leave_off();
+  if (running_.valid()) running_.wait();
+}
+
+void DroppedFiles::add(std::filesystem::path path, const Geodetic& place) {
+  waiting_.push_back({std::move(path), place});
+  if (!busy()) start_next();
+}
+
+void DroppedFiles::start_next() {
+  if (waiting_.empty()) return;
+  const Waiting next = std::move(waiting_.front());
+  waiting_.pop_front();
+  current_ = next.path;
+  percent_ = -1;
+  leave_off_ = false;
+  running_ = std::async(std::launch::async, [this, next]() -> Result<OpenedFile> {
+    auto opened = open_dropped(next.path, options_, next.place, [this](std::int64_t done, std::int64_t total) {
+      const int percent = total > 0 ? int(100 * done / total) : 0;
+      if (percent_.exchange(percent) != percent) glfwPostEmptyEvent();
+      return !leave_off_;
+    });
+    glfwPostEmptyEvent();
+    return opened;
+  });
+}
+
+bool DroppedFiles::ready() const {
+  return running_.valid() && running_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::optional<Result<OpenedFile>> DroppedFiles::poll() {
+  if (!ready()) return {};
+  Result<OpenedFile> opened = running_.get();
+  start_next();
+  return opened;
+}
+
+std::string DroppedFiles::text() const {
+  if (!busy()) return {};
+  const std::string name = current_.filename().string();
+  const int percent = percent_;
+  return percent < 0 ? fmt::format("Opening {}", name) : fmt::format("Cutting {}: {} %; Esc leaves it", name, percent);
+}
+
+void DroppedFiles::leave_off() {
+  leave_off_ = true;
+  waiting_.clear();
+}
+
+}  // namespace terrella

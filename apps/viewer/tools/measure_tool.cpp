@@ -1,0 +1,44 @@
+#include "apps/viewer/tools/measure_tool.h"
+
+#include "apps/viewer/panels/readout.h"
+#include "geo/measure.h"
+
+namespace terrella {
+namespace {
+
+constexpr ObjectColor kMeasureInk{255, 214, 64}, kMeasureWash{255, 214, 64, 60}, kWayBack{255, 214, 64, 150};
+constexpr float kMarker_px = 11.0F, kWay_px = 3.0F, kWayBack_px = 1.5F;
+
+}  // namespace
+
+void MeasureTool::take_back() {
+  if (!places_.empty()) places_.pop_back();
+}
+
+std::string MeasureTool::text(const Ellipsoid& ellipsoid) const {
+  if (places_.empty()) return "Measuring: click a place, or Enter for the picture's middle; M ends";
+  if (places_.size() == 1) return "Measuring: click the next place; Backspace takes the last one back";
+  std::string text = "Length " + length_text(path_m(ellipsoid, places_));
+  if (places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
+  return text;
+}
+
+ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
+  ObjectScene scene;
+  for (const Geodetic& place : places_) {
+    scene.points.push_back({.place = place, .size_px = scale * kMarker_px, .color = kMeasureInk});
+  }
+  if (places_.size() < 2) return scene;
+  scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk});
+  scene.labels.push_back({.text = length_text(path_m(ellipsoid, places_)),
+                          .place = places_.back(),
+                          .size_px = scale * kMarker_px,
+                          .priority = 1.0});
+  if (places_.size() < 3) return scene;
+  scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}});
+  scene.lines.push_back(
+      {.places = {places_.back(), places_.front()}, .width_px = scale * kWayBack_px, .color = kWayBack});
+  return scene;
+}
+
+}  // namespace terrella

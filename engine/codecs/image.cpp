@@ -1,0 +1,61 @@
+#include "codecs/image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "codecs/image_limits.h"
+#include "codecs/jpeg_codec.h"
+#include "codecs/png_codec.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::uint64_t kBytesPerPixel = 4;
+
+template <std::size_t N>
+bool begins_with(std::span<const std::byte> bytes, const std::array<unsigned char, N>& magic) {
+  return bytes.size() >= N && std::equal(magic.begin(), magic.end(), bytes.begin(),
+                                         [](unsigned char a, std::byte b) { return std::byte{a} == b; });
+}
+
+}  // namespace
+
+ImageFormat sniff_format(std::span<const std::byte> bytes) {
+  constexpr std::array<unsigned char, 3> kJpeg{0xFF, 0xD8, 0xFF};
+  constexpr std::array<unsigned char, 8> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  if (begins_with(bytes, kJpeg)) return ImageFormat::jpeg;
+  if (begins_with(bytes, kPng)) return ImageFormat::png;
+  return ImageFormat::unknown;
+}
+
+Status check_size(std::uint64_t width_px, std::uint64_t height_px, const DecodeLimits& limits) {
+  if (width_px == 0 || height_px == 0) return Error{"the picture has no pixels"};
+  const auto max_side = static_cast<std::uint64_t>(std::max(limits.max_side_px, 0));
+  if (width_px > max_side || height_px > max_side) {
+    return Error{
+        fmt::format("the picture is {}×{} pixels, at most {} a side are decoded", width_px, height_px, max_side)};
+  }
+  const std::uint64_t bytes = width_px * height_px * kBytesPerPixel;
+  if (bytes > limits.max_bytes) {
+    return Error{fmt::format("the picture is {}×{} pixels, {} bytes; at most {} bytes are decoded", width_px, height_px,
+                             bytes, limits.max_bytes)};
+  }
+  return Done{};
+}
+
+Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+  switch (sniff_format(bytes)) {
+    case ImageFormat::jpeg:
+      return decode_jpeg(bytes, limits);
+    case ImageFormat::png:
+      return decode_png(bytes, limits);
+    case ImageFormat::unknown:
+      break;
+  }
+  if (bytes.empty()) return Error{"no bytes at all, a JPEG or PNG picture is expected"};
+  return Error{fmt::format("{} bytes that begin like neither a JPEG nor a PNG picture", bytes.size())};
+}
+
+}  // namespace terrella

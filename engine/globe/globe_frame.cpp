@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cassert>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "globe/globe_impl.h"
+#include "surface/far_side_curtain.h"
+
+// A frame: what it takes from the loaders, what it selects, what it asks for, what it draws.
+namespace terrella {
+namespace {
+
+using FrameClock = std::chrono::steady_clock;
+
+// Steps by a quarter in which detail gives way to the budget: six tile levels.
+constexpr int kMostCoarser = 16;
+
+// Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
+glm::dvec3 sun_over_the_shoulder(const View& view) {
+  return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
+}
+
+}  // namespace
+
+// The lowest layer that is drawn must be opaque: where it is not, a plain colour lies under it.
+void Globe::Impl::stack_layers() {
+  stack.clear();
+  for (const auto& layer : images) {
+    if (layer->is_drawn(has_night())) {
+      stack.push_back(layer.get());
+    } else {
+      layer->stop_asking();
+    }
+  }
+  if (stack.empty() || !stack.front()->is_opaque(has_night())) {
+    if (!plain) plain = ImageLayer::make_plain(options, relief.get());
+    stack.insert(stack.begin(), plain.get());
+  }
+  if (stack.size() == 1) return;
+  // Of programs whose like are there: only a broken driver refuses them.
+  const bool special = std::ranges::any_of(stack, [this](const auto* layer) { return layer->is_special(has_night()); });
+  const Status prepared = renderer->prepare_further(special);
+  assert(prepared);
+  if (!prepared) stack.resize(1);
+}
+
+// Of one eye, half of a side-by-side picture is all there is.
+Viewport Globe::Impl::eye_picture(Viewport viewport) const {
+  if (options.stereo.mode == Stereo::side_by_side) viewport.width_px = std::max(1, viewport.width_px / 2);
+  return viewport;
+}
+
+void Globe::Impl::select(Viewport viewport) {
+  view = make_view(camera, options.body.ellipsoid, eye_picture(viewport));
+  eyes.reset();
+  if (options.stereo.mode != Stereo::off) {
+    eyes = stereo_eyes(view, ground(), options.stereo);
+    view = eyes->both;
+  }
+  ImageLayer& first = *stack.front();
+  PatchSelectionOptions selection;
+  selection.texels_per_pixel = first.texels_per_pixel();
+  selection.max_error_px = options.max_error_px;
+  selection.max_tile_level = first.look().max_level;
+  selection.max_polar_columns = options.polar_columns;
+  selection.horizon_culling = options.surface.horizon_culling;
+  if (options.surface.inner_sphere_below_m) {
+    const Ellipsoid& e = options.body.ellipsoid;
+    selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
+  }
+  std::vector<FurtherImagery> further;
+  for (std::size_t k = 1; k < stack.size(); ++k) further.push_back(stack[k]->as_further());
+  select_patches(first.tree(), view, selection, first.patches(), further);
+  if (patch_shuffle) std::shuffle(first.patches().begin(), first.patches().end(), std::mt19937(*patch_shuffle));
+  for (std::size_t k = 1; has_night() && k < stack.size(); ++k) stack[k]->keep_side(sun());
+  for (ImageLayer* layer : stack) layer->cover(view, layer == &first, frame);
+}
+
+// A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
+void Globe::Impl::select_within_budget(Viewport viewport) {
+  select(viewport);
+  for (int step = 0; step < kMostCoarser; ++step) {
+    bool coarser = false;
+    for (ImageLayer* layer : stack) coarser = layer->coarsen() || coarser;
+    if (!coarser) return;
+    select(viewport);
+  }
+}
+
+// Each frame another layer is the first to upload.
+std::size_t Globe::Impl::take_finished() {
+  UploadAllowance allowance{options.upload_bytes_per_frame, FrameClock::now() + options.upload_time_per_frame};
+  std::size_t bytes = 0;
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    bytes += images[(k + frame) % images.size()]->take_finished(allowance, frame, lacking);
+  }
+  return bytes;
+}
+
+// After the picture is drawn: who steers the eye sees the new ground before it is drawn. One by one, until the frame's
+// share of meshes has to be made anew.
+void Globe::Impl::take_heights() {
+  if (!heights) return;
+  const ImageLayer& first = *stack.front();
+  for (int meshes = 0; meshes < options.relief_meshes_per_frame;) {
+    std::optional<LoadedHeights> loaded = heights->take(lacking_heights);
+    if (!loaded) return;
+    meshes += relief->touched(stack.front()->tree(), loaded->id, first.patches());
+    relief->add(std::move(*loaded->tile));
+    stats.heights_arrived = true;
+  }
+}
+
+void Globe::Impl::ask_heights() {
+  if (!heights) return;
+  heights->retry();
+  const std::vector<WantedTile> wanted = relief->want(stack.front()->patches());
+  std::vector<TileRequest> requests;
+  requests.reserve(wanted.size());
+  for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
+  heights->request(requests);
+  stats.heights_missing = static_cast<int>(wanted.size());
+  stats.heights_lacked = relief->missing();
+  stats.relief_put_off = relief->put_off();
+}
+
+// Without a time there is no Sun to draw: its light comes over the viewer's shoulder.
+std::optional<SkyInput> Globe::Impl::sky() const {
+  if (!almanac || !sky_on || options.unlit) return std::nullopt;
+  SkyInput input{.almanac = *almanac};
+  if (!options.time) {
+    input.almanac.sun = EcefDir{sun()};
+    input.sun = input.moon = false;
+  }
+  return input;
+}
+
+glm::dvec3 Globe::Impl::sun() const { return almanac && options.time ? almanac->sun.xyz : sun_over_the_shoulder(view); }
+
+FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
+  FrameInput input{.size = viewport,
+                   .corner_px = corner_px,
+                   .view = view,
+                   .eyes = eyes,
+                   .stereo = options.stereo.mode,
+                   .layers = {},
+                   .relief = relief.get(),
+                   .surface = options.surface,
+                   .sky = sky(),
+                   .lit = !options.unlit,
+                   .sun = sun(),
+                   .frame = frame,
+                   .ground_m = ground_m(),
+                   .naive_translucency = options.naive_translucency};
+  for (ImageLayer* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), has_night()));
+  return input;
+}
+
+void Globe::Impl::count() {
+  const ImageLayer& first = *stack.front();
+  stats.patches = static_cast<int>(first.patches().size());
+  for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
+  stats.patches_uncovered = first.coverage().uncovered;
+  stats.height_bytes = relief ? relief->bytes() : 0;
+  for (ImageLayer* layer : stack) {
+    stats.gpu_bytes += layer->gpu_bytes();
+    stats.patches_held += layer->tree().size();
+    stats.tiles_known += layer->tiles_known();
+    if (layer == plain.get()) continue;
+    stats.tiles_wanted += layer->coverage().tiles;
+    stats.tiles_missing += layer->coverage().missing;
+    stats.tiles_lacked += layer->coverage().lacking;
+    stats.imagery_shown = stats.imagery_shown || layer->coverage().shown;
+  }
+}
+
+FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+  stats = {};
+  ++frame;
+  changed = false;
+  if (viewport != drawn) restore_detail();
+  drawn = viewport;
+  stats.uploaded_bytes = take_finished();
+  stats.objects_cut = std::exchange(objects_cut, 0);
+  stack_layers();
+  if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
+  const auto start = FrameClock::now();
+  const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
+  select_within_budget(viewport);
+  stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
+  for (ImageLayer* layer : stack) layer->ask();
+  ask_heights();
+  if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
+  const FrameCounts counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
+  stats.draw_calls = counts.draw_calls;
+  stats.triangles = counts.triangles;
+  for (ImageLayer* layer : stack) layer->end_frame(frame);
+  count();
+  take_heights();
+  return stats;
+}
+
+bool Globe::Impl::settled() const {
+  if (frame == 0) return false;
+  if (stats.heights_missing > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
+  return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
+}
+
+bool Globe::Impl::needs_frame() const {
+  if (changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
+  if (heights && heights->has_news()) return true;
+  return std::ranges::any_of(images, [](const auto& layer) { return layer->has_news(); });
+}
+
+void Globe::Impl::restore_detail() {
+  changed = true;
+  for (const auto& layer : images) layer->restore_detail();
+}
+
+}  // namespace terrella

@@ -1,0 +1,167 @@
+#include "globe/image_layer.h"
+
+#include <algorithm>
+
+#include "surface/daylight.h"
+
+namespace terrella {
+namespace {
+
+constexpr int kMips = 4;
+constexpr TileGrid kPlainGrid{.tile_px = 16};
+constexpr int kAnyLevel = -1000;
+
+// The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
+TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
+  const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
+  grid.reduced = grid.reduced && options.squeezed_rows && polar_program;
+  return grid;
+}
+
+}  // namespace
+
+ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
+                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell)
+    : id_(id),
+      ellipsoid_(options.body.ellipsoid),
+      segments_(options.segments),
+      mapping_(options.mapping),
+      texels_per_pixel_(options.texels_per_pixel),
+      grid_(source ? grid_to_draw(options, source->info().grid) : kPlainGrid),
+      roots_(root_tiles(grid_)),
+      look_(look),
+      attribution_(source ? source->info().attribution : ""),
+      tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
+  set_relief(relief);
+  if (!source) return;
+  LoaderOptions loading{
+      .workers = options.workers, .gutter = options.gutter_px, .mips = kMips, .bell = std::move(bell)};
+  // What waits for slots is no more than all slots hold.
+  loading.max_finished_bytes =
+      std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
+  stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, options.retry_after);
+}
+
+std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
+  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief, nullptr);
+  // Its tiles are all there, and empty.
+  for (const TileId& id : plain->roots_) {
+    TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
+    entry.state = TileState::resident;
+    entry.slot = 0;
+  }
+  return plain;
+}
+
+void ImageLayer::set_look(const ImageLook& look) {
+  look_ = look;
+  restore_detail();
+}
+
+void ImageLayer::set_relief(Relief* relief) {
+  gpu_.vertices.reset();
+  patches_.clear();
+  tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
+  if (relief != nullptr) tree_->set_relief(*relief);
+}
+
+bool ImageLayer::is_drawn(bool has_night) const {
+  return look_.shown && look_.opacity > 0.0 && (has_night || look_.daylight != Daylight::night);
+}
+
+bool ImageLayer::is_opaque(bool has_night) const {
+  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && !has_transparency_ && !is_special(has_night);
+}
+
+bool ImageLayer::is_special(bool has_night) const {
+  return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
+}
+
+// Slot 0 and those of the root tiles are never given up.
+bool ImageLayer::coarsen() {
+  const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
+  if (!stream_ || coverage_.tiles <= room * 9 / 10) return false;
+  detail_ *= 0.75;
+  return true;
+}
+
+FurtherImagery ImageLayer::as_further() {
+  return {.tree = tree_.get(),
+          .texels_per_pixel = texels_per_pixel(),
+          .least_level = look_.min_level <= grid_.min_level ? kAnyLevel : look_.min_level,
+          .max_tile_level = look_.max_level,
+          .out = &patches_};
+}
+
+std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
+                                      std::deque<LackingTile>& lacking) {
+  std::size_t bytes = 0;
+  if (!stream_) return bytes;
+  stream_->retry();
+  while (allowance.bytes > 0) {
+    const std::optional<LoadedTile> loaded = stream_->take(lacking);
+    if (!loaded) break;
+    const TileTexels& texels = *loaded->tile;
+    has_transparency_ = has_transparency_ || !texels.opaque;
+    if (tiles_.upload(loaded->id, texels.mips, frame)) {
+      bytes += tiles_.slot_bytes();
+      allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
+    }
+    if (std::chrono::steady_clock::now() > allowance.deadline) allowance.bytes = 0;
+  }
+  return bytes;
+}
+
+void ImageLayer::keep_side(const std::optional<glm::dvec3>& sun) {
+  if (!sun || look_.daylight == Daylight::both) return;
+  std::erase_if(patches_,
+                [&](const SelectedPatch& patch) { return !may_show(look_.daylight, *patch.node, ellipsoid_, *sun); });
+}
+
+void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
+  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
+  cover_with_tiles(*tree_, view, patches_, tiles_.residency(), frame, coverage_, texels_per_pixel(),
+                   first ? OutOfBounds::ancestor : OutOfBounds::nothing);
+}
+
+// Root tiles come first: an ancestor for everything.
+void ImageLayer::ask() {
+  if (!stream_) return;
+  std::vector<TileRequest> requests;
+  for (const TileId& id : roots_) {
+    if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
+  }
+  for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
+  stream_->request(requests);
+}
+
+void ImageLayer::end_frame(std::uint64_t frame) {
+  tree_->end_frame();
+  tiles_.residency().end_frame(frame, grid_.min_level);
+}
+
+void ImageLayer::stop_asking() {
+  if (stream_) stream_->stop();
+}
+
+LayerFrame ImageLayer::frame(bool first, bool has_night) {
+  return {.tree = tree_.get(),
+          .patches = &patches_,
+          .coverage = &coverage_,
+          .tiles = &tiles_,
+          .gpu = &gpu_,
+          .opacity = first ? 1.0 : look_.opacity,
+          .daylight = has_night ? look_.daylight : Daylight::both,
+          .alpha = look_.alpha};
+}
+
+// Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
+bool ImageLayer::settled() {
+  if (!stream_) return true;
+  if (!coverage_.wanted.empty()) return false;
+  if (coverage_.uncovered == 0) return true;
+  return std::ranges::none_of(
+      roots_, [this](const TileId& id) { return tiles_.residency().entry(id).state == TileState::unknown; });
+}
+
+}  // namespace terrella

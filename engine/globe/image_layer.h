@@ -1,0 +1,102 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "globe/globe.h"
+#include "globe/tile_stream.h"
+#include "render/globe_renderer.h"
+#include "surface/layers.h"
+#include "surface/tile_coverage.h"
+#include "tiles/tile_loader.h"
+
+namespace terrella {
+
+/// What a frame may still upload.
+struct UploadAllowance {
+  std::size_t bytes = 0;
+  std::chrono::steady_clock::time_point deadline;
+};
+
+/// One image layer of a globe: its tiles on their way from the source to the GPU, and what a frame draws of them.
+/// thread: main (of the context)
+class ImageLayer {
+ public:
+  /// `gpu_bytes`: this layer's share. `relief` as the globe's, none: the ellipsoid. `bell` rings when a tile has come.
+  ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
+             std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
+  /// The plain colour that stands where no layer is opaque.
+  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
+
+  [[nodiscard]] LayerId id() const { return id_; }
+  [[nodiscard]] const ImageLook& look() const { return look_; }
+  void set_look(const ImageLook& look);
+  void set_relief(Relief* relief);  ///< everything about patches is made anew
+  void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
+  /// Where there is no night a layer by night is not.
+  [[nodiscard]] bool is_drawn(bool has_night) const;
+  /// Covers whatever lies under it, wherever it has tiles.
+  [[nodiscard]] bool is_opaque(bool has_night) const;
+  /// Takes programs of its own: it shows on one side of the terminator, or brightness is its alpha.
+  [[nodiscard]] bool is_special(bool has_night) const;
+  [[nodiscard]] const std::string& attribution() const { return attribution_; }
+  void set_attribution(std::string text) { attribution_ = std::move(text); }
+  /// The last frame drew some of its tiles in view.
+  [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+
+  [[nodiscard]] PatchTree& tree() { return *tree_; }
+  [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
+  [[nodiscard]] const std::vector<SelectedPatch>& patches() const { return patches_; }
+  [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
+  /// Asked for; less than the globe's where a view wants more tiles than there is room for.
+  [[nodiscard]] double texels_per_pixel() const { return texels_per_pixel_ * detail_; }
+  void restore_detail() { detail_ = 1.0; }
+  /// Asks for less detail if the last view wanted more tiles than there is room for; true if so.
+  bool coarsen();
+  [[nodiscard]] FurtherImagery as_further();
+
+  /// Uploads what has arrived; returns the bytes. Tiles that are lacking are added to `lacking`.
+  std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
+  /// Leaves patches out on which nothing of it shows. Without a Sun there is no night.
+  void keep_side(const std::optional<glm::dvec3>& sun);
+  /// Finds a tile for each cell of patches().
+  void cover(const View& view, bool first, std::uint64_t frame);
+  void ask();
+  void end_frame(std::uint64_t frame);  ///< what frames have not used for long goes
+  void stop_asking();
+  [[nodiscard]] LayerFrame frame(bool first, bool has_night);
+
+  [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
+  [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
+  [[nodiscard]] bool settled();
+  [[nodiscard]] LoaderCounts loading() const { return stream_ ? stream_->counts() : LoaderCounts{}; }
+  /// TileStream::has_news().
+  [[nodiscard]] bool has_news() const { return stream_ && stream_->has_news(); }
+
+ private:
+  LayerId id_;
+  Ellipsoid ellipsoid_;
+  int segments_;
+  CubeMapping mapping_;
+  double texels_per_pixel_;
+  TileGrid grid_;
+  std::vector<TileId> roots_;
+  ImageLook look_;
+  std::string attribution_;
+  std::unique_ptr<PatchTree> tree_;
+  TileTextures tiles_;
+  std::optional<TileStream<TileTexels>> stream_;  ///< none: plain
+  PatchLayer gpu_;
+  std::vector<SelectedPatch> patches_;
+  TileCoverage coverage_;
+  double detail_ = 1.0;
+  bool has_transparency_ = false;  ///< a tile came that has some
+};
+
+}  // namespace terrella

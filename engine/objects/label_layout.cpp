@@ -1,0 +1,73 @@
+#include "objects/label_layout.h"
+
+#include <algorithm>
+#include <bit>
+#include <glm/geometric.hpp>
+
+namespace terrella {
+namespace {
+
+constexpr int kCell_px = 64;
+constexpr char32_t kNotACharacter = 0xFFFD;
+
+}  // namespace
+
+std::u32string code_points(std::string_view utf8) {
+  std::u32string points;
+  for (std::size_t k = 0; k < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[k]);
+    const auto length = static_cast<std::size_t>(std::countl_one(first));
+    char32_t point = length == 0 ? first : first & (0x7FU >> length);
+    std::size_t read = 1;
+    for (; read < length && k + read < utf8.size(); ++read) {
+      const auto next = static_cast<unsigned char>(utf8[k + read]);
+      if ((next & 0xC0U) != 0x80U) break;
+      point = point << 6U | (next & 0x3FU);
+    }
+    const bool whole = length == 0 || (length >= 2 && length <= 4 && read == length);
+    points.push_back(whole ? point : kNotACharacter);
+    k += whole ? read : 1;
+  }
+  return points;
+}
+
+LabelRoom::LabelRoom(Viewport picture)
+    : picture_(picture),
+      columns_(picture.width_px / kCell_px + 1),
+      rows_(picture.height_px / kCell_px + 1),
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+
+bool LabelRoom::take(const LabelBox& box) {
+  if (!(box.low_px.x >= 0.0F && box.low_px.y >= 0.0F && box.high_px.x <= float(picture_.width_px) &&
+        box.high_px.y <= float(picture_.height_px))) {
+    return false;
+  }
+  const auto each_cell = [&](const auto& visit) {
+    for (int row = int(box.low_px.y) / kCell_px; row <= int(box.high_px.y) / kCell_px; ++row) {
+      for (int column = int(box.low_px.x) / kCell_px; column <= int(box.high_px.x) / kCell_px; ++column) {
+        visit(cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                     static_cast<std::size_t>(column)]);
+      }
+    }
+  };
+  bool free = true;
+  each_cell([&](const std::vector<LabelBox>& cell) {
+    free = free && std::ranges::none_of(cell, [&box](const LabelBox& other) {
+             return box.low_px.x < other.high_px.x && other.low_px.x < box.high_px.x &&
+                    box.low_px.y < other.high_px.y && other.low_px.y < box.high_px.y;
+           });
+  });
+  if (free) each_cell([&](std::vector<LabelBox>& cell) { cell.push_back(box); });
+  return free;
+}
+
+bool is_behind(const glm::dvec3& point_m, const glm::dvec3& eye_m, const glm::dvec3& half_axes_m) {
+  if (!(half_axes_m.x > 0.0 && half_axes_m.y > 0.0 && half_axes_m.z > 0.0)) return false;
+  const glm::dvec3 eye = eye_m / half_axes_m, way = point_m / half_axes_m - eye;
+  const double length2 = glm::dot(way, way);
+  const double nearest = length2 > 0.0 ? std::clamp(-glm::dot(eye, way) / length2, 0.0, 1.0) : 0.0;
+  const glm::dvec3 at = eye + nearest * way;
+  return glm::dot(at, at) < 1.0;
+}
+
+}  // namespace terrella

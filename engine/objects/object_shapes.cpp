@@ -1,0 +1,114 @@
+#include "objects/object_shapes.h"
+
+#include <GeographicLib/GeodesicExact.hpp>
+#include <GeographicLib/GeodesicLineExact.hpp>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace terrella {
+namespace {
+
+using glm::dvec3;
+
+/// Geodesics on one ellipsoid. The exact form, because the series loses digits on flat bodies like Saturn.
+class GeodesicWays {
+ public:
+  explicit GeodesicWays(const Ellipsoid& ellipsoid)
+      : ellipsoid_(ellipsoid), geodesics_(ellipsoid.a_m(), ellipsoid.f()) {}
+
+  /// The places at 1/n, 2/n … of the way, the last not included.
+  void between(const Geodetic& a, const Geodetic& b, int n, double lift_m, std::vector<dvec3>& out) const {
+    const auto way = geodesics_.InverseLine(latitude_deg(a), a.lon.deg(), latitude_deg(b), b.lon.deg());
+    for (int k = 1; k < n; ++k) {
+      const double part = double(k) / n;
+      double lat = 0.0, lon = 0.0;
+      way.Position(part * way.Distance(), lat, lon);
+      const double height_m = a.height_m + part * (b.height_m - a.height_m) + lift_m;
+      out.push_back(
+          ellipsoid_.to_ecef({.lat = Angle::degrees(lat), .lon = Angle::degrees(lon), .height_m = height_m}).xyz_m);
+    }
+  }
+
+ private:
+  // A pole that was turned to radians and back may lie beyond it.
+  static double latitude_deg(const Geodetic& p) { return std::clamp(p.lat.deg(), -90.0, 90.0); }
+
+  const Ellipsoid& ellipsoid_;
+  GeographicLib::GeodesicExact geodesics_;
+};
+
+Angle between(const Geodetic& a, const Geodetic& b) {
+  const dvec3 p = Ellipsoid::normal(a.lat, a.lon).xyz, q = Ellipsoid::normal(b.lat, b.lon).xyz;
+  return Angle::radians(std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)));
+}
+
+/// 1 for what is not finite.
+int pieces(Angle way, Angle step) {
+  constexpr double kMost = 1.0e6;
+  const double pieces = std::ceil(way / step);
+  return pieces > 1.0 ? static_cast<int>(std::min(pieces, kMost)) : 1;
+}
+
+dvec3 lifted(const Geodetic& place, const Ellipsoid& ellipsoid, double lift_m) {
+  Geodetic higher = place;
+  higher.height_m += lift_m;
+  return ellipsoid.to_ecef(higher).xyz_m;
+}
+
+/// The places at 1/n, 2/n … of the great circle of normals, the last not included. Antipodes have none.
+void along_great_circle(const Geodetic& a, const Geodetic& b, int n, const Ellipsoid& ellipsoid, double lift_m,
+                        std::vector<dvec3>& out) {
+  const dvec3 p = Ellipsoid::normal(a.lat, a.lon).xyz, q = Ellipsoid::normal(b.lat, b.lon).xyz;
+  const double angle = between(a, b).rad();
+  const double sine = std::sin(angle);
+  if (sine < 1e-12) return;
+  for (int k = 1; k < n; ++k) {
+    const double part = double(k) / n;
+    const dvec3 normal = (std::sin((1.0 - part) * angle) * p + std::sin(part * angle) * q) / sine;
+    const double height_m = a.height_m + part * (b.height_m - a.height_m) + lift_m;
+    out.push_back(ellipsoid.position(EcefDir{glm::normalize(normal)}, height_m).xyz_m);
+  }
+}
+
+}  // namespace
+
+double sag_m(const Ellipsoid& ellipsoid, Angle step) {
+  const double radius_m = ellipsoid.a_m() / (1.0 - ellipsoid.f());  // the flattest place, a pole
+  return radius_m * (1.0 - std::cos(0.5 * step.rad()));
+}
+
+Angle length_of(const std::vector<Geodetic>& places) {
+  Angle length{};
+  for (std::size_t k = 1; k < places.size(); ++k) length = length + between(places[k - 1], places[k]);
+  return length;
+}
+
+std::vector<dvec3> line_along_geodesics(const std::vector<Geodetic>& places, const Ellipsoid& ellipsoid, Angle step) {
+  if (places.empty()) return {};
+  const GeodesicWays ways(ellipsoid);
+  const double lift_m = is_underground(places) ? 0.0 : sag_m(ellipsoid, step);
+  std::vector<dvec3> line{lifted(places.front(), ellipsoid, lift_m)};
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const int n = pieces(between(places[k - 1], places[k]), step);
+    if (n > 1) ways.between(places[k - 1], places[k], n, lift_m, line);
+    line.push_back(lifted(places[k], ellipsoid, lift_m));
+  }
+  return line;
+}
+
+std::vector<dvec3> outline(const std::vector<Geodetic>& ring, const Ellipsoid& ellipsoid, Angle step, double lift_m) {
+  if (ring.empty()) return {};
+  std::vector<dvec3> line{lifted(ring.front(), ellipsoid, lift_m)};
+  for (std::size_t k = 1; k <= ring.size(); ++k) {
+    const Geodetic& a = ring[k - 1];
+    const Geodetic& b = ring[k % ring.size()];
+    const int n = pieces(between(a, b), step);
+    if (n > 1) along_great_circle(a, b, n, ellipsoid, lift_m, line);
+    const dvec3 end = lifted(b, ellipsoid, lift_m);
+    if (end != line.back()) line.push_back(end);
+  }
+  return line;
+}
+
+}  // namespace terrella

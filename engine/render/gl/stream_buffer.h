@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "render/gl/gl_handle.h"
+
+namespace terrella {
+
+/// A buffer that is filled each time it is used, while the ones before it may still be in use. thread: main
+class StreamBuffer {
+ public:
+  void fill(const void* data, std::size_t bytes);
+  /// The same in pieces: room for all, then each at its place.
+  void begin(std::size_t bytes);
+  void put(std::size_t at, const void* data, std::size_t bytes) const;
+  [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }
+
+ private:
+  struct Part {
+    gl::Buffer buffer;
+    std::size_t capacity = 0;  ///< bytes
+  };
+  std::array<Part, 3> buffers_;
+  std::size_t turn_ = 0;
+};
+
+}  // namespace terrella

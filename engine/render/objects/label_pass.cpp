@@ -1,0 +1,153 @@
+#include "render/objects/label_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "geo/split_position.h"
+#include "objects/label_layout.h"
+#include "render/gl/shader_library.h"
+#include "render/gl/vertex_attribute.h"
+
+namespace terrella {
+namespace {
+
+constexpr int kText_px = 15;
+constexpr float kGap_px = 4.0F;     // between a marker and its text
+constexpr float kMargin_px = 2.0F;  // kept free around a text
+constexpr GLint kLabelViewportUniform = 0;
+constexpr GLint kLabelBiasUniform = 1;
+
+}  // namespace
+
+Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
+  std::unique_ptr<LabelPass> pass(new LabelPass);
+  auto atlas = GlyphAtlas::create(std::move(font), kText_px);
+  if (!atlas) return atlas.error();
+  pass->atlas_ = std::move(*atlas);
+  auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_label.vert"}},
+                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_label.frag"}}},
+                             {depth_define(depth)});
+  if (!built) return built.error();
+  pass->program_ = std::move(*built);
+  pass->set_up_array();
+  return pass;
+}
+
+void LabelPass::set_up_array() {
+  array_ = gl::make_vertex_array();
+  const GLuint array = array_.name();
+  gl::float_attribute(array, 0, 0, 3, offsetof(Character, high_m));
+  gl::float_attribute(array, 1, 0, 3, offsetof(Character, low_m));
+  gl::float_attribute(array, 2, 0, 2, offsetof(Character, offset_px));
+  glEnableVertexArrayAttrib(array, 3);
+  glVertexArrayAttribFormat(array, 3, 4, GL_SHORT, GL_FALSE, offsetof(Character, atlas_px));
+  glVertexArrayAttribBinding(array, 3, 0);
+  glEnableVertexArrayAttrib(array, 4);
+  glVertexArrayAttribFormat(array, 4, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Character, color));
+  glVertexArrayAttribBinding(array, 4, 0);
+  glVertexArrayBindingDivisor(array, 0, 1);
+}
+
+void LabelPass::set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid) {
+  std::vector<std::size_t> order(labels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order,
+                           [&labels](std::size_t a, std::size_t b) { return labels[a].priority > labels[b].priority; });
+  order.resize(std::min(order.size(), kMostLabels));
+  labels_.clear();
+  for (const std::size_t k : order) {
+    const LabelObject& label = labels[k];
+    std::u32string text = code_points(label.text);
+    if (text.size() > kMostCharacters) {
+      text.resize(kMostCharacters);
+      text.back() = U'…';
+    }
+    labels_.push_back({ellipsoid.to_ecef(label.place).xyz_m, std::move(text), label.radius_m, label.size_px,
+                       label.color, is_underground(label), label.through_surface});
+  }
+}
+
+LabelPass::Line LabelPass::line_of(const std::u32string& text) {
+  Line line;
+  char32_t before = 0;
+  for (const char32_t character : text) {
+    const Glyph& glyph = atlas_->glyph(character);
+    if (before != 0) line.width_px += atlas_->kerning(before, character);
+    line.glyphs.emplace_back(glyph, line.width_px);
+    line.width_px += glyph.advance;
+    before = character;
+  }
+  return line;
+}
+
+bool LabelPass::in_sight(const Label& label, const View& view, const LabelSight& sight) {
+  if (!sight.shown) return false;
+  if (!label.underground && !sight.above_ground && !(label.chosen && sight.chosen_above_ground)) return false;
+  return !is_behind(label.place_m, view.eye.xyz_m, sight.hiding_half_axes_m);
+}
+
+void LabelPass::place(const View& view, const LabelSight& sight) {
+  LabelRoom room(view.viewport);
+  for (auto& characters : characters_) characters.clear();
+  shown_ = 0;
+  const double focal_px = view.pixels_per_radian();
+  for (const Label& label : labels_) {
+    const auto at = project(view, Ecef{label.place_m});
+    if (!at || at->x < -0.5 * view.viewport.width_px || at->x > view.viewport.width_px || at->y < 0.0 ||
+        at->y > view.viewport.height_px || !in_sight(label, view, sight)) {
+      continue;
+    }
+    const double away_m = glm::length(label.place_m - view.eye.xyz_m);
+    const auto radius_px = static_cast<float>(label.radius_m / away_m * focal_px);
+    const float right_px = std::round(std::max(0.5F * label.size_px, radius_px)) + kGap_px;
+    const Line line = line_of(label.text);
+    const glm::vec2 from = glm::vec2(*at) + glm::vec2(right_px, 0.0F);
+    const float half_px = 0.5F * float(atlas_->ascent_px() + atlas_->descent_px());
+    const glm::vec2 margin(kMargin_px);
+    if (!room.take({from - glm::vec2(0.0F, half_px) - margin, from + glm::vec2(line.width_px, half_px) + margin}))
+      continue;
+    put(label, line, right_px);
+    ++shown_;
+  }
+  std::vector<Character> all;
+  for (std::size_t k = 0; k < characters_.size(); ++k) {
+    first_[k] = all.size();
+    all.insert(all.end(), characters_[k].begin(), characters_[k].end());
+  }
+  first_.back() = all.size();
+  buffer_.fill(all.data(), all.size() * sizeof(Character));
+}
+
+void LabelPass::put(const Label& label, const Line& line, float right_px) {
+  const SplitPosition p = split_position(label.place_m);
+  auto& characters = characters_[(label.underground ? 0U : 2U) + (label.chosen ? 1U : 0U)];
+  // The middle of a small letter stands as high as the place.
+  const float pen_y_px = -std::round(0.35F * float(kText_px));
+  for (const auto& [glyph, pen_px] : line.glyphs) {
+    if (glyph.width == 0) continue;
+    const glm::vec2 offset(std::round(right_px + pen_px) + glyph.left, pen_y_px + glyph.top - glyph.height);
+    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, label.color});
+  }
+}
+
+int LabelPass::draw(ObjectPart part, ObjectChoice choice, Viewport viewport, float depth_bias) const {
+  const std::size_t base = part == ObjectPart::above_ground ? 2 : 0;
+  const std::size_t from = first_[base + (choice == ObjectChoice::chosen ? 1U : 0U)];
+  const std::size_t to = first_[base + (choice == ObjectChoice::others ? 1U : 2U)];
+  if (from >= to) return 0;
+  glProgramUniform2f(program_.name(), kLabelViewportUniform, float(viewport.width_px), float(viewport.height_px));
+  glProgramUniform1f(program_.name(), kLabelBiasUniform, depth_bias);
+  glUseProgram(program_.name());
+  glVertexArrayVertexBuffer(array_.name(), 0, buffer_.name(), 0, sizeof(Character));
+  glBindVertexArray(array_.name());
+  glBindTextureUnit(0, atlas_->texture());
+  glBindSampler(0, 0);
+  glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(to - from),
+                                    static_cast<GLuint>(from));
+  return 1;
+}
+
+}  // namespace terrella

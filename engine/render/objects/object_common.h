@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geo/camera.h"
+#include "objects/object_batches.h"
+#include "render/gl/gl_handle.h"
+#include "render/gl/vertex_attribute.h"
+
+namespace terrella {
+
+// What passes of objects share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
+
+inline void set_object_uniforms(const gl::Program& program, Viewport viewport, float bias, double hiding_radius_m) {
+  constexpr GLint kViewport = 0, kBias = 1, kHiding = 2;
+  glProgramUniform2f(program.name(), kViewport, float(viewport.width_px), float(viewport.height_px));
+  glProgramUniform1f(program.name(), kBias, bias);
+  glProgramUniform1f(program.name(), kHiding, static_cast<float>(hiding_radius_m));
+}
+
+/// Takes one DotInstance for `divisor` instances, or for each vertex (0), from the buffer at binding 0.
+inline gl::VertexArray dot_array(GLuint divisor) {
+  gl::VertexArray array = gl::make_vertex_array();
+  gl::float_attribute(array.name(), 0, 0, 3, offsetof(DotInstance, high_m));
+  gl::float_attribute(array.name(), 1, 0, 3, offsetof(DotInstance, low_m));
+  gl::float_attribute(array.name(), 2, 0, 1, offsetof(DotInstance, size));
+  gl::color_attribute(array.name(), 3, 0, offsetof(DotInstance, color));
+  glVertexArrayBindingDivisor(array.name(), 0, divisor);
+  return array;
+}
+
+/// A buffer that keeps these; no buffer if there are none.
+template <class T>
+gl::Buffer buffer_of(const std::vector<T>& items) {
+  if (items.empty()) return {};
+  gl::Buffer buffer = gl::make_buffer();
+  glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(items.size() * sizeof(T)), items.data(), 0);
+  return buffer;
+}
+
+/// A batch without its things, which are on the GPU.
+template <class T>
+Batch<char> ranges_of(const Batch<T>& batch) {
+  return {{}, batch.first};
+}
+
+}  // namespace terrella

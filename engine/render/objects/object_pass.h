@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "geo/camera.h"
+#include "objects/object_batches.h"
+#include "render/gl/frame_block.h"
+#include "render/gl/gl_handle.h"
+#include "render/objects/label_pass.h"
+#include "render/objects/mesh_pass.h"
+#include "render/objects/sphere_pass.h"
+#include "view/render_modes.h"
+
+namespace terrella {
+
+/// Draws the objects of a scene: areas, spheres, meshes, lines, markers. Everything is drawn relative to the eye.
+/// thread: main
+class ObjectPass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth);
+
+  /// Uploads a scene, once; it takes the place of the one before.
+  void set_objects(const ObjectBatches& batches);
+  void set_objects(const ObjectScene& scene, const Ellipsoid& ellipsoid) {
+    set_objects(make_batches(scene, ellipsoid));
+  }
+  [[nodiscard]] bool has(ObjectPart part) const;
+
+  /// Labels are drawn with this font, a font file's bytes; without one there are none.
+  void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
+  /// In place of those before; the program for labels is made with the first.
+  Status set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
+  /// In place of those before; the program for meshes is made with the first.
+  Status set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
+  /// Chooses the labels of a frame; none until it is called.
+  void place_labels(const View& view, const LabelSight& sight) {
+    if (labels_) labels_->place(view, sight);
+  }
+
+  /// Draws one part into the framebuffer that is bound. The caller has set the viewport (its size is `viewport`), the
+  /// frame's uniform block (binding 0; `frame` is what it holds), depth test and comparison, and stencil, all of which
+  /// are left as they are; the depth test must be on. Opaque objects write depth, translucent ones come after them and
+  /// do not; whatever lies over or on the ground is drawn a little towards the eye, what lies under it is not. Leaves
+  /// blending and face culling off and the depth mask on. Returns the draw calls made: at most one for each of areas,
+  /// lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw(). Where the caller
+  /// knows of an opaque sphere around the planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and
+  /// markers in and behind it are not even begun: on software GL they would cost as much as those in sight.
+  int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
+           double hiding_radius_m = 0.0);
+
+ private:
+  ObjectPass() = default;
+  Status build_programs(DepthMode depth);
+  void set_up_arrays();
+  [[nodiscard]] int draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const;
+
+  /// A batch without its things, which are on the GPU.
+  using Ranges = Batch<char>;
+  gl::Program fill_, line_, marker_;
+  gl::VertexArray fill_array_, line_array_, marker_array_;
+  gl::Buffer fill_vertices_, fill_indices_, lines_, markers_;
+  std::unique_ptr<SpherePass> spheres_;
+  DepthMode depth_ = DepthMode::reversed;
+  std::vector<std::byte> font_;
+  std::unique_ptr<LabelPass> labels_;
+  std::unique_ptr<MeshPass> meshes_;
+  bool has_labels_above_ = false, has_labels_underground_ = false;
+  Ranges fill_ranges_, line_ranges_, marker_ranges_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "geo/camera.h"
+#include "objects/sphere_groups.h"
+#include "render/gl/frame_block.h"
+#include "render/gl/gl_handle.h"
+#include "render/gl/stream_buffer.h"
+#include "view/render_modes.h"
+
+namespace terrella {
+
+/// Draws spheres: groups of them that the picture cannot show are left out, small ones are points, all others triangles
+/// around their outlines. Both look the same. thread: main
+class SpherePass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<SpherePass>> create(DepthMode depth);
+
+  /// In place of those before.
+  void set_spheres(const Batch<DotInstance>& spheres);
+  /// As ObjectPass::draw(), with blending and depth mask set. Returns the draw calls made: at most one for triangles
+  /// and one for points.
+  int draw(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame, Viewport viewport, float bias,
+           double hiding_radius_m);
+  [[nodiscard]] const Batch<char>& ranges() const { return ranges_; }
+
+ private:
+  SpherePass() = default;
+  void draw_triangles(const std::vector<SphereGroups::Run>& runs);
+  void draw_points(const std::vector<SphereGroups::Run>& runs) const;
+
+  gl::Program triangle_, point_;
+  gl::VertexArray triangle_array_, point_array_;
+  gl::Buffer spheres_;
+  StreamBuffer commands_;
+  SphereGroups groups_;
+  Batch<char> ranges_;
+  float largest_point_px_ = 0.0F;
+};
+
+}  // namespace terrella

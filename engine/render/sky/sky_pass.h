@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "geo/body.h"
+#include "geo/camera.h"
+#include "render/gl/gl_handle.h"
+#include "sky/almanac.h"
+#include "sky/atmosphere.h"
+#include "sky/star_catalogue.h"
+
+namespace terrella {
+
+/// What is in the sky of one frame.
+struct SkyInput {
+  Almanac almanac;  ///< Earth's; other bodies borrow its Sun and its turning
+  bool stars = true;
+  bool sun = true;
+  bool moon = true;        ///< drawn for the body "earth" alone
+  bool atmosphere = true;  ///< false while the eye is under the ground
+};
+
+/// Stars, Sun, Moon and atmosphere, in that order, all at infinity: no near and no far plane, no depth read or written.
+/// They are drawn wherever the stencil lets them; what is before the globe the caller must have masked out.
+/// thread: main (of the context)
+class SkyPass {
+ public:
+  /// `stars` may be empty; a body without an atmosphere gets no program for one.
+  [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
+
+  /// Draws into the framebuffer and viewport that are bound. The frame's uniform block must be bound and of this view;
+  /// depth test off, face culling off, stencil test as wanted. Returns the draw calls made. Leaves blending off;
+  /// changes program, vertex array, blend function and texture unit 0.
+  int draw(const View& view, const SkyInput& input);
+
+ private:
+  /// What the table was made for: it is kept while that hardly changes.
+  struct TableKey {
+    double eye_radius = 0.0;
+    double sun_cos = 2.0;
+  };
+  /// A body's disc in the sky: where, and how large.
+  struct Disc {
+    glm::dvec3 center;
+    double radius_rad;
+  };
+
+  explicit SkyPass(const Body& body) : body_(body), air_(atmosphere_of(body)) {}
+  Status build_programs();
+  void load_stars(const std::vector<Star>& stars);
+  int draw_stars(const View& view, const SkyInput& input) const;
+  int draw_sun(const View& view, const SkyInput& input) const;
+  int draw_moon(const View& view, const SkyInput& input) const;
+  int draw_air(const View& view, const SkyInput& input);
+  void update_table(double eye_radius, double sun_cos);
+  void place_disc(const View& view, const Disc& disc, double square) const;
+
+  Body body_;
+  std::optional<Atmosphere> air_;
+  gl::Program star_program_, sun_program_, moon_program_, air_program_;
+  gl::VertexArray star_array_, empty_array_;
+  gl::Buffer star_buffer_;
+  int star_count_ = 0;
+  gl::Texture table_texture_;
+  SkyTable table_;
+  TableKey table_key_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "render/gl/gl_handle.h"
+
+namespace terrella {
+
+/// Marks the rows of the right eye in the stencil buffer (stencil_bits.h), for interlaced stereo. thread: main
+class InterlacePass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<InterlacePass>> create();
+
+  /// Into the framebuffer that is bound; the stencil test and its masks are changed. Returns the draw calls made.
+  int draw(int height_px) const;
+
+ private:
+  InterlacePass() = default;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+};
+
+}  // namespace terrella

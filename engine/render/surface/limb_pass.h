@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "geo/camera.h"
+#include "render/gl/frame_targets.h"
+#include "render/gl/gl_handle.h"
+
+namespace terrella {
+
+/// The frame without the limb's antialiasing, and which part of it is the view's.
+struct LimbPicture {
+  GLuint texture = 0;
+  int left_px = 0;     ///< of the view's part, which is as large as the view and begins at the texture's lowest row
+  int rows_apart = 1;  ///< 2: only every other row is of this view; 0: the limb is in it already
+};
+
+/// Antialiases the globe's limb in a finished picture; shaders/surface/limb.frag. thread: main
+class LimbPass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
+
+  /// Blends the limb into the framebuffer that is bound, without a depth test. Returns the draw calls made: 0 where no
+  /// limb is in view, else 1.
+  int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture);
+  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
+  /// is read must not be written. Returns 0 or 2.
+  int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
+                    const FrameTargets::Beside& beside, GLuint framebuffer);
+
+ private:
+  LimbPass() = default;
+  [[nodiscard]] GLsizei upload(const View& view, const Ellipsoid& ellipsoid) const;
+  void draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture) const;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer vertices_;
+};
+
+}  // namespace terrella

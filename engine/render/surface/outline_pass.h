@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "geo/camera.h"
+#include "render/gl/frame_targets.h"
+#include "render/gl/gl_handle.h"
+#include "render/surface/limb_pass.h"
+
+namespace terrella {
+
+/// Antialiases the outline of the ground against what has no depth, where it is not the limb's curve: of mountains. By
+/// the picture alone: shaders/surface/outline.frag. thread: main
+class OutlinePass {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<OutlinePass>> create();
+
+  /// Blends the outline into the framebuffer that is bound, without a depth test; `no_depth` is the depth of nothing.
+  /// Returns the draw calls made.
+  int draw(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth) const;
+  /// The same where the framebuffer that is bound is the picture's own, as LimbPass::draw_in_place().
+  int draw_in_place(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth,
+                    const FrameTargets::Beside& beside, GLuint framebuffer) const;
+
+ private:
+  OutlinePass() = default;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,72 @@
+#include "render/surface/patch_buffers.h"
+
+#include <utility>
+
+namespace terrella {
+namespace {
+constexpr int kFirstCapacity = 512;
+}
+
+PatchBuffers::PatchBuffers(PatchTree& tree)
+    : tree_(tree),
+      vertices_per_patch_((tree.segments() + 1) * (tree.segments() + 1)),
+      indices_(patch_indices(tree.segments())),
+      index_buffer_(gl::make_buffer()) {
+  glNamedBufferStorage(index_buffer_.name(), static_cast<GLsizeiptr>(indices_.indices.size() * sizeof(std::uint16_t)),
+                       indices_.indices.data(), 0);
+  grow();
+}
+
+void PatchBuffers::grow() {
+  const int capacity = capacity_ == 0 ? kFirstCapacity : 2 * capacity_;
+  const auto enlarge = [&](gl::Buffer& buffer, std::size_t vertex_bytes) {
+    const auto bytes = [&](int patches) {
+      return static_cast<GLsizeiptr>(patches) * vertices_per_patch_ * static_cast<GLsizeiptr>(vertex_bytes);
+    };
+    gl::Buffer larger = gl::make_buffer();
+    glNamedBufferStorage(larger.name(), bytes(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (buffer) glCopyNamedBufferSubData(buffer.name(), larger.name(), 0, 0, bytes(used_));
+    buffer = std::move(larger);
+  };
+  enlarge(vertices_, sizeof(PatchVertex));
+  if (tree_.relief() != nullptr) enlarge(slopes_, sizeof(glm::vec2));
+  capacity_ = capacity;
+}
+
+int PatchBuffers::free_place(std::uint64_t frame) {
+  if (used_ < capacity_) return used_++;
+  const Place oldest = by_age_.back();
+  if (oldest.last_drawn == frame) {
+    grow();
+    return used_++;
+  }
+  places_.erase(oldest.node);
+  by_age_.pop_back();
+  return oldest.place;
+}
+
+void PatchBuffers::fill(const PatchNode& node, int place) {
+  const std::vector<PatchVertex> vertices = patch_vertices(tree_, node);
+  const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
+  glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
+  if (!slopes_) return;
+  const auto slope_bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec2));
+  glNamedBufferSubData(slopes_.name(), place * slope_bytes, slope_bytes, node.relief.slopes.data());
+}
+
+int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {
+  if (const auto found = places_.find(node.serial); found != places_.end()) {
+    by_age_.splice(by_age_.begin(), by_age_, found->second);
+    found->second->last_drawn = frame;
+    if (std::exchange(found->second->relief_made, node.relief.made) != node.relief.made)
+      fill(node, found->second->place);
+    return found->second->place;
+  }
+  const int place = free_place(frame);
+  fill(node, place);
+  by_age_.push_front({node.serial, place, frame, node.relief.made});
+  places_[node.serial] = by_age_.begin();
+  return place;
+}
+
+}  // namespace terrella

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <unordered_map>
+
+#include "render/gl/gl_handle.h"
+#include "surface/patch_mesh.h"
+
+namespace terrella {
+
+/// The vertices of recently drawn patches in one GPU buffer of equal places, and the index lists that all share.
+/// thread: main
+class PatchBuffers {
+ public:
+  explicit PatchBuffers(PatchTree& tree);
+
+  /// The patch's place (vertices from place · vertices_per_patch()), filled if it was not there or its heights have
+  /// changed; the place of the patch drawn longest ago gives way. Places asked for in one frame stay: the buffer grows
+  /// where one frame needs more.
+  [[nodiscard]] int place_of(const PatchNode& node, std::uint64_t frame);
+
+  [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
+  [[nodiscard]] const PatchIndices& indices() const { return indices_; }
+  [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
+  [[nodiscard]] GLuint slope_buffer() const { return slopes_.name(); }  ///< two floats a vertex; with relief only
+  [[nodiscard]] GLuint index_buffer() const { return index_buffer_.name(); }
+
+ private:
+  struct Place {
+    std::uint64_t node = 0;  ///< PatchNode::serial
+    int place = 0;
+    std::uint64_t last_drawn = 0;
+    std::uint64_t relief_made = 0;
+  };
+  int free_place(std::uint64_t frame);
+  void grow();
+  void fill(const PatchNode& node, int place);
+
+  PatchTree& tree_;
+  int vertices_per_patch_;
+  PatchIndices indices_;
+  gl::Buffer vertices_, slopes_;
+  gl::Buffer index_buffer_;
+  int capacity_ = 0;
+  int used_ = 0;
+  std::list<Place> by_age_;  // most recently drawn first
+  std::unordered_map<std::uint64_t, std::list<Place>::iterator> places_;
+};
+
+}  // namespace terrella

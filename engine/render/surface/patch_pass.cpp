@@ -1,0 +1,239 @@
+#include "render/surface/patch_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "render/gl/shader_library.h"
+#include "render/gl/vertex_attribute.h"
+
+namespace terrella {
+namespace {
+
+/// glMultiDrawElementsIndirect's record.
+struct DrawCommand {
+  GLuint count;
+  GLuint instances;
+  GLuint first_index;
+  GLint base_vertex;
+  GLuint base_instance;
+};
+
+// Three taps over the pixel serve footprints of up to this many texels well enough (shaders/surface/patch_plain.frag).
+constexpr double kPlainFootprint_texels = 12.0;
+// Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
+constexpr double kMagnifiedFootprint_texels = 0.7;
+constexpr std::string_view kFirstLayer = "FIRST_LAYER";
+
+gl::Sampler sampler(GLenum minify, GLenum wrap) {
+  gl::Sampler s = gl::make_sampler();
+  glSamplerParameteri(s.name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
+  glSamplerParameteri(s.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
+  glSamplerParameteri(s.name(), GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
+  return s;
+}
+
+template <class T>
+void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
+  glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, bool has_relief) {
+  std::unique_ptr<PatchPass> pass(new PatchPass(options, has_relief));
+  if (!options.functions && options.texturing != Texturing::vertex) {  // where coordinates are not interpolated
+    const Result<ShaderFunctions> chosen = choose_shader_functions();
+    if (!chosen) return chosen.error();
+    pass->options_.functions = *chosen;
+  }
+  if (const Status built = pass->build_programs(pass->programs_, kFirstLayer); !built) return built.error();
+  pass->set_up_vertex_array();
+  pass->set_up_samplers();
+  return pass;
+}
+
+Status PatchPass::prepare_further(bool special) {
+  if (special && !has_special_) {
+    if (Status built = build_programs(special_, "SPECIAL_LAYER"); !built) return built;
+    has_special_ = true;
+  }
+  if (flat_program_) return Done{};
+  if (Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
+  Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
+  if (!flat) return flat.error();
+  flat_program_ = std::move(*flat);
+  return Done{};
+}
+
+Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment,
+                                             std::string_view layer) const {
+  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
+                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                        functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
+}
+
+Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
+  using enum PatchLayer::Program;
+  const auto build = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) -> Status {
+    Result<gl::Program> program = patch_program(files, layer);
+    if (!program) return program.error();
+    programs[which] = std::move(*program);
+    return Done{};
+  };
+  if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
+    Status s = build(
+        polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    if (!s || options_.texturing == Texturing::exact) return s;
+  }
+  if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
+  if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
+  if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (options_.texturing == Texturing::paper) {
+    return build(paper,
+                 {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+  }
+  return Done{};
+}
+
+void PatchPass::set_up_vertex_array() {
+  vertex_array_ = gl::make_vertex_array();
+  const GLuint array = vertex_array_.name();
+  glVertexArrayBindingDivisor(array, 1, 1);
+  gl::float_attribute(array, 0, 0, 3, offsetof(PatchVertex, position_high_m));
+  gl::float_attribute(array, 1, 0, 3, offsetof(PatchVertex, position_low_m));
+  gl::float_attribute(array, 2, 0, 3, offsetof(PatchVertex, direction));
+  gl::float_attribute(array, 3, 0, 2, offsetof(PatchVertex, offset_deg));
+  gl::float_attribute(array, 4, 1, 4, offsetof(PatchDraw, center_and_scale));
+  gl::float_attribute(array, 5, 1, 4, offsetof(PatchDraw, frame));
+  gl::float_attribute(array, 6, 1, 4, offsetof(PatchDraw, row));
+  glEnableVertexArrayAttrib(array, 7);
+  glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
+  glVertexArrayAttribBinding(array, 7, 1);
+  if (has_relief_) gl::float_attribute(array, 8, 2, 2, 0);
+}
+
+void PatchPass::set_up_samplers() {
+  bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE);
+  // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with
+  // eight bits for the common modes and in float for this one.
+  precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
+  mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
+}
+
+PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
+  using enum PatchLayer::Program;
+  switch (options_.texturing) {
+    case Texturing::exact:
+      return polar;
+    case Texturing::automatic:
+      if (patch.in_band) return polar;
+      break;
+    case Texturing::paper:
+      if (patch.node->min_colatitude_rad < options_.paper_band * 3.14159265358979) return paper;
+      break;
+    case Texturing::vertex:
+      break;
+  }
+  if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
+  return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
+}
+
+void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+                       const TileCoverage& coverage, std::uint64_t frame) const {
+  std::vector<DrawCommand> by_program[kPrograms];
+  const bool own = layer.vertices.get() == &vertices;
+  layer.triangles = 0;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const SelectedPatch& patch = patches[k];
+    const PatchIndices::Range range =
+        vertices.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+    const int place = vertices.place_of(own ? *patch.node : *patch.surface, frame);
+    by_program[program_for(patch)].push_back(
+        {range.count, 1, range.first, place * vertices.vertices_per_patch(), static_cast<GLuint>(k)});
+    layer.triangles += range.count / 3;
+  }
+  std::vector<DrawCommand> commands;
+  for (int p = 0; p < kPrograms; ++p) {
+    layer.first_command[p] = static_cast<int>(commands.size());
+    commands.insert(commands.end(), by_program[p].begin(), by_program[p].end());
+  }
+  layer.first_command[kPrograms] = static_cast<int>(commands.size());
+  if (!layer.draws) {
+    layer.draws = gl::make_buffer();
+    layer.commands = gl::make_buffer();
+    layer.cells = gl::make_buffer();
+    layer.cells_texture = gl::make_texture(GL_TEXTURE_BUFFER);
+  }
+  stream(layer.commands, commands);
+  stream(layer.draws, coverage.draws);
+  stream(layer.cells, coverage.cells);
+  glTextureBuffer(layer.cells_texture.name(), GL_R32UI, layer.cells.name());
+}
+
+void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const {
+  const GLuint array = vertex_array_.name();
+  glVertexArrayElementBuffer(array, vertices.index_buffer());
+  glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
+  glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
+  if (has_relief_) glVertexArrayVertexBuffer(array, 2, vertices.slope_buffer(), 0, sizeof(glm::vec2));
+  glBindVertexArray(array);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, layer.commands.name());
+}
+
+void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
+  if (first == last) return;
+  const auto offset = static_cast<std::uintptr_t>(first) * sizeof(DrawCommand);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, reinterpret_cast<const void*>(offset), last - first, 0);
+  ++counts.draw_calls;
+}
+
+void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                     FrameCounts& counts) const {
+  draw_programs(programs_, layer, vertices, tiles, counts);
+}
+
+void PatchPass::draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                             bool special, FrameCounts& counts) const {
+  draw_programs(special ? special_ : further_, layer, vertices, tiles, counts);
+}
+
+void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
+                              const PatchBuffers& vertices, const TileTextures& tiles, FrameCounts& counts) const {
+  glBindTextureUnit(1, layer.cells_texture.name());
+  glBindSampler(1, 0);
+  for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
+  glBindSampler(0, bilinear_.name());
+  glBindSampler(2, mipmapped_.name());
+  glBindSampler(3, precise_.name());
+  bind_vertices(layer, vertices);
+  for (int p = 0; p < kPrograms; ++p) {
+    if (layer.first_command[p] == layer.first_command[p + 1]) continue;
+    glUseProgram(programs[p].name());
+    draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);
+  }
+  counts.triangles += layer.triangles;
+}
+
+void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) {
+  if (!depth_program_) {
+    Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
+    if (!program) throw std::runtime_error(program.error().message);
+    depth_program_ = std::move(*program);
+  }
+  bind_vertices(layer, vertices);
+  glUseProgram(depth_program_.name());
+  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
+}
+
+void PatchPass::draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const {
+  bind_vertices(layer, vertices);
+  glUseProgram(flat_program_.name());
+  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
+}
+
+}  // namespace terrella

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "geo/camera.h"
+#include "render/gl/gl_handle.h"
+#include "render/gl/shader_functions.h"
+#include "render/surface/patch_buffers.h"
+#include "render/surface/patch_layer.h"
+#include "render/surface/tile_textures.h"
+#include "surface/patch_selection.h"
+#include "surface/tile_coverage.h"
+#include "view/render_modes.h"
+
+namespace terrella {
+
+/// What fixes the programs; another choice is another renderer.
+struct RenderOptions {
+  Texturing texturing = Texturing::automatic;
+  DepthMode depth = DepthMode::reversed;
+  double paper_a = 4.0;
+  double paper_band = 0.05;
+  bool night_lights = false;                      ///< the surface by day and night; the caller binds NightLights
+  std::optional<ShaderFunctions> functions = {};  ///< none: the driver's, if they are good enough
+};
+
+struct FrameCounts {
+  int draw_calls = 0;
+  long triangles = 0;
+};
+
+/// Draws the surface's patches, layer by layer. Owns their programs. The caller has bound the framebuffer and the
+/// frame's uniform block and has set depth, stencil, blending and which faces are culled. thread: main (of the context)
+class PatchPass {
+ public:
+  /// `has_relief`: patches have slopes.
+  [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
+  [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
+  /// Makes the programs of layers over the first, once; before any is drawn. Special ones show on one side of the
+  /// terminator, or take alpha from brightness: FrameBlock::layer_look.
+  Status prepare_further(bool special);
+
+  /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one; `vertices` are the layer's own or those
+  /// of the patches' surface.
+  void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+              const TileCoverage& coverage, std::uint64_t frame) const;
+  /// Program by program; opaque.
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+            FrameCounts& counts) const;
+  /// The same premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
+  void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
+                    FrameCounts& counts) const;
+  /// Depth alone, in one call; the depths are the bits that draw() makes.
+  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
+  /// The same in opaque black. After prepare_further().
+  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
+
+ private:
+  static constexpr int kPrograms = PatchLayer::kPrograms;
+
+  PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
+  Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
+  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment,
+                                                  std::string_view layer) const;
+  void set_up_vertex_array();
+  void set_up_samplers();
+  void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
+  void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
+                     const TileTextures& tiles, FrameCounts& counts) const;
+  static void draw_commands(int first, int last, FrameCounts& counts);
+  [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
+
+  RenderOptions options_;
+  bool has_relief_;
+  gl::Program programs_[kPrograms], further_[kPrograms], special_[kPrograms];
+  bool has_special_ = false;
+  gl::Program depth_program_, flat_program_;
+  gl::VertexArray vertex_array_;
+  gl::Sampler bilinear_, precise_, mipmapped_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,239 @@
+#include "render/surface/tile_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace terrella {
+namespace {
+
+constexpr int kFirstSlots = 128;
+constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
+
+/// Texels around the planet in the tiles of a level and squeeze, if that is a whole number.
+std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
+  const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
+  const double whole = std::round(exact);
+  if (std::abs(exact - whole) > 1e-3) return std::nullopt;
+  return static_cast<std::int64_t>(whole);
+}
+
+/// The tile beside another of the same squeeze, over ±180° too; nothing where columns do not close.
+std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int dy) {
+  TileId other{id.level, id.x + dx, id.y + dy, id.squeeze};
+  const std::int64_t across = squeezed_columns(grid, id.level, id.squeeze);
+  if (other.x < 0 || other.x >= across) {
+    if (!texels_around(grid, id.level, id.squeeze)) return std::nullopt;
+    other.x = (other.x + across) % across;
+  }
+  return other;
+}
+
+}  // namespace
+
+TileTextures::TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes)
+    : grid_(grid), layout_(layout), mips_(mips) {
+  most_slots_ = slots_for(budget_bytes);
+  grow();
+}
+
+int TileTextures::slots_for(std::size_t bytes) const {
+  GLint most_layers = 256;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
+  return static_cast<int>(std::clamp<std::size_t>(bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
+}
+
+void TileTextures::set_empty(Empty empty) {
+  if (empty == empty_) return;
+  empty_ = empty;
+  paint_empty();
+}
+
+void TileTextures::paint_empty() {
+  constexpr std::uint8_t kNothing[4] = {0, 0, 0, 0};
+  for (int k = 0; k < mips_; ++k) {
+    const int side = layout_.slot_px() >> k;
+    glClearTexSubImage(texture_.name(), k, 0, 0, 0, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                       empty_ == Empty::plain_colour ? kPlainColour : kNothing);
+  }
+}
+
+void TileTextures::set_budget(std::size_t bytes) {
+  most_slots_ = slots_for(bytes);
+  if (slots_ > most_slots_) shrink();
+}
+
+// The tiles of the coarsest level come first, then those drawn last.
+void TileTextures::shrink() {
+  std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
+  for (auto& [id, entry] : residency_.entries()) {
+    if (entry.state == TileState::resident) tiles.emplace_back(id, &entry);
+  }
+  std::ranges::sort(tiles, [&](const auto& a, const auto& b) {
+    const bool a_root = a.first.level == grid_.min_level, b_root = b.first.level == grid_.min_level;
+    return a_root != b_root ? a_root : a.second->last_drawn > b.second->last_drawn;
+  });
+  const gl::Texture larger = std::exchange(texture_, gl::make_texture(GL_TEXTURE_2D_ARRAY));
+  slots_ = most_slots_;
+  used_ = 1;
+  free_.clear();
+  glTextureStorage3D(texture_.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots_);
+  paint_empty();
+  for (const auto& [id, entry] : tiles) {
+    if (used_ == slots_) {
+      residency_.erase(id);
+      continue;
+    }
+    const int from = std::exchange(entry->slot, used_++);
+    for (int k = 0; k < mips_; ++k) {
+      const int side = layout_.slot_px() >> k;
+      glCopyImageSubData(larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, from, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0,
+                         0, entry->slot, side, side, 1);
+    }
+  }
+}
+
+std::size_t TileTextures::slot_bytes() const {
+  std::size_t bytes = 0;
+  for (int k = 0; k < mips_; ++k)
+    bytes += 4UL * static_cast<std::size_t>((layout_.slot_px() >> k) * (layout_.slot_px() >> k));
+  return bytes;
+}
+
+bool TileTextures::grow() {
+  const int slots = std::min(most_slots_, slots_ == 0 ? kFirstSlots : 2 * slots_);
+  if (slots == slots_) return false;
+  gl::Texture larger = gl::make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(larger.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots);
+  for (int k = 0; k < mips_; ++k) {
+    const int side = layout_.slot_px() >> k;
+    if (!texture_) continue;
+    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0,
+                       side, side, slots_);
+  }
+  const bool first = !texture_;
+  texture_ = std::move(larger);
+  slots_ = slots;
+  if (first) paint_empty();
+  return true;
+}
+
+int TileTextures::take_slot(std::uint64_t frame) {
+  if (!free_.empty()) {
+    const int slot = free_.back();
+    free_.pop_back();
+    return slot;
+  }
+  if (used_ < slots_ || grow()) return used_++;
+  const std::optional<TileId> oldest = residency_.to_evict(frame, grid_.min_level);
+  if (!oldest) return -1;
+  const int slot = residency_.entry(*oldest).slot;
+  residency_.erase(*oldest);
+  return slot;
+}
+
+bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame) {
+  const TileResidency::Entry* there = residency_.find(id);
+  const int slot = there != nullptr && there->state == TileState::resident ? there->slot : take_slot(frame);
+  if (slot < 0) return false;
+  for (int k = 0; k < mips_ && k < static_cast<int>(mips.size()); ++k) {
+    const int side = layout_.mip_px(k);
+    glTextureSubImage3D(texture_.name(), k, 0, 0, slot, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mips[static_cast<std::size_t>(k)].data());
+  }
+  TileResidency::Entry& entry = residency_.entry(id);
+  entry.state = TileState::resident;
+  entry.slot = slot;
+  entry.last_drawn = frame;
+  join_gutters(id);
+  return true;
+}
+
+bool TileTextures::is_resident(const TileId& id) const {
+  const TileResidency::Entry* entry = residency_.find(id);
+  return entry != nullptr && entry->state == TileState::resident;
+}
+
+void TileTextures::join_gutters(const TileId& id) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    const std::int64_t y = id.y + dy;
+    if (y < 0 || y >= rows(grid_, id.level)) continue;
+    const int squeeze = squeeze_of_row(grid_, id.level, y);
+    if (squeeze == id.squeeze || id.squeeze == 0) join_row(id, dy);
+    if (squeeze == id.squeeze + 1) {
+      join_squeezed({id.level, id.x >> 1, y, squeeze}, id, -dy);
+    } else if (squeeze == id.squeeze - 1) {
+      for (const std::int64_t x : {2 * id.x, 2 * id.x + 1}) join_squeezed(id, {id.level, x, y, squeeze}, dy);
+    }
+  }
+}
+
+// With the neighbours of a row that is squeezed as much.
+void TileTextures::join_row(const TileId& id, int dy) {
+  for (int dx = -1; dx <= 1; ++dx) {
+    if (dx == 0 && dy == 0) continue;
+    const std::optional<TileId> other = beside(grid_, id, dx, dy);
+    if (!other || !is_resident(*other)) continue;
+    fill_gutter(id, *other, dx, dy);
+    if (*other != id) fill_gutter(*other, id, -dx, -dy);
+  }
+}
+
+// A wide tile and one of the two narrower ones that lie along its side `dy`.
+void TileTextures::join_squeezed(const TileId& wide, const TileId& narrow, int dy) {
+  if (!is_resident(wide) || !is_resident(narrow)) return;
+  const int half = static_cast<int>(narrow.x & 1);
+  stretch_gutter(wide, narrow, dy, half);
+  stretch_gutter(narrow, wide, -dy, half);
+}
+
+// Fills the gutter on side `dy` from a tile twice or half as wide: bilinear filtering takes the mean of two texels that
+// become one, and draws the line between two that become four.
+void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy, int half) {
+  if (!stretch_from_) {
+    stretch_from_ = gl::make_framebuffer();
+    stretch_into_ = gl::make_framebuffer();
+  }
+  const bool narrower = from.squeeze < into.squeeze;
+  glDisable(GL_SCISSOR_TEST);
+  for (int k = 0; k < mips_; ++k) {
+    const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k;
+    if (g == 0) return;
+    const int from_x = narrower ? g : g + half * t / 2, from_w = narrower ? t : t / 2;
+    const int into_x = narrower ? g + half * t / 2 : g, into_w = narrower ? t / 2 : t;
+    const int from_y = dy < 0 ? t : g, into_y = dy < 0 ? 0 : g + t;
+    glNamedFramebufferTextureLayer(stretch_from_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
+                                   residency_.entry(from).slot);
+    glNamedFramebufferTextureLayer(stretch_into_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
+                                   residency_.entry(into).slot);
+    glBlitNamedFramebuffer(stretch_from_.name(), stretch_into_.name(), from_x, from_y, from_x + from_w, from_y + g,
+                           into_x, into_y, into_x + into_w, into_y + g, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+}
+
+// Copies the strip of `from` that lies next to `into` on side (dx, dy) into that side's gutter, on every mip.
+void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, int dy) {
+  const int to_layer = residency_.entry(into).slot, from_layer = residency_.entry(from).slot;
+  // Where the last column reaches over +180° its own texels end before its edge.
+  int end_px = grid_.tile_px;
+  const std::int64_t across = squeezed_columns(grid_, into.level, into.squeeze);
+  if (dx < 0 && into.x == 0) {
+    end_px = static_cast<int>(*texels_around(grid_, into.level, into.squeeze) - (across - 1) * grid_.tile_px);
+  } else if (dx > 0 && into.x == across - 1 &&
+             *texels_around(grid_, into.level, into.squeeze) != across * grid_.tile_px) {
+    return;
+  }
+  for (int k = 0; k < mips_; ++k) {
+    const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k, end = end_px >> k;
+    if (g == 0 || end < g) return;
+    const auto strip = [g, t](int d) { return d == 0 ? t : g; };
+    const auto from_edge = [g](int d, int last) { return d < 0 ? last : g; };
+    const auto to_edge = [g, t](int d) { return d < 0 ? 0 : d > 0 ? g + t : g; };
+    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, from_edge(dx, end), from_edge(dy, t), from_layer,
+                       texture_.name(), GL_TEXTURE_2D_ARRAY, k, to_edge(dx), to_edge(dy), to_layer, strip(dx),
+                       strip(dy), 1);
+  }
+}
+
+}  // namespace terrella

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <vector>
+
+#include "render/gl/gl_handle.h"
+#include "surface/tile_coverage.h"
+#include "tiles/tile_grid.h"
+#include "tiles/tile_residency.h"
+
+namespace terrella {
+
+/// Where texels lie in a texture slot: tile_px of them behind a gutter, slot_px a side.
+struct SlotLayout {
+  int tile_px = 256;
+  int gutter_px = 8;
+  [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
+  /// What a tile fills of a slot's mip: less than all where halves of the gutter are not whole.
+  [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
+};
+
+/// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
+/// plain colour or transparent, for where there is no imagery. A slot's gutter holds the neighbours' texels as they
+/// come, so that filtering at a tile's border sees what lies beyond it. thread: main
+class TileTextures {
+ public:
+  TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
+
+  /// What slot 0 is; the plain colour at first.
+  enum class Empty { plain_colour, transparent };
+  void set_empty(Empty empty);
+  /// From now on; what was drawn longest ago gives way at once where there is less room.
+  void set_budget(std::size_t bytes);
+
+  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels a side, RGBA8 (engine/tiles/tile_texels.h). The
+  /// tile drawn longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do.
+  /// False: no room.
+  bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
+
+  [[nodiscard]] TileResidency& residency() { return residency_; }
+  [[nodiscard]] GLuint texture() const { return texture_.name(); }
+  [[nodiscard]] const SlotLayout& layout() const { return layout_; }
+  [[nodiscard]] int mips() const { return mips_; }
+  [[nodiscard]] int capacity() const { return most_slots_; }  ///< tiles that the budget has room for
+  [[nodiscard]] std::size_t slot_bytes() const;
+  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
+
+ private:
+  int take_slot(std::uint64_t frame);
+  [[nodiscard]] int slots_for(std::size_t bytes) const;
+  bool grow();
+  void shrink();
+  void paint_empty();
+  [[nodiscard]] bool is_resident(const TileId& id) const;
+  void join_gutters(const TileId& id);
+  void join_row(const TileId& id, int dy);
+  void join_squeezed(const TileId& wide, const TileId& narrow, int dy);
+  void fill_gutter(const TileId& into, const TileId& from, int dx, int dy);
+  void stretch_gutter(const TileId& into, const TileId& from, int dy, int half);
+
+  TileGrid grid_;
+  SlotLayout layout_;
+  int mips_;
+  int most_slots_;
+  int slots_ = 0;
+  int used_ = 1;
+  Empty empty_ = Empty::plain_colour;
+  std::vector<int> free_;
+  gl::Texture texture_;
+  gl::Framebuffer stretch_from_, stretch_into_;  ///< there once rows of different squeeze met
+  TileResidency residency_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "geo/ellipsoid.h"
+#include "surface/patch_tree.h"
+#include "tiles/height_tile.h"
+#include "tiles/tile_grid.h"
+
+namespace terrella {
+
+/// Heights between which something lies, metres.
+struct GroundRange {
+  double min_m = 0.0;
+  double max_m = 0.0;
+};
+
+/// The heights of a body as far as their tiles are there. A height belongs to its pixel's middle; between the middles
+/// of four pixels it is bilinear in longitude and row latitude (TileGrid). Pixels go on round ±180°; beyond a pole the
+/// last row repeats. A point takes the finest tile that is there and covers it; pixels beyond that tile's border are
+/// those of its neighbours of the same level, and where such a neighbour is not there the border's own once more. So
+/// heights are continuous but where levels meet. Where no tile is the height is 0.
+/// thread: main
+class HeightField {
+ public:
+  class Cursor;
+
+  HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid);
+
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+  /// A tile that exists in the grid, of its size; replaces the one that was there.
+  void add(HeightTile tile);
+  void remove(const TileId& id);  ///< nothing if it is not there
+  [[nodiscard]] bool has(const TileId& id) const { return tiles_.contains(id); }
+  [[nodiscard]] std::size_t size() const { return tiles_.size(); }
+  /// Changes with each add() and remove(): what was worked out under another number is out of date.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+
+  /// What the rows count, degrees, where the geodetic latitude is `lat`.
+  [[nodiscard]] double row_deg(Angle lat) const;
+  /// Metres times `exaggeration`. Longitude may be any turn; NaN gives 0.
+  [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
+  /// The same by the row latitude of grid(), degrees.
+  [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg) const;
+
+  /// No height in the box lies outside, rounding (1 part in 10^12) aside; the pixels that bound it may lie a block
+  /// (kBlock_px) beyond the box. East < west crosses ±180°.
+  [[nodiscard]] GroundRange range_m(const GeoRect& box, double exaggeration = 1.0) const;
+  /// Of a patch of that tree, whose rows may count otherwise than grid()'s.
+  [[nodiscard]] GroundRange range_m(const PatchTree& tree, const PatchNode& node, double exaggeration = 1.0) const;
+
+ private:
+  static constexpr int kBlock_px = 16;
+  struct Held {
+    HeightTile tile;
+    int blocks = 0;                    ///< a side
+    std::vector<GroundRange> extrema;  ///< of kBlock_px² pixels each, row-major
+    /// Columns and rows of the tile, from its north-west corner, that lie on the planet: beyond them pixels come from
+    /// elsewhere.
+    std::int64_t own_columns = 0, own_rows = 0;
+  };
+  /// Of a level, worked out once.
+  struct LevelSize {
+    double span_deg = 0.0;  ///< of a tile
+    double turn_px = 0.0;   ///< 360°, no whole number in some grids
+    std::int64_t columns = 0, rows = 0;
+    std::int64_t last_pixel_row = 0;
+  };
+  /// Pixels of a level, columns and rows from the grid's north-west corner, last ones included.
+  struct PixelBox {
+    std::int64_t x0, y0, x1, y1;
+  };
+  /// Row latitudes and longitudes, degrees, west < east, within [-180°, 180°].
+  struct RowBox {
+    double west, south, east, north;
+  };
+  struct Extrema;
+
+  [[nodiscard]] const Held* find(const TileId& id) const;
+  [[nodiscard]] TileId tile_at(int level, double row_latitude_deg, double lon_deg) const;
+  [[nodiscard]] const Held* finest_at(double row_latitude_deg, double lon_deg) const;
+  [[nodiscard]] const LevelSize& size_of(int level) const { return sizes_[static_cast<std::size_t>(level)]; }
+  [[nodiscard]] double turn_px(int level) const { return size_of(level).turn_px; }
+  [[nodiscard]] double pixel(const Held& own, std::int64_t x, std::int64_t y) const;
+  [[nodiscard]] double pixel_round_planet(const Held& own, std::int64_t x, std::int64_t y) const;
+  [[nodiscard]] double pixel_in_tiles(const Held& own, std::int64_t x, std::int64_t y) const;
+
+  [[nodiscard]] GroundRange range_of_rows(const GeoRect& rows, double exaggeration) const;
+  void widen_by_box(const RowBox& box, Extrema& extrema) const;
+  [[nodiscard]] bool touches(const TileId& id, const RowBox& box) const;
+  [[nodiscard]] bool served(const TileId& id, const RowBox& box, Extrema& extrema) const;
+  void widen_by_pixels(int level, const PixelBox& pixels, Extrema& extrema) const;
+  static void widen_by_blocks(const Held& held, const PixelBox& in_tile, Extrema& extrema);
+
+  Ellipsoid ellipsoid_;
+  TileGrid grid_;
+  std::array<LevelSize, kMaxTileLevel + 1> sizes_{};
+  std::unordered_map<TileId, Held, TileIdHash> tiles_;
+  std::unordered_map<TileId, int, TileIdHash> below_;  ///< how many finer tiles are there under a place
+  std::array<int, kMaxTileLevel + 1> of_level_{};
+  std::uint64_t version_ = 0;
+};
+
+/// Look-ups that lie near one another: the tile that served one is tried first for the next. Gives, to the bit, what
+/// the field gives; not to be used once the field has changed. thread: main
+class HeightField::Cursor {
+ public:
+  explicit Cursor(const HeightField& field) : field_(field) {}
+  [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg);
+  [[nodiscard]] double row_deg(Angle lat) const { return field_.row_deg(lat); }
+  /// Between the heights that served last, metres along a meridian at the equator; without any, of the coarsest level.
+  [[nodiscard]] double spacing_m() const;
+
+ private:
+  void find_tile(double row_latitude_deg, double lon_deg);
+
+  const HeightField& field_;
+  const Held* own_ = nullptr;
+  bool finest_ = false;  ///< no finer tile lies under own_
+};
+
+}  // namespace terrella

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "tiles/tile_grid.h"
+
+namespace terrella {
+
+/// Names a layer of one globe, never a second one of that globe. `none` is no layer.
+enum class LayerId : std::uint64_t { none = 0 };
+
+/// On which side of the terminator an image layer shows; it fades through civil twilight (surface/daylight.h). A globe
+/// that is unlit or has no time has no night: then layers by day show everywhere, and those by night nowhere.
+enum class Daylight {
+  both,
+  day,   ///< lit as any layer
+  night  ///< shines by itself: the light of the Sun does not change its colours
+};
+
+/// What a layer's transparency is taken from.
+enum class AlphaFrom {
+  own,        ///< its tiles' alpha; without any they are opaque
+  brightness  ///< the largest of red, green and blue too: black shows what lies under it, as pictures of clouds have it
+};
+
+/// How an image layer is shown; can change from frame to frame.
+struct ImageLook {
+  bool shown = true;
+  double opacity = 1.0;           ///< [0, 1]; goes with the alpha of the layer's own tiles
+  int min_level = 0;              ///< where a view asks for coarser tiles than these the layer is not drawn
+  int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
+  Daylight daylight = Daylight::both;
+  AlphaFrom alpha = AlphaFrom::own;
+  bool operator==(const ImageLook&) const = default;
+};
+
+}  // namespace terrella

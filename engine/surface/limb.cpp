@@ -1,0 +1,146 @@
+#include "surface/limb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "geo/scaled_space.h"
+#include "surface/patch_selection.h"
+
+namespace terrella {
+namespace {
+
+// Pieces of the curve that are looked at first; each is halved until it is straight or out of view.
+constexpr int kPieces = 48;
+// Less than the error that is promised: the rest is for what lies between the points that were looked at.
+constexpr double kStraight_px = 0.015;
+// A piece 2^-23 of the limb is a few pixels of the longest lens.
+constexpr int kMostHalvings = 18;
+// Around the picture: as much of the ribbon as may reach in.
+constexpr int kMargin_px = 8;
+
+class LimbCurve {
+ public:
+  LimbCurve(const View& view, const Ellipsoid& ellipsoid) : view_(view), axes_m_(semi_axes_m(ellipsoid)) {
+    const glm::dvec3 eye = view.eye.xyz_m / axes_m_;
+    const double length = glm::length(eye);
+    const glm::dvec3 all = view.eye.xyz_m + view.right + view.up + view.forward;
+    seen_from_outside_ = length > 1.0 && std::isfinite(all.x + all.y + all.z + view.tan_half_fov_y);
+    const glm::dvec3 axis = eye / length;
+    center_ = axis / length;
+    const double radius = std::sqrt(std::max(0.0, (length - 1.0) * (length + 1.0))) / length;
+    const glm::dvec3 other = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    u_ = radius * glm::normalize(glm::cross(axis, other));
+    v_ = radius * glm::normalize(glm::cross(axis, u_));
+  }
+
+  [[nodiscard]] bool seen_from_outside() const { return seen_from_outside_; }
+
+  // A point of the limb relative to the eye; t counts once round.
+  [[nodiscard]] glm::dvec3 from_eye_m(double t) const {
+    const double angle = 2.0 * std::numbers::pi * t;
+    return (center_ + std::cos(angle) * u_ + std::sin(angle) * v_) * axes_m_ - view_.eye.xyz_m;
+  }
+
+  // Pixels from the picture's centre, +y up; nothing behind the eye.
+  [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p) const {
+    const double depth = glm::dot(p, view_.forward);
+    if (depth <= 1e-9 * glm::length(p)) return std::nullopt;
+    return glm::dvec2(glm::dot(p, view_.right) - view_.shear_x * depth, glm::dot(p, view_.up)) *
+           (view_.pixels_per_radian() / depth);
+  }
+
+ private:
+  const View& view_;
+  glm::dvec3 axes_m_;
+  glm::dvec3 center_{0.0}, u_{0.0}, v_{0.0};
+  bool seen_from_outside_ = false;
+};
+
+View with_margin(View view) {
+  view.tan_half_fov_y *= 1.0 + 2.0 * kMargin_px / view.viewport.height_px;
+  view.viewport.width_px += 2 * kMargin_px;
+  view.viewport.height_px += 2 * kMargin_px;
+  return view;
+}
+
+bool straight(glm::dvec2 a, glm::dvec2 mid, glm::dvec2 b) {
+  const double length = glm::distance(a, b);
+  if (length < kStraight_px) return glm::distance(a, mid) < kStraight_px;
+  const glm::dvec2 along = (b - a) / length, d = mid - a;
+  return std::abs(along.x * d.y - along.y * d.x) < kStraight_px;
+}
+
+class RibbonWriter {
+ public:
+  RibbonWriter(const View& view, const LimbCurve& curve, double half_width_px, std::vector<LimbVertex>& strip)
+      : view_(view),
+        curve_(curve),
+        wide_(with_margin(view)),
+        planes_(view_planes(wide_)),
+        // The planet's centre tells which side of the curve is inside, also where the limb is cut by the picture's
+        // edge.
+        down_(-glm::normalize(view.eye.xyz_m)),
+        half_width_px_(half_width_px),
+        strip_(strip) {}
+
+  void piece(double from, double to, int halvings) {
+    const double middle = 0.5 * (from + to);
+    const glm::dvec3 p = curve_.from_eye_m(from), mid = curve_.from_eye_m(middle), q = curve_.from_eye_m(to);
+    // The arc bulges from its chord, never further from its middle than 1.1 times its ends are.
+    const double radius_m = 1.1 * std::max(glm::distance(p, mid), glm::distance(q, mid));
+    if (classify(planes_, wide_, {view_.eye.xyz_m + mid, radius_m}) < 0) return;
+    const auto a = curve_.pixel(p), m = curve_.pixel(mid), b = curve_.pixel(q);
+    if (halvings == 0 || (a && m && b && straight(*a, *m, *b))) {
+      if (a && b && glm::distance(*a, *b) > 1e-9) segment(*a, *b);
+      return;
+    }
+    piece(from, middle, halvings - 1);
+    piece(middle, to, halvings - 1);
+  }
+
+ private:
+  void segment(glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec2 half(0.5 * view_.viewport.width_px, 0.5 * view_.viewport.height_px);
+    const glm::dvec2 along = glm::normalize(b - a);
+    // Seen from outside the curve runs one way round the disc; which, shows the side of the nadir's direction.
+    glm::dvec2 out(along.y, -along.x);
+    const glm::dvec3 ray =
+        (view_.forward + view_.shear_x * view_.right) * view_.pixels_per_radian() + view_.right * a.x + view_.up * a.y;
+    const glm::dvec3 tilt = view_.right * out.x + view_.up * out.y;
+    if (glm::dot(tilt - ray * (glm::dot(tilt, ray) / glm::dot(ray, ray)), down_) > 0.0) out = -out;
+    const auto half_width = static_cast<float>(half_width_px_);
+    const LimbVertex corner[4] = {{glm::vec2((a - out * half_width_px_) / half), glm::vec2(out), -half_width},
+                                  {glm::vec2((a + out * half_width_px_) / half), glm::vec2(out), half_width},
+                                  {glm::vec2((b - out * half_width_px_) / half), glm::vec2(out), -half_width},
+                                  {glm::vec2((b + out * half_width_px_) / half), glm::vec2(out), half_width}};
+    if (!strip_.empty()) {
+      strip_.push_back(strip_.back());
+      strip_.push_back(corner[0]);
+    }
+    strip_.insert(strip_.end(), std::begin(corner), std::end(corner));
+  }
+
+  const View& view_;
+  const LimbCurve& curve_;
+  View wide_;
+  ViewPlanes planes_;
+  glm::dvec3 down_;
+  double half_width_px_;
+  std::vector<LimbVertex>& strip_;
+};
+
+}  // namespace
+
+std::vector<LimbVertex> limb_ribbon(const View& view, const Ellipsoid& ellipsoid, double half_width_px) {
+  std::vector<LimbVertex> strip;
+  const LimbCurve curve(view, ellipsoid);
+  if (!curve.seen_from_outside()) return strip;
+  RibbonWriter writer(view, curve, half_width_px, strip);
+  for (int k = 0; k < kPieces; ++k) writer.piece(double(k) / kPieces, double(k + 1) / kPieces, kMostHalvings);
+  return strip;
+}
+
+}  // namespace terrella

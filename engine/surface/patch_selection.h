@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geo/camera.h"
+#include "surface/patch_tree.h"
+#include "view/render_modes.h"
+
+namespace terrella {
+
+struct PatchSelectionOptions {
+  double max_error_px = 0.2;           ///< of the surface, and of interpolated texture coordinates
+  double band = 0.05;                  ///< a pole band is this part of the picture's height (paper 1, 1.5)
+  double texels_per_pixel = 1.0;       ///< detail asked of the imagery: 1, a texel a pixel along the meridian
+  double max_footprint_texels = 12.0;  ///< the longest extent of a pixel, in texels, that filtering reaches over
+  int max_window = 8;                  ///< a patch whose window has more cells a side is split
+  int max_polar_columns = 32;          ///< a patch that touches a pole takes a coarser level over this many columns
+  HorizonCulling horizon_culling = HorizonCulling::automatic;
+  double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
+  int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has
+};
+
+/// One patch to draw.
+struct SelectedPatch {
+  PatchNode* node = nullptr;
+  int tile_level = 0;         ///< of its window
+  bool squeezed = true;       ///< takes squeezed tiles where there are any, at that level; else those of the full grid
+  int squeeze = 0;            ///< of its window
+  unsigned coarse_sides = 0;  ///< bit k: the neighbour across PatchSide k is one level coarser
+  bool in_band = false;       ///< needs per-fragment coordinates
+  bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one
+  double pixel_m = 1.0;       ///< what a pixel covers on its nearest part, across the line of sight
+  double footprint_texels = 1.0;  ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
+  PatchNode* surface = nullptr;   ///< of further imagery: the node of the first tree that it lies on
+};
+
+/// Tiles of another grid over the same patches.
+struct FurtherImagery {
+  PatchTree* tree = nullptr;      ///< of the same body, tessellation and relief
+  double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
+  int least_level = 0;            ///< patches whose view asks for coarser tiles are left out
+  int max_tile_level = kMaxTileLevel;
+  std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
+};
+
+/// The four side planes of the view, for spheres: dot(normal, p - eye) ≥ -radius is (partly) inside.
+struct ViewPlanes {
+  std::array<glm::dvec3, 4> normals;
+};
+[[nodiscard]] ViewPlanes view_planes(const View& view);
+/// -1 outside, 0 cut, 1 inside.
+[[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
+
+/// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
+/// view, the tree (whose nodes it makes and stamps) and the options. An eye under the surface sees every patch in
+/// front of it that the inner sphere does not hide. A view with NaN selects nothing. Further imagery takes part in what
+/// is split: each patch suits all grids. thread: main
+void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
+                    std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further = {});
+
+}  // namespace terrella

@@ -1,0 +1,276 @@
+#include "surface/patch_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace terrella {
+namespace {
+
+// Longitude has no value at a pole: such a vertex takes no part in a patch's extent.
+bool on_axis(const EcefDir& n) { return n.xyz.x == 0.0 && n.xyz.y == 0.0; }
+
+double colatitude(const EcefDir& n) { return std::atan2(std::hypot(n.xyz.x, n.xyz.y), std::abs(n.xyz.z)); }
+
+// The points of the patch's border lattice. A patch has its pole, if any, at a corner, so the extremes of
+// latitude and longitude of all its vertices lie on the border.
+template <class Visit>
+void visit_border(const PatchId& id, int n, CubeMapping mapping, Visit visit) {
+  for (int k = 0; k < n; ++k) {
+    visit(patch_point(id, k, 0, n, mapping));
+    visit(patch_point(id, n, k, n, mapping));
+    visit(patch_point(id, n - k, n, n, mapping));
+    visit(patch_point(id, 0, n - k, n, mapping));
+  }
+}
+
+// Rows of an equal-area grid are taller on the ground towards the poles: d(latitude)/d(row latitude), at least.
+double least_row_stretch(const TileGrid& grid, double min_abs_lat_rad) {
+  if (grid.projection == Projection::equirectangular) return 1.0;
+  return (2.0 / std::numbers::pi) / std::max(1e-3, std::cos(min_abs_lat_rad));
+}
+
+void measure_extent(PatchNode& node, const Ellipsoid& ellipsoid, const TileGrid& grid, int n, CubeMapping mapping) {
+  const glm::dvec3 scale(1.0 / ellipsoid.a_m(), 1.0 / ellipsoid.a_m(), 1.0 / ellipsoid.b_m());
+  node.cone_axis = glm::normalize(node.sphere.center_m * scale);
+  node.west_deg = node.south_row_deg = 1e9;
+  node.east_deg = node.north_row_deg = -1e9;
+  node.min_colatitude_rad = 1e9;
+  double radius2 = 0.0;
+  double cos_cone = 1.0;
+  visit_border(node.id, n, mapping, [&](const EcefDir& normal) {
+    const glm::dvec3 p = ellipsoid.position(normal).xyz_m;
+    const glm::dvec3 d = p - node.sphere.center_m;
+    radius2 = std::max(radius2, glm::dot(d, d));
+    cos_cone = std::min(cos_cone, glm::dot(node.cone_axis, glm::normalize(p * scale)));
+    const double row = row_latitude_deg(grid, ellipsoid, normal);
+    node.south_row_deg = std::min(node.south_row_deg, row);
+    node.north_row_deg = std::max(node.north_row_deg, row);
+    node.min_colatitude_rad = std::min(node.min_colatitude_rad, colatitude(normal));
+    node.max_colatitude_rad = std::max(node.max_colatitude_rad, colatitude(normal));
+    if (on_axis(normal)) return;
+    const double lon = wrapped_deg(Ellipsoid::lat_lon(normal).lon.deg() - node.lon_center_deg);
+    node.west_deg = std::min(node.west_deg, lon);
+    node.east_deg = std::max(node.east_deg, lon);
+  });
+  // A hair wider than the vertices, for rounding: the spheres only ever cull.
+  node.sphere.radius_m =
+      std::sqrt(radius2) * (1.0 + 1e-9) + 1e-9 * ellipsoid.a_m() * std::numeric_limits<float>::epsilon();
+  node.cos_cone = std::clamp(cos_cone, -1.0, 1.0) - 1e-15;
+  node.sin_cone = std::sqrt(std::max(0.0, 1.0 - node.cos_cone * node.cos_cone));
+}
+
+// The point of a patch's extent at fractions of its longitude and row range.
+glm::dvec3 extent_point(const PatchTree& tree, const PatchNode& node, double lon_deg, double row_deg) {
+  const Angle lat = latitude_of_row(tree.grid(), tree.ellipsoid(), row_deg);
+  return tree.ellipsoid().position(Ellipsoid::normal(lat, Angle::degrees(lon_deg + node.lon_center_deg))).xyz_m;
+}
+
+// Patch borders on tile borders must not claim the tile beyond: a millionth of a tile is 0.0003 of a texel.
+constexpr double kSliver = 1e-6;
+
+struct WindowRows {
+  std::int64_t first, end;
+};
+
+// The rows of tiles that a patch lies on. One narrower than the sliver, at the planet's edge, lies on the last tile,
+// not on one beyond it.
+WindowRows window_rows(const TileGrid& grid, const PatchNode& node, int level) {
+  const double north = tile_xy(grid, level, node.north_row_deg, 0.0).y;
+  const double south = tile_xy(grid, level, node.south_row_deg, 0.0).y;
+  const std::int64_t first = std::min(static_cast<std::int64_t>(std::floor(north + kSliver)), rows(grid, level) - 1);
+  return {first, std::max(first + 1, static_cast<std::int64_t>(std::ceil(south - kSliver)))};
+}
+
+// Longitudes relative to the patch's centre, and rows.
+struct Extent {
+  double west_deg, east_deg, south_deg, north_deg;
+  [[nodiscard]] double lon_deg(double part) const { return west_deg + part * (east_deg - west_deg); }
+  [[nodiscard]] double row_deg(double part) const { return south_deg + part * (north_deg - south_deg); }
+};
+
+Extent cell_extent(const PatchTree& tree, const PatchNode& node, int x, int y) {
+  const TileWindow& win = node.window;
+  const TileBounds cell = tile_bounds(tree.grid(), TileId{win.level, win.x0 + x, win.y0 + y, win.squeeze});
+  return {std::max(cell.west_deg - node.lon_center_deg, node.west_deg),
+          std::min(cell.east_deg - node.lon_center_deg, node.east_deg), std::max(cell.south_deg, node.south_row_deg),
+          std::min(cell.north_deg, node.north_row_deg)};
+}
+
+BoundingSphere cell_sphere(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
+  BoundingSphere sphere{extent_point(tree, node, cell.lon_deg(0.5), cell.row_deg(0.5)), 0.0};
+  for (int k = 0; k < 9; ++k) {
+    const int column = k % 3, row = k / 3;
+    const glm::dvec3 p = extent_point(tree, node, cell.lon_deg(0.5 * column), cell.row_deg(0.5 * row));
+    sphere.radius_m = std::max(sphere.radius_m, glm::length(p - sphere.center_m));
+  }
+  return sphere;
+}
+
+SurfaceLattice lattice_over(const PatchTree& tree, const PatchNode& node, const Extent& cell) {
+  SurfaceLattice lattice;
+  lattice.points_m.reserve(static_cast<std::size_t>(kLatticeQuads + 1) * (kLatticeQuads + 1));
+  for (int j = 0; j <= kLatticeQuads; ++j) {
+    for (int i = 0; i <= kLatticeQuads; ++i) {
+      lattice.points_m.push_back(
+          extent_point(tree, node, cell.lon_deg(double(i) / kLatticeQuads), cell.row_deg(double(j) / kLatticeQuads)));
+    }
+  }
+  // Sagittas of a quad's sides: of a parallel by its own radius, of a meridian by the least radius of curvature, b²/a;
+  // a tenth more, as an arc of a few degrees is no parabola.
+  const Ellipsoid& e = tree.ellipsoid();
+  double parallel_m = 0.0, side_m = 0.0;
+  for (std::size_t k = 0; k < lattice.points_m.size(); ++k) {
+    const glm::dvec3& p = lattice.points_m[k];
+    parallel_m = std::max(parallel_m, std::hypot(p.x, p.y));
+    if (k > kLatticeQuads) side_m = std::max(side_m, glm::length(p - lattice.points_m[k - kLatticeQuads - 1]));
+  }
+  const double step_rad = (cell.east_deg - cell.west_deg) / kLatticeQuads * (std::numbers::pi / 180.0);
+  lattice.bulge_m = 1.1 / 8.0 * (parallel_m * step_rad * step_rad + side_m * side_m * e.a_m() / (e.b_m() * e.b_m()));
+  return lattice;
+}
+
+}  // namespace
+
+double wrapped_deg(double deg) { return deg - 360.0 * std::round(deg / 360.0); }
+
+glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal) {
+  return {normal.x, normal.y, grid.latitude == LatitudeKind::centric ? normal.z * ellipsoid.one_minus_e2() : normal.z};
+}
+
+PatchTree::PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping)
+    : ellipsoid_(ellipsoid), grid_(grid), segments_(segments), mapping_(mapping) {
+  for (int f = 0; f < kCubeFaces; ++f) {
+    roots_[static_cast<std::size_t>(f)] = &make_node(PatchId{static_cast<CubeFace>(f), 0, 0, 0}, nullptr);
+  }
+}
+
+PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
+  PatchNode& node = free_.empty() ? nodes_.emplace_back() : *free_.back();
+  if (!free_.empty()) free_.pop_back();
+  node.serial = ++serial_;
+  node.id = id;
+  node.parent = parent_node;
+  const EcefDir center = patch_point(id, 1, 1, 2, mapping_);
+  node.normal = center.xyz;
+  node.sphere.center_m = ellipsoid_.position(center).xyz_m;
+  node.lon_center_deg = Ellipsoid::lat_lon(center).lon.deg();
+  node.row_center_deg = row_latitude_deg(grid_, ellipsoid_, center);
+  const glm::dvec3 m = glm::normalize(row_direction(grid_, ellipsoid_, center.xyz));
+  const double equatorial = std::hypot(m.x, m.y);
+  node.frame = equatorial > 0.0 ? glm::dvec4(m.x / equatorial, m.y / equatorial, equatorial, m.z)
+                                : glm::dvec4(1.0, 0.0, 0.0, m.z);
+  measure_extent(node, ellipsoid_, grid_, segments_, mapping_);
+  node.relief.flat = node.sphere;
+  node.relief.flat_cone_rad = std::acos(node.cos_cone);
+
+  // A segment spans at most π/2 / (2^level n), under the plain mapping 4/π as much; over the diagonal of a quad the
+  // chord sags (√2 Δ)²/8 of the radius of curvature, which is at most a²/b.
+  const double face_rad = mapping_ == CubeMapping::plain ? 2.0 : 0.5 * std::numbers::pi;
+  const double segment = face_rad / (std::ldexp(1.0, id.level) * segments_);
+  node.geometric_error_m = ellipsoid_.a_m() * (ellipsoid_.a_m() / ellipsoid_.b_m()) * segment * segment * 0.25;
+  // Along a course ds = (a east, b north), d²(longitude)/ds² · cos(latitude) = 2 a b tan(latitude) and d²(latitude)/ds²
+  // = -a² tan(latitude), for equal-area rows -tan(latitude): together at most 2/√3, or √2, times the tangent. The
+  // coordinate, interpolated along the chord, lags by that times the same Δ²/4.
+  const double colat = std::max(node.min_colatitude_rad, segment);
+  const double worst_course =
+      grid_.projection == Projection::equal_area ? std::numbers::sqrt2 : 2.0 * std::numbers::inv_sqrt3;
+  node.texture_error_factor = std::max(1.0, worst_course / std::tan(std::min(colat, 1.5)));
+  node.row_stretch = least_row_stretch(grid_, 0.5 * std::numbers::pi - node.max_colatitude_rad);
+  return node;
+}
+
+void PatchTree::ensure_children(PatchNode& node) {
+  if (std::exchange(node.children_used, frame_) != frame_) used_ += 4;
+  if (node.children[0] != nullptr) return;
+  const auto ids = terrella::children(node.id);
+  for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
+}
+
+PatchNode& PatchTree::node(const PatchId& id) {
+  PatchNode* found = &root(id.face);
+  for (int shift = id.level - 1; shift >= 0; --shift) {
+    ensure_children(*found);
+    found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
+  }
+  return *found;
+}
+
+void PatchTree::end_frame(std::size_t many) {
+  const std::size_t most = std::max(many, 3 * used_);
+  // A part more than must, so that few frames drop any.
+  if (size() > most) drop_oldest(size() - most * 3 / 4);
+  used_ = 0;
+  ++frame_;
+}
+
+// No frame comes to a node without coming to its parent: what lies under a node that goes is as old, and goes too.
+void PatchTree::drop_oldest(std::size_t nodes) {
+  const auto is_old = [this](const PatchNode& node) {
+    return node.children[0] != nullptr && node.children_used < frame_;
+  };
+  std::vector<std::uint64_t> ages;
+  for (const PatchNode& node : nodes_) {
+    if (is_old(node)) ages.push_back(node.children_used);
+  }
+  if (ages.empty()) return;
+  const auto last = ages.begin() + static_cast<std::ptrdiff_t>(std::min(nodes / 4, ages.size() - 1));
+  std::nth_element(ages.begin(), last, ages.end());
+  const auto kept = free_.size();
+  for (PatchNode& node : nodes_) {
+    if (!is_old(node) || node.children_used > *last) continue;
+    free_.insert(free_.end(), node.children.begin(), node.children.end());
+    node.children = {};
+  }
+  for (PatchNode* node : std::span(free_).subspan(kept)) *node = PatchNode{};
+  for (PatchNode& node : nodes_) {
+    for (PatchNode*& beside : node.beside) {
+      if (beside != nullptr && beside->serial == 0) beside = nullptr;
+    }
+  }
+}
+
+int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
+  if (!grid_.reduced) return 0;
+  const WindowRows span = window_rows(grid_, node, tile_level);
+  // From the equator to a pole rows are squeezed more and more.
+  return std::min(squeeze_of_row(grid_, tile_level, span.first), squeeze_of_row(grid_, tile_level, span.end - 1));
+}
+
+const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze) {
+  TileWindow& win = node.window;
+  if (win.level == tile_level && win.squeeze == squeeze) return win;
+  const WindowRows span = window_rows(grid_, node, tile_level);
+  win.level = tile_level;
+  win.squeeze = squeeze;
+  win.y0 = span.first;
+  win.h = static_cast<int>(span.end - span.first);
+  const double west = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.west_deg).x;
+  const double east = tile_xy(grid_, tile_level, 0.0, node.lon_center_deg + node.east_deg).x;
+  const std::int64_t last = squeezed_columns(grid_, tile_level, win.squeeze) - 1;
+  win.x0 = std::min(static_cast<std::int64_t>(std::floor(std::ldexp(west + kSliver, -win.squeeze))), last);
+  const auto end = static_cast<std::int64_t>(std::ceil(std::ldexp(east - kSliver, -win.squeeze)));
+  win.w = static_cast<int>(std::max(win.x0 + 1, end) - win.x0);
+  win.cells.clear();
+  win.cells.reserve(static_cast<std::size_t>(win.w) * static_cast<std::size_t>(win.h));
+  for (int y = 0; y < win.h; ++y) {
+    for (int x = 0; x < win.w; ++x) {
+      const BoundingSphere whole = cell_sphere(*this, node, cell_extent(*this, node, x, y));
+      win.cells.push_back({whole, ellipsoid_.surface_normal({whole.center_m}).xyz, {}});
+    }
+  }
+  return win;
+}
+
+const SurfaceLattice& PatchTree::cell_lattice(PatchNode& node, int x, int y) {
+  CellExtent& cell =
+      node.window
+          .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(node.window.w) + static_cast<std::size_t>(x)];
+  if (cell.lattice.points_m.empty()) cell.lattice = lattice_over(*this, node, cell_extent(*this, node, x, y));
+  return cell.lattice;
+}
+
+}  // namespace terrella

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "geo/camera.h"
+#include "surface/patch_id.h"
+#include "tiles/tile_grid.h"
+
+namespace terrella {
+
+/// A sphere that holds something, ECEF metres.
+struct BoundingSphere {
+  glm::dvec3 center_m{0.0};
+  double radius_m = 0.0;
+};
+
+/// Points of a surface, ECEF metres, row-major, kLatticeQuads + 1 a side.
+struct SurfaceLattice {
+  std::vector<glm::dvec3> points_m;
+  double bulge_m = 0.0;  ///< the surface rises at most this far over a quad's corners
+};
+inline constexpr int kLatticeQuads = 4;
+
+/// What a cell of a window shares with its patch.
+struct CellExtent {
+  BoundingSphere whole;
+  glm::dvec3 up{0.0};      ///< geodetic normal in its middle
+  SurfaceLattice lattice;  ///< empty until it is asked for
+};
+
+/// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
+/// each cell of the window names one tile (engine/DESIGN.md, 5). Where all rows are reduced the columns are wide ones,
+/// as those of the row that is squeezed least.
+struct TileWindow {
+  int level = -1;
+  int squeeze = 0;  ///< a cell spans 2^squeeze columns of the full grid
+  std::int64_t x0 = 0, y0 = 0;
+  int w = 0, h = 0;
+  std::vector<CellExtent> cells;  ///< row-major
+};
+
+/// A difference of longitudes brought into [-180°, 180°]. thread: any
+[[nodiscard]] double wrapped_deg(double deg);
+
+/// What heights make of a patch; surface/relief.h. Without relief all of it stays as it is.
+struct PatchRelief {
+  BoundingSphere flat;         ///< that holds the patch without heights
+  double flat_cone_rad = 0.0;  ///< half angle of the cone that does
+  double middle_m = 0.0;       ///< its heights lie within half_m of this
+  double half_m = 0.0;
+  std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
+  std::vector<glm::vec2> slopes;  ///< of the ground there: rise a metre towards east and north
+  double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
+  std::uint64_t made = 0;         ///< counts up as heights_m changes
+  std::uint64_t bounds_seen = 0, mesh_seen = 0;
+};
+
+/// What never changes about a patch, worked out once and kept in the tree.
+struct PatchNode {
+  PatchId id;
+  std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
+  BoundingSphere sphere;
+  /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
+  /// half angle.
+  glm::dvec3 cone_axis{0.0};
+  double cos_cone = 1.0, sin_cone = 0.0;
+  glm::dvec3 normal{0.0};          ///< geodetic normal at the centre
+  double geometric_error_m = 0.0;  ///< largest distance between the mesh and the ellipsoid
+  double texture_error_factor =
+      1.0;  ///< interpolated texture coordinates are off by at most this times geometric_error_m
+  /// Cosine and sine of the centre's longitude and of its counted latitude (graphic or centric, see row_direction()).
+  glm::dvec4 frame{1.0, 0.0, 1.0, 0.0};
+  double lon_center_deg = 0.0;                      ///< longitude unwraps around this
+  double row_center_deg = 0.0;                      ///< row latitude of the centre
+  double west_deg = 0.0, east_deg = 0.0;            ///< relative to lon_center_deg
+  double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
+  double min_colatitude_rad = 0.0;                  ///< of the patch's point nearest to a pole
+  double max_colatitude_rad = 0.0;                  ///< of the point farthest from that pole
+  double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
+
+  PatchNode* parent = nullptr;
+  std::array<PatchNode*, 4> children{};  ///< all or none
+  std::uint64_t children_used = 0;       ///< number of the frame that came to them last
+  std::array<PatchNode*, 4> beside{};    ///< by PatchSide, across it: the deepest node found to hold that neighbour
+  std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
+  std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
+  TileWindow window;                     ///< of the level last asked for
+  PatchRelief relief;
+};
+
+/// The direction whose latitude the grid's rows count, not normalised: the geodetic normal, or for planetocentric
+/// grids the radius vector of the surface point, (n.x, n.y, (1 - e²) n.z).
+[[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
+
+class Relief;
+
+/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited, and
+/// dropped when no frame has come to them for long. thread: main
+class PatchTree {
+ public:
+  /// `segments` a side of each patch: even, in [2, 128].
+  PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping = CubeMapping::tangent);
+
+  [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }
+  /// A node by its name, made if it is not there.
+  [[nodiscard]] PatchNode& node(const PatchId& id);
+  /// The four children, made if they are not there.
+  void ensure_children(PatchNode& node);
+  /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
+  [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
+  /// The node's window at a tile level, its columns squeezed as given (0 or window_squeeze()); kept until another one
+  /// is asked for.
+  const TileWindow& window(PatchNode& node, int tile_level, int squeeze);
+  /// Of cell (x, y) of the node's window as it is, counted from its north-west corner.
+  const SurfaceLattice& cell_lattice(PatchNode& node, int x, int y);
+
+  /// The ground that patches follow; none: the ellipsoid. Set once, before the first selection; it must outlive the
+  /// tree.
+  void set_relief(Relief& relief) { relief_ = &relief; }
+  [[nodiscard]] Relief* relief() const { return relief_; }
+
+  [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
+  [[nodiscard]] const TileGrid& grid() const { return grid_; }
+  [[nodiscard]] int segments() const { return segments_; }
+  [[nodiscard]] CubeMapping mapping() const { return mapping_; }
+  [[nodiscard]] std::size_t size() const { return nodes_.size() - free_.size(); }
+  /// A frame is done. Where there are more than `many` nodes, and over three times as many as the frame came to, those
+  /// go that frames came to longest ago; never one that this frame came to.
+  void end_frame(std::size_t many = kManyNodes);
+  /// A number for one selection: marks in nodes that carry another one are out of date.
+  [[nodiscard]] std::uint64_t next_stamp() { return ++stamp_; }
+
+ private:
+  static constexpr std::size_t kManyNodes = 2048;
+
+  PatchNode& make_node(const PatchId& id, PatchNode* parent);
+  void drop_oldest(std::size_t nodes);
+
+  Ellipsoid ellipsoid_;
+  TileGrid grid_;
+  int segments_;
+  CubeMapping mapping_;
+  Relief* relief_ = nullptr;
+  std::deque<PatchNode> nodes_;
+  std::vector<PatchNode*> free_;  ///< of nodes_, dropped
+  std::uint64_t serial_ = 0;
+  std::uint64_t frame_ = 1;
+  std::size_t used_ = 0;  ///< nodes that this frame came to
+  std::array<PatchNode*, kCubeFaces> roots_{};
+  std::uint64_t stamp_ = 0;
+};
+
+}  // namespace terrella

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "geo/camera.h"
+#include "surface/height_field.h"
+#include "surface/patch_selection.h"
+#include "surface/patch_tree.h"
+#include "surface/tile_coverage.h"
+#include "tiles/height_tile.h"
+#include "tiles/tile_residency.h"
+#include "view/ground.h"
+
+namespace terrella {
+
+/// The ground of a body: which heights a view asks for, and what the heights that are there make of patches. A height
+/// raises a point along its geodetic normal, and is a function of the point alone, so patches that share a vertex raise
+/// it alike and texture coordinates stay what they were. thread: main
+class Relief : public GroundHeights {
+ public:
+  /// `exaggeration` is applied to what is drawn, picked and collided with.
+  Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggeration, std::size_t budget_bytes = 256UL << 20);
+
+  [[nodiscard]] const TileGrid& grid() const { return field_.grid(); }
+  [[nodiscard]] const HeightField& field() const { return field_; }
+  [[nodiscard]] double exaggeration() const { return exaggeration_; }
+
+  /// From now on: everything is raised anew.
+  void set_exaggeration(double exaggeration);
+  /// A tile has come; what lies under it is raised anew.
+  void add(HeightTile tile);
+  /// States of the tiles. A missing tile's ancestors serve instead.
+  [[nodiscard]] TileResidency& tiles() { return tiles_; }
+  [[nodiscard]] int missing() const { return static_cast<int>(tiles_.count(TileState::missing)); }
+  /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
+  [[nodiscard]] double height_m(Angle lat, Angle lon) const override {
+    return field_.height_m(lat, lon, exaggeration_);
+  }
+  [[nodiscard]] std::optional<double> intersect_m(const Ecef& origin, const EcefDir& direction,
+                                                  double radians_per_px) const override;
+  /// Lowest and highest height in any tile loaded so far, exaggerated.
+  [[nodiscard]] GroundRange range_m() const {
+    return {.min_m = exaggeration_ * range_.min_m, .max_m = exaggeration_ * range_.max_m};
+  }
+
+  /// How many meshes of these patches the coming of a tile puts out of date.
+  [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
+
+  /// From now on this many meshes may be made before may_split() asks for patience: a frame's share.
+  void set_mesh_budget(int meshes) { meshes_left_ = meshes; }
+  /// A selection begins: none of its patches has been put off.
+  void begin_selection() { put_off_ = 0; }
+  /// Whether a patch that follows the ground badly gives way to its children now. Not, and it is counted, if they were
+  /// never made and the budget is spent: it is drawn for a frame more. What must be drawn is made in any case.
+  [[nodiscard]] bool may_split(const PatchNode& node);
+  /// Patches that the last selection drew coarser than it should.
+  [[nodiscard]] int put_off() const { return put_off_; }
+  /// Of the tiles that are there.
+  [[nodiscard]] std::size_t bytes() const { return field_.size() * tile_bytes_; }
+  [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
+
+  /// Brings a node's bounds up to date with the heights: its sphere, the cone that the horizon is tested by.
+  void refresh_bounds(const PatchTree& tree, PatchNode& node);
+  /// The heights of its vertices, the slopes there and how far the ground lies from the mesh between them.
+  void refresh_mesh(const PatchTree& tree, PatchNode& node);
+
+  /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
+  /// that no view has wanted for long are evicted when the budget is used up.
+  [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
+
+ private:
+  /// Where heights have changed, degrees; row latitudes of the heights' grid.
+  struct Change {
+    double west, east, south, north;
+  };
+  [[nodiscard]] bool touches(const PatchTree& tree, const PatchNode& node, const Change& change) const;
+  [[nodiscard]] Change change_of(const TileId& id) const;
+  [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const;
+  [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
+  void note_change(const Change& change);
+  void measure_vertices(const PatchTree& tree, PatchNode& node) const;
+  void measure_error(const PatchTree& tree, PatchNode& node) const;
+  [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
+  void want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted);
+  void stamp(TileResidency::Entry& entry) const;
+  void keep_to_budget();
+
+  Ellipsoid ellipsoid_;
+  HeightField field_;
+  double exaggeration_;
+  std::size_t tile_bytes_;
+  std::size_t most_tiles_;
+  std::deque<Change> changes_;  ///< the latest ones
+  std::uint64_t changes_forgotten_ = 0;
+  int meshes_left_ = 0;
+  int put_off_ = 0;
+  std::uint64_t meshes_made_ = 0;
+  GroundRange range_;  ///< as the tiles have it
+  TileResidency tiles_;
+  std::uint64_t round_ = 0;  ///< counts calls of want()
+};
+
+}  // namespace terrella

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "surface/patch_selection.h"
+#include "tiles/tile_residency.h"
+
+namespace terrella {
+
+/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word: the array layer in bits 0 to 15, how
+/// many cells its tile spans along a meridian, as a power of two, in bits 16 to 23 and along the parallel in bits 24 to
+/// 31. The low bits of the cell's column and row say which part of that tile it is (shaders/surface/patch_common.glsl).
+using WindowCell = std::uint32_t;
+[[nodiscard]] constexpr WindowCell window_cell(int layer, int log2_rows, int log2_columns) {
+  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(log2_rows) << 16U |
+         static_cast<WindowCell>(log2_columns) << 24U;
+}
+
+/// What the programs must know of a patch besides its vertices.
+struct PatchDraw {
+  glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row
+                               ///< latitude. Window points count cells from the window's north-west corner
+  glm::vec4 frame;             ///< PatchNode::frame
+  glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
+  glm::uvec4 window;  ///< first cell; width | height << 16; column and row of that first cell, modulo 2^24
+};
+
+/// A tile that the view wants, with how much.
+struct WantedTile {
+  TileId id;
+  double priority = 0.0;  ///< larger first: coarse before fine, then large on the screen
+};
+
+struct TileCoverage {
+  std::vector<PatchDraw> draws;  ///< one for each selected patch
+  std::vector<WindowCell> cells;
+  std::vector<WantedTile> wanted;  ///< not there and not lacking; root tiles first
+  int tiles = 0;                   ///< tiles of the view at full quality
+  int missing = 0;                 ///< of those, not there yet
+  int lacking = 0;                 ///< of those, replaced by an ancestor for good
+  int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
+  bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
+};
+
+/// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
+/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Stamps what is drawn with
+/// `frame`. Longitude wraps; cells beyond the planet repeat its edge. What the grid's bounds do not have takes an
+/// ancestor too, or nothing. `texels_per_pixel` as in the patches' selection: a cell that asks for less than its patch
+/// takes a coarser tile, and away from the equator one whose texels are a little longer than a pixel if the view would
+/// want far more texels of a full grid than it has pixels. thread: main
+enum class OutOfBounds { ancestor, nothing };
+void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
+                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel = 1.0,
+                      OutOfBounds out_of_bounds = OutOfBounds::ancestor);
+
+/// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).
+[[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);
+
+}  // namespace terrella

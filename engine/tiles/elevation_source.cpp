@@ -1,0 +1,80 @@
+#include "tiles/elevation_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geo/longitudes.h"
+#include "tiles/height_decoder.h"
+
+namespace terrella {
+namespace {
+
+/// Tiles of the coarsest level that are looked at to find one that is there.
+constexpr std::int64_t kMaxLookedAt = 64;
+
+std::string text_of(const GeoRect& rect) {
+  return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", rect.west.deg(), rect.south.deg(), rect.east.deg(),
+                     rect.north.deg());
+}
+
+bool holds(const GeoRect& outer, const GeoRect& inner, double slack_deg) {
+  if (inner.north.deg() > outer.north.deg() + slack_deg || inner.south.deg() < outer.south.deg() - slack_deg) {
+    return false;
+  }
+  if (width_deg(outer) >= 360.0 - slack_deg) return true;
+  // Counted from a little west of the outer one's border, so that a border shared is not a turn away.
+  const double from = degrees_east(inner.west.deg(), outer.west.deg() - slack_deg);
+  return from + width_deg(inner) <= width_deg(outer) + 2.0 * slack_deg;
+}
+
+}  // namespace
+
+Result<ElevationSource> ElevationSource::open(std::shared_ptr<TileSource> tiles, const std::string& name,
+                                              const GeoRect& covered) {
+  const TileSetInfo& info = tiles->info();
+  if (!info.elevation) {
+    return Error{
+        fmt::format("{}: its tiles are pictures, not heights; `terrella cut --elevation` makes tiles of heights of a "
+                    "picture of 16 bits or floats, gdal_translate -of GPKG of a raster of Int16 or Float32",
+                    name)};
+  }
+  const double pixel_deg = tile_span_deg(info.grid, info.grid.max_level) / info.grid.tile_px;
+  if (!holds(info.grid.bounds, covered, 0.5 * pixel_deg)) {
+    return Error{
+        fmt::format("{}: its heights cover {} (west, south, east, north) and must cover {}; give heights for all of it "
+                    "(gdalwarp -te, heights of 0 where there are none)",
+                    name, text_of(info.grid.bounds), text_of(covered))};
+  }
+  ElevationSource source(std::move(tiles));
+  if (Status first = source.try_first_tile(name); !first) return first.error();
+  return source;
+}
+
+Status ElevationSource::try_first_tile(const std::string& name) const {
+  const int level = grid().min_level;
+  const std::int64_t width = columns(grid(), level);
+  const std::int64_t count = std::min(kMaxLookedAt, width * rows(grid(), level));
+  for (std::int64_t i = 0; i < count; ++i) {
+    const TileId id{.level = level, .x = i % width, .y = i / width};
+    const auto heights = read(id);
+    if (heights) return Done{};
+    if (heights.error().kind != Absence::broken) continue;
+    return Error{fmt::format("{}: the tile of level {}, column {}, row {} is no tile of heights: {}", name, level, id.x,
+                             id.y, heights.error().why)};
+  }
+  return Done{};
+}
+
+Result<HeightTile, TileFailure> ElevationSource::read(const TileId& id) const {
+  const auto tile = tiles_->read(id);
+  if (!tile) return tile.error();
+  return decode(id, *tile);
+}
+
+Result<HeightTile, TileFailure> ElevationSource::decode(const TileId& id, const EncodedTile& tile) const {
+  const TileSetInfo& info = tiles_->info();
+  return decode_heights(id, tile, *info.elevation, info.grid.tile_px);
+}
+
+}  // namespace terrella

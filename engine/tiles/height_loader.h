@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "tiles/elevation_source.h"
+#include "tiles/height_tile.h"
+#include "tiles/tile_loader.h"
+
+namespace terrella {
+
+struct HeightLoaderOptions {
+  int workers = 1;                              ///< threads that read and decode, [1, 64]
+  std::size_t max_finished_bytes = 16UL << 20;  ///< decoded tiles waiting to be polled; workers pause over it
+  std::shared_ptr<ArrivalBell> bell = {};       ///< rung when a tile is finished; may be none
+};
+
+extern template class Loader<HeightTile>;
+
+/// Loads heights.
+class HeightLoader : public Loader<HeightTile> {
+ public:
+  HeightLoader(const ElevationSource& source, const HeightLoaderOptions& options = {});
+};
+using LoadedHeights = Loaded<HeightTile>;
+
+}  // namespace terrella

@@ -1,0 +1,356 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <thread>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "tiles/arrival_bell.h"
+#include "tiles/tile_loader.h"
+#include "tiles/tile_source.h"
+
+namespace terrella {
+
+/// What is behind a Loader. `Decoded` has a size_bytes(). start_scheduler() makes it: an answer of the network may come
+/// after its owner is gone.
+template <class Decoded>
+class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>> {
+ public:
+  using Decode = std::function<Result<Decoded, TileFailure>(const TileId& id, const EncodedTile& tile)>;
+  using Finished = Loaded<Decoded>;
+
+  /// `decode` runs in several workers at once; what it throws makes the tile a failed one.
+  TileScheduler(std::shared_ptr<TileSource> source, Decode decode, std::size_t max_finished_bytes,
+                std::shared_ptr<ArrivalBell> bell)
+      : source_(std::move(source)),
+        decode_(std::move(decode)),
+        max_finished_bytes_(max_finished_bytes),
+        bell_(std::move(bell)) {}
+
+  // thread: main
+  void start(int workers) {
+    for (int i = 0; i < workers; ++i) {
+      try {
+        workers_.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {
+        if (workers_.empty()) throw;
+        return;  // the system has no more threads: fewer will do
+      }
+    }
+  }
+  void stop();  ///< joins the workers; what was not started is dropped
+  void request(std::span<const TileRequest> wanted);
+  [[nodiscard]] std::vector<Finished> poll(std::size_t max_bytes);
+  bool wait(std::chrono::steady_clock::time_point deadline);
+  [[nodiscard]] LoaderCounts counts() const;
+
+ private:
+  using TileIdSet = std::unordered_set<TileId, TileIdHash>;
+  using Wishes = std::unordered_map<TileId, double, TileIdHash>;
+  using Encoded = Result<EncodedTile, TileFailure>;
+  struct Arrived {
+    TileId id;
+    Encoded encoded;
+  };
+
+  // thread: main
+  [[nodiscard]] static Wishes best_wishes(std::span<const TileRequest> wanted);
+  [[nodiscard]] bool under_way(const TileId& id) const;
+  /// What a finished tile counts against the bound. A failure counts a little, so that they are bounded too.
+  [[nodiscard]] static std::size_t weight_bytes(const Finished& finished) {
+    constexpr std::size_t kFailureBytes = 1024;
+    return finished.tile ? size_bytes(*finished.tile) : kFailureBytes;
+  }
+
+  // thread: worker
+  void work();
+  void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
+  [[nodiscard]] Encoded read(const TileId& id);
+  [[nodiscard]] static TileFailure failure_of(const std::exception& error) {
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    return {Absence::failed, memory ? "not enough memory" : error.what()};
+  }
+  void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
+  [[nodiscard]] Result<Decoded, TileFailure> decoded(const Arrived& tile) const;
+  [[nodiscard]] bool may_start() const {
+    return !(waiting_.empty() && arrived_.empty()) && finished_bytes_ < max_finished_bytes_;
+  }
+
+  // thread: network
+  void arrive(const TileId& id, Encoded encoded);
+
+  const std::shared_ptr<TileSource> source_;
+  const Decode decode_;
+  RemoteTiles* const remote_ = source_->remote();
+  const std::size_t max_finished_bytes_;
+  const std::shared_ptr<ArrivalBell> bell_;  ///< may be none
+
+  mutable std::mutex mutex_;  ///< guards all below but `workers_`
+  std::condition_variable work_changed_;
+  std::condition_variable finished_changed_;
+  bool stopping_ = false;
+  std::vector<TileRequest> waiting_;  ///< ascending priority: the next one is the last
+  TileIdSet running_;
+  TileIdSet fetching_;
+  std::deque<Arrived> arrived_;
+  TileIdSet finished_ids_;
+  std::deque<Finished> finished_;
+  std::size_t finished_bytes_ = 0;
+  std::size_t read_ = 0;
+  std::size_t lacked_ = 0;
+
+  std::vector<std::thread> workers_;
+};
+
+// ---- thread: main
+
+template <class Decoded>
+void TileScheduler<Decoded>::stop() {
+  TileIdSet given_up;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    waiting_.clear();
+    given_up.swap(fetching_);
+  }
+  for (const TileId& id : given_up) remote_->cancel(id);
+  work_changed_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+template <class Decoded>
+typename TileScheduler<Decoded>::Wishes TileScheduler<Decoded>::best_wishes(std::span<const TileRequest> wanted) {
+  // A NaN would break the order of the list: it comes last.
+  const auto rank = [](double priority) {
+    return priority == priority ? priority : -std::numeric_limits<double>::infinity();
+  };
+  Wishes best;
+  best.reserve(wanted.size());
+  for (const TileRequest& request : wanted) {
+    const auto [entry, is_new] = best.try_emplace(request.id, rank(request.priority));
+    if (!is_new) entry->second = std::max(entry->second, rank(request.priority));
+  }
+  return best;
+}
+
+template <class Decoded>
+void TileScheduler<Decoded>::request(std::span<const TileRequest> wanted) {
+  const Wishes best = best_wishes(wanted);
+  std::vector<TileRequest> wishes;
+  wishes.reserve(best.size());
+  for (const auto& [id, priority] : best) wishes.push_back({id, priority});
+  // The identity settles ties, so that the order of reading does not hang on a hash.
+  std::sort(wishes.begin(), wishes.end(), [](const TileRequest& a, const TileRequest& b) {
+    return a.priority != b.priority ? a.priority < b.priority : a.id > b.id;
+  });
+  std::vector<TileId> dropped;
+  std::vector<TileRequest> moved;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(arrived_, [&](const Arrived& tile) { return !best.contains(tile.id); });
+    for (const TileId& id : fetching_) {
+      const auto wish = best.find(id);
+      wish == best.end() ? dropped.push_back(id) : moved.push_back({id, wish->second});
+    }
+    for (const TileId& id : dropped) fetching_.erase(id);
+    std::erase_if(wishes, [&](const TileRequest& wish) { return under_way(wish.id); });
+    waiting_.swap(wishes);
+  }
+  // Without the lock: the network's thread may be about to take it.
+  for (const TileId& id : dropped) remote_->cancel(id);
+  for (const TileRequest& wish : moved) remote_->set_priority(wish.id, wish.priority);
+  work_changed_.notify_all();
+}
+
+template <class Decoded>
+bool TileScheduler<Decoded>::under_way(const TileId& id) const {
+  return running_.contains(id) || fetching_.contains(id) || finished_ids_.contains(id) ||
+         std::ranges::any_of(arrived_, [&id](const Arrived& tile) { return tile.id == id; });
+}
+
+template <class Decoded>
+std::vector<typename TileScheduler<Decoded>::Finished> TileScheduler<Decoded>::poll(std::size_t max_bytes) {
+  std::vector<Finished> taken;
+  std::size_t taken_bytes = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    while (!finished_.empty()) {
+      const std::size_t bytes = weight_bytes(finished_.front());
+      if (!taken.empty() && taken_bytes + bytes > max_bytes) break;
+      taken_bytes += bytes;
+      finished_ids_.erase(finished_.front().id);
+      taken.push_back(std::move(finished_.front()));
+      finished_.pop_front();
+    }
+    finished_bytes_ -= taken_bytes;
+  }
+  work_changed_.notify_all();
+  return taken;
+}
+
+template <class Decoded>
+bool TileScheduler<Decoded>::wait(std::chrono::steady_clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  finished_changed_.wait_until(lock, deadline, [this] {
+    return !finished_.empty() || (waiting_.empty() && running_.empty() && fetching_.empty() && arrived_.empty());
+  });
+  return !finished_.empty();
+}
+
+template <class Decoded>
+LoaderCounts TileScheduler<Decoded>::counts() const {
+  const std::lock_guard lock(mutex_);
+  return {.waiting = waiting_.size(),
+          .running = running_.size() + arrived_.size(),
+          .fetching = fetching_.size(),
+          .finished = finished_.size(),
+          .read = read_,
+          .lacked = lacked_};
+}
+
+// ---- thread: worker
+
+template <class Decoded>
+void TileScheduler<Decoded>::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    work_changed_.wait(lock, [this] { return stopping_ || may_start(); });
+    if (stopping_) return;
+    // What has come first: it holds memory, and the screen waits for it.
+    if (!arrived_.empty()) {
+      const Arrived tile = std::move(arrived_.front());
+      arrived_.pop_front();
+      running_.insert(tile.id);
+      decode(lock, tile);
+    } else {
+      const TileRequest wish = waiting_.back();
+      waiting_.pop_back();
+      running_.insert(wish.id);
+      look_for(lock, wish);
+    }
+  }
+}
+
+/// Reads a tile; what the source does not have here is asked of the network.
+template <class Decoded>
+void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish) {
+  lock.unlock();
+  Encoded encoded = read(wish.id);
+  const bool is_remote = !encoded && encoded.error().kind == Absence::remote;
+  lock.lock();
+  if (!is_remote || remote_ == nullptr) return decode(lock, {wish.id, std::move(encoded)});
+  running_.erase(wish.id);
+  if (stopping_) return;
+  fetching_.insert(wish.id);
+  lock.unlock();
+  // The answer may come after this loader is gone.
+  remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id](Encoded answer) {
+    if (const auto self = loader.lock()) self->arrive(id, std::move(answer));
+  });
+  lock.lock();
+}
+
+template <class Decoded>
+typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const TileId& id) {
+  try {
+    return source_->read(id);
+  } catch (const std::exception& error) {
+    return failure_of(error);
+  }
+}
+
+template <class Decoded>
+void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Arrived& tile) {
+  lock.unlock();
+  Finished finished{tile.id, decoded(tile)};
+  lock.lock();
+  running_.erase(tile.id);
+  ++read_;
+  if (!finished.tile) ++lacked_;
+  finished_bytes_ += weight_bytes(finished);
+  finished_ids_.insert(tile.id);
+  finished_.push_back(std::move(finished));
+  finished_changed_.notify_all();
+  if (bell_) bell_->ring();
+}
+
+/// What leaves a thread as an exception ends the program; memory that ran out for one tile is no reason for that.
+template <class Decoded>
+Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile) const {
+  if (!tile.encoded) return tile.encoded.error();
+  try {
+    return decode_(tile.id, *tile.encoded);
+  } catch (const std::exception& error) {
+    return failure_of(error);
+  }
+}
+
+// ---- thread: network
+
+template <class Decoded>
+void TileScheduler<Decoded>::arrive(const TileId& id, Encoded encoded) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (fetching_.erase(id) == 0) return;
+    arrived_.push_back({id, std::move(encoded)});
+  }
+  work_changed_.notify_one();
+}
+
+// ---- Loader
+
+template <class Decoded>
+std::shared_ptr<TileScheduler<Decoded>> start_scheduler(std::shared_ptr<TileSource> source, int workers,
+                                                        std::size_t max_finished_bytes,
+                                                        std::shared_ptr<ArrivalBell> bell,
+                                                        typename TileScheduler<Decoded>::Decode decode) {
+  assert(source != nullptr);
+  assert(workers >= 1 && workers <= 64);
+  auto scheduler = std::make_shared<TileScheduler<Decoded>>(std::move(source), std::move(decode), max_finished_bytes,
+                                                            std::move(bell));
+  scheduler->start(workers);
+  return scheduler;
+}
+
+template <class Decoded>
+Loader<Decoded>::~Loader() {
+  if (scheduler_) scheduler_->stop();
+}
+
+template <class Decoded>
+void Loader<Decoded>::request(std::span<const TileRequest> wanted) {
+  scheduler_->request(wanted);
+}
+
+template <class Decoded>
+std::vector<Loaded<Decoded>> Loader<Decoded>::poll(std::size_t max_bytes) {
+  return scheduler_->poll(max_bytes);
+}
+
+template <class Decoded>
+bool Loader<Decoded>::wait(std::chrono::steady_clock::time_point deadline) {
+  return scheduler_->wait(deadline);
+}
+
+template <class Decoded>
+LoaderCounts Loader<Decoded>::counts() const {
+  return scheduler_->counts();
+}
+
+}  // namespace terrella

@@ -1,0 +1,196 @@
+#include "streaming/cut/input/height_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include "base/number.h"
+#include "streaming/cut/input/row_formats.h"
+#include "streaming/cut/input/tiff_open.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ttag_t kGdalNodata = 42113;
+/// Numbers of 16 bits for heights that are known; the last says that there is none.
+constexpr double kFloatNumbers = 65534.0;
+constexpr int kFloatNodata = 65535;
+constexpr int kInt16Shift = 32768;
+
+struct Probe {
+  HeightKind kind = HeightKind::uint16;
+  std::optional<double> nodata = {};
+};
+
+Result<Probe> probe_tiff(TIFF* tiff, const std::string& name) {
+  std::uint16_t bits = 1;
+  std::uint16_t format = SAMPLEFORMAT_UINT;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  Probe probe;
+  if (bits == 16 && format == SAMPLEFORMAT_INT) {
+    probe.kind = HeightKind::int16;
+  } else if (bits == 32 && format == SAMPLEFORMAT_IEEEFP) {
+    probe.kind = HeightKind::float32;
+  } else if (bits != 16 || format != SAMPLEFORMAT_UINT) {
+    return refuse_heights(name);
+  }
+  std::uint32_t count = 0;
+  const char* text = nullptr;
+  if (TIFFGetField(tiff, kGdalNodata, &count, &text) == 1 && text != nullptr) {
+    probe.nodata = read_number(std::string_view(text, strnlen(text, count)));
+  }
+  return probe;
+}
+
+Result<Probe> probe_heights(const fs::path& image) {
+  if (Status regular = check_regular(image); !regular) return regular.error();
+  std::ifstream file(image, std::ios::binary);
+  char head[2] = {};
+  file.read(head, sizeof(head));
+  const bool tiff_head = (head[0] == 'I' && head[1] == 'I') || (head[0] == 'M' && head[1] == 'M');
+  // What is no TIFF is looked at by its reader.
+  if (!tiff_head) return Probe{};
+  std::string message;
+  const TiffHandle tiff = open_tiff(image.string(), message);
+  if (!tiff) return Error{fmt::format("{}: is not a TIFF that can be read: {}", image.string(), message)};
+  return probe_tiff(tiff.get(), image.string());
+}
+
+/// A nodata value that no sample of the kind can have is none.
+std::optional<double> possible(std::optional<double> nodata, HeightKind kind) {
+  if (!nodata || kind == HeightKind::float32) return nodata;
+  const double least = kind == HeightKind::int16 ? -32768.0 : 0.0;
+  const bool fits = *nodata == std::round(*nodata) && *nodata >= least && *nodata <= least + 65535.0;
+  return fits ? nodata : std::nullopt;
+}
+
+struct Range {
+  float least = std::numeric_limits<float>::infinity();
+  float most = -std::numeric_limits<float>::infinity();
+};
+
+/// Of the samples themselves: coding with scale 1 and offset 0.
+Status widen(const fs::path& image, const HeightCoding& coding, Range& range) {
+  auto reader = open_height_rows(image, coding);
+  if (!reader) return reader.error();
+  const auto width = static_cast<std::size_t>((*reader)->info().width_px);
+  std::vector<std::uint8_t> row(width * 4);
+  for (std::int64_t y = 0; y < (*reader)->info().height_px; ++y) {
+    if (Status read = (*reader)->read_row(row); !read) return read;
+    for (std::size_t x = 0; x < width; ++x) {
+      float height = 0.0F;
+      std::memcpy(&height, row.data() + x * 4, sizeof(height));
+      if (!std::isfinite(height)) continue;
+      range.least = std::min(range.least, height);
+      range.most = std::max(range.most, height);
+    }
+  }
+  return Done{};
+}
+
+Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, HeightPlan plan) {
+  if (options.scale || options.offset) {
+    plan.elevation.scale = options.scale.value_or(1.0);
+    plan.elevation.offset = options.offset.value_or(0.0);
+  } else {
+    Range range;
+    for (const fs::path& image : images) {
+      if (Status widened = widen(image, plan.coding, range); !widened) return widened.error();
+    }
+    if (range.least > range.most) return Error{fmt::format("{}: holds no height", images.front().string())};
+    const double span = static_cast<double>(range.most) - static_cast<double>(range.least);
+    plan.elevation.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
+    plan.elevation.offset = range.least;
+  }
+  plan.elevation.nodata = kFloatNodata;
+  plan.coding.scale = plan.elevation.scale;
+  plan.coding.offset = plan.elevation.offset;
+  return plan;
+}
+
+class BetweenNodes : public RowReader {
+ public:
+  explicit BetweenNodes(std::unique_ptr<RowReader> nodes) : nodes_(std::move(nodes)), info_(nodes_->info()) {
+    --info_.height_px;
+    above_.resize(static_cast<std::size_t>(info_.width_px));
+    below_.resize(above_.size());
+  }
+  [[nodiscard]] const PictureInfo& info() const override { return info_; }
+
+  [[nodiscard]] Status read_row(std::span<std::uint8_t> numbers) override {
+    if (!begun_) {
+      if (Status read = read_nodes(below_); !read) return read;
+      begun_ = true;
+    }
+    std::swap(above_, below_);
+    if (Status read = read_nodes(below_); !read) return read;
+    for (std::size_t x = 0; x < above_.size(); ++x) {
+      const std::size_t east = x + 1 == above_.size() ? 0 : x + 1;
+      const float mean = mean_of({above_[x], above_[east], below_[x], below_[east]});
+      std::memcpy(numbers.data() + x * 4, &mean, sizeof(mean));
+    }
+    return Done{};
+  }
+
+ private:
+  Status read_nodes(std::vector<float>& row) {
+    return nodes_->read_row({reinterpret_cast<std::uint8_t*>(row.data()), row.size() * sizeof(float)});
+  }
+
+  static float mean_of(const std::array<float, 4>& corners) {
+    float sum = 0.0F;
+    float known = 0.0F;
+    for (const float corner : corners) {
+      if (std::isnan(corner)) continue;
+      sum += corner;
+      known += 1.0F;
+    }
+    return sum / known;  // NaN if none is known
+  }
+
+  std::unique_ptr<RowReader> nodes_;
+  PictureInfo info_;
+  bool begun_ = false;
+  std::vector<float> above_, below_;
+};
+
+}  // namespace
+
+Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options) {
+  HeightPlan plan;
+  std::optional<Probe> first;
+  for (const fs::path& image : images) {
+    const auto probe = probe_heights(image);
+    if (!probe) return probe.error();
+    if (!first) first = *probe;
+    if (probe->kind != first->kind) {
+      return Error{fmt::format("{}: its heights are of another kind than those of {}; convert it (gdal_translate -ot)",
+                               image.string(), images.front().string())};
+    }
+  }
+  if (options.scale && (*options.scale == 0.0 || !std::isfinite(*options.scale))) {
+    return Error{"--scale: it takes metres per number, not 0"};
+  }
+  plan.coding = {.kind = first->kind, .nodata = possible(options.nodata ? options.nodata : first->nodata, first->kind)};
+  if (first->kind == HeightKind::float32) return plan_floats(images, options, plan);
+  const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
+  plan.elevation.scale = options.scale.value_or(1.0);
+  plan.elevation.offset = options.offset.value_or(0.0) - shift * plan.elevation.scale;
+  if (plan.coding.nodata) plan.elevation.nodata = static_cast<int>(*plan.coding.nodata) + shift;
+  return plan;
+}
+
+bool is_node_planet(std::int64_t width, std::int64_t height) { return width % 2 == 0 && height == width / 2 + 1; }
+
+std::unique_ptr<RowReader> between_nodes(std::unique_ptr<RowReader> nodes) {
+  return std::make_unique<BetweenNodes>(std::move(nodes));
+}
+
+}  // namespace terrella

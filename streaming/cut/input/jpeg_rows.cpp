@@ -1,0 +1,141 @@
+#include <csetjmp>
+#include <cstdio>
+// jpeglib.h needs size_t and FILE to be declared before it.
+#include <jpeglib.h>
+// jerror.h needs jpeglib.h.
+#include <jerror.h>
+
+#include "streaming/cut/input/row_formats.h"
+
+namespace terrella {
+namespace {
+
+/// A progressive file of a few kilobytes can hold thousands of scans over the whole picture; real ones have about ten.
+constexpr int kMaxScans = 100;
+
+/// libjpeg's error state, with the way back out. Its callbacks are C frames that longjmp passes over.
+struct ErrorState {
+  jpeg_error_mgr manager;
+  std::jmp_buf way_out;
+  char message[JMSG_LENGTH_MAX];
+};
+
+ErrorState* error_state(j_common_ptr codec) { return reinterpret_cast<ErrorState*>(codec->err); }
+
+[[noreturn]] void on_jpeg_error(j_common_ptr codec) {
+  ErrorState* state = error_state(codec);
+  (*state->manager.format_message)(codec, state->message);
+  std::longjmp(state->way_out, 1);
+}
+
+/// A warning means that pixels were made up, unless it is one of those that cameras and editors are known to cause.
+void on_message(j_common_ptr codec, int level) {
+  if (level >= 0) return;
+  const int code = codec->err->msg_code;
+  const bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_JFIF_MAJOR;
+  if (!harmless) on_jpeg_error(codec);
+}
+
+void on_progress(j_common_ptr codec) {
+  const auto* decoder = reinterpret_cast<jpeg_decompress_struct*>(codec);
+  if (decoder->input_scan_number <= kMaxScans) return;
+  std::snprintf(error_state(codec)->message, JMSG_LENGTH_MAX, "it has more than %d scans", kMaxScans);
+  std::longjmp(error_state(codec)->way_out, 1);
+}
+
+class JpegRows : public RowReader {
+ public:
+  JpegRows(File file, std::string name) : file_(std::move(file)), name_(std::move(name)) {
+    decoder_.err = jpeg_std_error(&errors_.manager);
+    errors_.manager.error_exit = on_jpeg_error;
+    errors_.manager.emit_message = on_message;
+    progress_.progress_monitor = on_progress;
+  }
+  ~JpegRows() override {
+    // Safe also where creation failed: libjpeg looks whether there is a memory manager.
+    jpeg_destroy_decompress(&decoder_);
+  }
+  JpegRows(const JpegRows&) = delete;
+  JpegRows& operator=(const JpegRows&) = delete;
+
+  [[nodiscard]] Status open() {
+    if (!read_header()) return Error{fmt::format("{}: is not a JPEG that can be read: {}", name_, errors_.message)};
+    info_ = {.width_px = decoder_.image_width, .height_px = decoder_.image_height, .has_alpha = false};
+    if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
+    if (Status can = check_kind(); !can) return can;
+    if (!start()) return row_error(name_, 0, info_.height_px, errors_.message);
+    return Done{};
+  }
+
+  [[nodiscard]] const PictureInfo& info() const override { return info_; }
+
+  [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
+    if (!read_scanline(rgba.data())) return row_error(name_, row_, info_.height_px, errors_.message);
+    ++row_;
+    return Done{};
+  }
+
+ private:
+  // The functions that set the way out hold nothing that needs a destructor.
+  bool read_header() {
+    if (setjmp(errors_.way_out) != 0) return false;
+    jpeg_create_decompress(&decoder_);
+    decoder_.progress = &progress_;
+    jpeg_stdio_src(&decoder_, file_.get());
+    jpeg_read_header(&decoder_, TRUE);
+    return true;
+  }
+  bool start() {
+    if (setjmp(errors_.way_out) != 0) return false;
+    decoder_.out_color_space = JCS_EXT_RGBA;
+    jpeg_start_decompress(&decoder_);
+    return true;
+  }
+  bool read_scanline(JSAMPROW row) {
+    if (setjmp(errors_.way_out) != 0) return false;
+    return jpeg_read_scanlines(&decoder_, &row, 1) == 1;
+  }
+
+  [[nodiscard]] Status check_kind() {
+    const J_COLOR_SPACE space = decoder_.jpeg_color_space;
+    if (space == JCS_CMYK || space == JCS_YCCK) {
+      return Error{fmt::format("{}: CMYK is not supported; convert it to RGB", name_)};
+    }
+    const std::uint64_t held = coefficient_bytes();
+    if (held > kMaxHeldBytes) {
+      return Error{
+          fmt::format("{}: a progressive JPEG of this size needs {} MiB of memory; make it sequential first: jpegtran "
+                      "-outfile sequential.jpg {}",
+                      name_, held >> 20, name_)};
+    }
+    return Done{};
+  }
+
+  /// A progressive or multi-scan picture is held whole, as coefficients.
+  [[nodiscard]] std::uint64_t coefficient_bytes() const {
+    if (jpeg_has_multiple_scans(const_cast<j_decompress_ptr>(&decoder_)) == FALSE) return 0;
+    std::uint64_t blocks = 0;
+    for (int i = 0; i < decoder_.num_components; ++i) {
+      blocks += std::uint64_t{decoder_.comp_info[i].width_in_blocks} * decoder_.comp_info[i].height_in_blocks;
+    }
+    return blocks * DCTSIZE2 * sizeof(JCOEF);
+  }
+
+  File file_;
+  std::string name_;
+  PictureInfo info_;
+  std::int64_t row_ = 0;
+  ErrorState errors_{};
+  jpeg_progress_mgr progress_{};
+  jpeg_decompress_struct decoder_{};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name) {
+  auto rows = std::make_unique<JpegRows>(std::move(file), std::move(name));
+  if (Status opened = rows->open(); !opened) return opened.error();
+  return std::unique_ptr<RowReader>(std::move(rows));
+}
+
+}  // namespace terrella

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "streaming/cut/input/height_samples.h"
+#include "streaming/cut/input/row_reader.h"
+
+/// What the readers of each format share. `name` is the file's path, for messages.
+namespace terrella {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// The file stands at its first byte and has been seen to begin as the format does.
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
+                                                               const std::optional<HeightCoding>& heights);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
+                                                                const std::optional<HeightCoding>& heights);
+
+/// True for the first bytes of a TIFF or BigTIFF in either byte order.
+[[nodiscard]] bool begins_as_tiff(std::string_view head);
+
+/// Refuses a picture of no size or over kMaxPictureSide_px.
+[[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);
+
+/// "PATH: heights are read from …"
+[[nodiscard]] Error refuse_heights(const std::string& name);
+
+/// "PATH: row 12 of 400 cannot be read: WHY; …"
+[[nodiscard]] Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, std::string_view why);
+
+}  // namespace terrella

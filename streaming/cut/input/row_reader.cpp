@@ -1,0 +1,137 @@
+#include "streaming/cut/input/row_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "streaming/cut/input/row_formats.h"
+#include "streaming/other_formats.h"
+
+namespace terrella {
+namespace {
+
+/// A half row that an odd planet lacks at its south pole.
+class PaddedRows : public RowReader {
+ public:
+  PaddedRows(std::unique_ptr<RowReader> reader, std::int64_t rows)
+      : reader_(std::move(reader)), info_(reader_->info()) {
+    info_.height_px = rows;
+  }
+  [[nodiscard]] const PictureInfo& info() const override { return info_; }
+
+  [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
+    if (row_ + 1 < reader_->info().height_px) {
+      ++row_;
+      return reader_->read_row(rgba);
+    }
+    if (Status read = read_last(); !read) return read;
+    ++row_;
+    std::memcpy(rgba.data(), last_.data(), last_.size());
+    return Done{};
+  }
+
+  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
+    const std::int64_t before_last = std::max<std::int64_t>(0, reader_->info().height_px - 1 - row_);
+    row_ += rows;
+    return reader_->skip_rows(std::min(rows, before_last));
+  }
+
+ private:
+  Status read_last() {
+    if (!last_.empty()) return Done{};
+    last_.resize(static_cast<std::size_t>(info_.width_px) * 4);
+    return reader_->read_row(last_);
+  }
+
+  std::unique_ptr<RowReader> reader_;
+  PictureInfo info_;
+  std::int64_t row_ = 0;
+  std::vector<std::uint8_t> last_;
+};
+
+}  // namespace
+
+Status RowReader::skip_rows(std::int64_t rows) {
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(info().width_px) * 4);
+  for (std::int64_t i = 0; i < rows; ++i) {
+    if (Status read = read_row(row); !read) return read;
+  }
+  return Done{};
+}
+
+Status check_regular(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) {
+    return Error{fmt::format("{}: is a folder, not a picture", path.string())};
+  }
+  if (!std::filesystem::is_other(status)) return Done{};
+  return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
+}
+
+bool begins_as_tiff(std::string_view head) {
+  using namespace std::string_view_literals;
+  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::ranges::any_of(kHeads, [head](std::string_view start) { return head.starts_with(start); });
+}
+
+std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {
+  if (reader->info().height_px == rows) return reader;
+  return std::make_unique<PaddedRows>(std::move(reader), rows);
+}
+
+Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px) {
+  if (width_px < 1 || height_px < 1) return Error{fmt::format("{}: the picture has no pixels", name)};
+  if (width_px > kMaxPictureSide_px || height_px > kMaxPictureSide_px) {
+    return Error{fmt::format("{}: {}x{} pixels are too many; a side may have at most {}", name, width_px, height_px,
+                             kMaxPictureSide_px)};
+  }
+  return Done{};
+}
+
+Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, std::string_view why) {
+  return Error{fmt::format("{}: row {} of {} cannot be read: {}; the file is truncated or damaged, get it again", name,
+                           row + 1, rows, why)};
+}
+
+Error refuse_heights(const std::string& name) {
+  return Error{
+      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF of one sample a pixel, Int16, "
+                  "UInt16 or Float32; convert it (gdal_translate -ot Int16)",
+                  name)};
+}
+
+namespace {
+
+Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
+                                            const std::optional<HeightCoding>& heights) {
+  const std::string name = path.string();
+  if (Status regular = check_regular(path); !regular) return regular.error();
+  File file(std::fopen(name.c_str(), "rb"));
+  if (!file && errno == ENOENT) return Error{fmt::format("{}: no such file", name)};
+  if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};
+  std::array<char, kFormatHeadBytes> bytes{};
+  const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
+  if (head.empty()) return Error{fmt::format("{}: is empty", name)};
+  std::rewind(file.get());
+  const bool jpeg = head.starts_with("\xff\xd8\xff");
+  if (jpeg && heights) return refuse_heights(name);
+  if (jpeg) return open_jpeg_rows(std::move(file), name);
+  if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name, heights);
+  if (begins_as_tiff(head)) return open_tiff_rows(name, heights);
+  const std::string hint = convert_hint(path, head);
+  return Error{
+      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, TIFF or BigTIFF" : hint)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path) { return open_any(path, {}); }
+
+Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path, const HeightCoding& coding) {
+  return open_any(path, coding);
+}
+
+}  // namespace terrella

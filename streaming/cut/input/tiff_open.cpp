@@ -1,0 +1,37 @@
+#include "streaming/cut/input/tiff_open.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace terrella {
+namespace {
+
+/// What libtiff may allocate for one strip, tile or table of the file's own sizes.
+constexpr tmsize_t kMaxSingleAllocation = 256L << 20;
+
+struct FreeOptions {
+  void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+};
+
+int keep_error(TIFF*, void* text, const char*, const char* format, std::va_list arguments) {
+  char line[256];
+  std::vsnprintf(line, sizeof(line), format, arguments);
+  *static_cast<std::string*>(text) = line;
+  return 1;
+}
+/// Unknown tags and the like: what does not keep pixels from being read.
+int pass_over(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
+
+}  // namespace
+
+TiffHandle open_tiff(const std::string& name, std::string& message) {
+  const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
+  if (!options) return {};
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &message);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), pass_over, nullptr);
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxSingleAllocation);
+  // m: no memory map, whose size would count as memory held.
+  return TiffHandle(TIFFOpenExt(name.c_str(), "rm", options.get()));
+}
+
+}  // namespace terrella

@@ -1,0 +1,112 @@
+#include "streaming/cut/output/record_log.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Marks the last record, whose x is the number of the others.
+constexpr std::int32_t kEndLevel = -1;
+/// A tile of 4096 pixels, or a row of 2^20 pixels as floats, uncompressed.
+constexpr std::uint32_t kMaxRecordBytes = 128U << 20;
+
+struct Header {
+  std::int32_t level;
+  std::uint32_t size;
+  std::int64_t x, y;
+  std::int32_t squeeze;
+  std::uint32_t checksum;  ///< CRC-32 of the bytes, begun with that of what stands before it here
+};
+static_assert(sizeof(Header) == 32);
+
+std::uint32_t checksum_of(const Header& header, std::span<const std::byte> bytes) {
+  const uLong begun = crc32(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(&header), offsetof(Header, checksum));
+  return static_cast<std::uint32_t>(crc32_z(begun, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+fs::path part_of(const fs::path& path) { return path.string() + ".part"; }
+
+/// False at the end, and at what is not a whole record.
+bool read_record(std::FILE* file, Header& header, std::vector<std::byte>& bytes) {
+  if (std::fread(&header, sizeof(header), 1, file) != 1 || header.size > kMaxRecordBytes) return false;
+  bytes.resize(header.size);
+  if (std::fread(bytes.data(), 1, bytes.size(), file) != bytes.size()) return false;
+  return checksum_of(header, bytes) == header.checksum;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bool resume, fs::path output) {
+  std::unique_ptr<RecordLogWriter> log(new RecordLogWriter(std::move(path), std::move(output)));
+  const fs::path part = part_of(log->path_);
+  log->file_.reset(std::fopen(part.c_str(), resume ? "a+be" : "wbe"));
+  if (!log->file_) return cannot_write(log->output_, errno);
+  if (!resume) return log;
+  std::FILE* file = log->file_.get();
+  std::rewind(file);
+  Header header{};
+  std::vector<std::byte> bytes;
+  long end = 0;
+  while (read_record(file, header, bytes) && header.level != kEndLevel) {
+    end = std::ftell(file);
+    ++log->found_;
+  }
+  std::fseek(file, end, SEEK_SET);
+  if (ftruncate(fileno(file), end) != 0) return cannot_write(log->output_, errno);
+  log->records_ = log->found_;
+  return log;
+}
+
+Status RecordLogWriter::write(std::span<const std::byte> bytes) {
+  if (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size()) return Done{};
+  return cannot_write(output_, errno);
+}
+
+Status RecordLogWriter::put(const TileId& id, std::span<const std::byte> bytes) {
+  Header header{.level = id.level,
+                .size = static_cast<std::uint32_t>(bytes.size()),
+                .x = id.x,
+                .y = id.y,
+                .squeeze = id.squeeze,
+                .checksum = 0};
+  header.checksum = checksum_of(header, bytes);
+  if (Status begun = write(std::as_bytes(std::span(&header, 1))); !begun) return begun;
+  ++records_;
+  return write(bytes);
+}
+
+Status RecordLogWriter::finish() {
+  if (Status ended = put({.level = kEndLevel, .x = records_, .y = 0}, {}); !ended) return ended;
+  if (std::fclose(file_.release()) != 0) return cannot_write(output_, errno);
+  std::error_code failed;
+  fs::rename(part_of(path_), path_, failed);
+  if (failed) return cannot_write(output_, failed.value());
+  return Done{};
+}
+
+Result<RecordLogReader> RecordLogReader::open(const fs::path& path) {
+  LogFile file(std::fopen(path.c_str(), "rbe"));
+  if (!file) return Error{fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno))};
+  return RecordLogReader(path, std::move(file));
+}
+
+Result<std::optional<LogRecord>> RecordLogReader::next() {
+  Header header{};
+  LogRecord record;
+  if (!read_record(file_.get(), header, record.bytes) || (header.level == kEndLevel && header.x != records_)) {
+    return Error{fmt::format("{}: what an earlier run has left is damaged; remove it and cut again", path_.string())};
+  }
+  if (header.level == kEndLevel) return std::optional<LogRecord>{};
+  ++records_;
+  record.id = {.level = header.level, .x = header.x, .y = header.y, .squeeze = header.squeeze};
+  return std::optional(std::move(record));
+}
+
+}  // namespace terrella

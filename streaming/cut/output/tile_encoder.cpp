@@ -1,0 +1,62 @@
+#include "streaming/cut/output/tile_encoder.h"
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
+
+#include <cstring>
+
+#include "streaming/cut/input/heights.h"
+#include "streaming/cut/output/gray16_png.h"
+
+namespace terrella {
+namespace {
+
+Image copy_of_tile(const Strip& strip, std::int64_t index) {
+  const auto side = static_cast<std::size_t>(strip.tile_px);
+  Image image{.width_px = strip.tile_px, .height_px = strip.tile_px, .rgba = {}};
+  image.rgba.resize(side * side * 4);
+  for (std::size_t y = 0; y < side; ++y) {
+    std::memcpy(image.rgba.data() + y * side * 4, strip.tile(index) + y * strip.stride_bytes(), side * 4);
+  }
+  return image;
+}
+
+std::vector<std::uint16_t> heights_of_tile(const Strip& strip, std::int64_t index) {
+  const auto side = static_cast<std::size_t>(strip.tile_px);
+  std::vector<std::uint16_t> heights;
+  heights.reserve(side * side);
+  for (std::size_t y = 0; y < side; ++y) {
+    const std::uint8_t* row = strip.tile(index) + y * strip.stride_bytes();
+    for (std::size_t x = 0; x < side; ++x) heights.push_back(height_at(row + x * 4));
+  }
+  return heights;
+}
+
+}  // namespace
+
+void TileEncoder::DestroyHandle::operator()(void* handle) const { tjDestroy(handle); }
+
+TileEncoder::TileEncoder(const TileCoding& coding) : coding_(coding) {
+  if (coding.format == ImageFormat::jpeg) jpeg_.reset(tjInitCompress());
+}
+
+Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int64_t index) {
+  if (coding_.heights) return encode_gray16_png(heights_of_tile(strip, index), strip.tile_px);
+  return coding_.format == ImageFormat::jpeg ? encode_jpeg_tile(strip, index) : encode_png(copy_of_tile(strip, index));
+}
+
+Result<std::vector<std::byte>> TileEncoder::encode_jpeg_tile(const Strip& strip, std::int64_t index) {
+  if (!jpeg_) return Error{"JPEG: out of memory"};
+  const int side = strip.tile_px;
+  buffer_.resize(tjBufSize(side, side, TJSAMP_420));
+  unsigned char* bytes = buffer_.data();
+  unsigned long size = buffer_.size();
+  const int failed =
+      tjCompress2(jpeg_.get(), strip.tile(index), side, static_cast<int>(strip.stride_bytes()), side, TJPF_RGBX, &bytes,
+                  &size, TJSAMP_420, coding_.quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
+  if (failed != 0) return Error{fmt::format("JPEG: {}", tjGetErrorStr2(jpeg_.get()))};
+  const auto* first = reinterpret_cast<const std::byte*>(bytes);
+  return std::vector<std::byte>(first, first + size);
+}
+
+}  // namespace terrella

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/result.h"
+#include "codecs/image.h"
+#include "streaming/cut/strip.h"
+
+namespace terrella {
+
+/// How tiles are written.
+struct TileCoding {
+  ImageFormat format = ImageFormat::jpeg;
+  int quality = 85;
+  bool heights = false;  ///< PNG of 16 bits, gray
+};
+
+/// Encodes tiles out of strips; keeps its codec from tile to tile. JPEG: 4:2:0, the accurate DCT, Huffman tables as
+/// they come. PNG: as encode_png(). thread: one at a time
+class TileEncoder {
+ public:
+  explicit TileEncoder(const TileCoding& coding);
+  [[nodiscard]] Result<std::vector<std::byte>> encode(const Strip& strip, std::int64_t index);
+
+ private:
+  struct DestroyHandle {
+    void operator()(void* handle) const;
+  };
+  [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg_tile(const Strip& strip, std::int64_t index);
+
+  TileCoding coding_;
+  std::unique_ptr<void, DestroyHandle> jpeg_;
+  std::vector<unsigned char> buffer_;
+};
+
+}  // namespace terrella

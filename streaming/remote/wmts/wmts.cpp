@@ -1,0 +1,251 @@
+#include "streaming/remote/wmts/wmts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "streaming/remote/url_template.h"
+#include "streaming/remote/web_address.h"
+#include "streaming/remote/wmts/wmts_grid.h"
+#include "streaming/remote/wmts/wmts_layer.h"
+#include "streaming/remote/wmts/wmts_url.h"
+#include "streaming/remote/wmts/xml_names.h"
+#include "streaming/sets/tileset_check.h"
+
+namespace terrella {
+namespace {
+
+/// A tile of "today" that is not there yet is asked for again after this.
+constexpr std::chrono::seconds kNewestAbsenceLife{3600};
+constexpr std::size_t kMaxShown = 20;
+constexpr std::size_t kMaxTextBytes = 16384;
+
+constexpr std::array<std::string_view, 4> kJpegTypes = {"image/jpeg", "image/jpg", "image/vnd.jpg-png", "image/jpgpng"};
+constexpr std::array<std::string_view, 3> kPngTypes = {"image/png", "image/png8", "image/png; mode=8bit"};
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMaxShown); ++i) {
+    list += (i == 0 ? "" : ", ") + names[i].substr(0, 100);
+  }
+  if (names.size() > kMaxShown) list += fmt::format(" and {} more", names.size() - kMaxShown);
+  return list.empty() ? "none" : list;
+}
+
+Result<WmtsLayer> find_layer(const pugi::xml_node& contents, const std::string& wanted) {
+  std::vector<std::string> names;
+  const std::vector<pugi::xml_node> layers = children_of(contents, "Layer");
+  for (const pugi::xml_node& node : layers) {
+    names.emplace_back(text_of(node, "Identifier"));
+    if (!wanted.empty() && names.back() == wanted) return read_wmts_layer(node);
+  }
+  if (wanted.empty() && layers.size() == 1) return read_wmts_layer(layers.front());
+  if (wanted.empty()) return Error{fmt::format("say which of its layers with --layer: {}", list_of(names))};
+  const auto near = std::ranges::find_if(names, [&](const std::string& name) { return same_letters(name, wanted); });
+  if (near != names.end()) return Error{fmt::format("it has no layer \"{}\", but \"{}\"", wanted, *near)};
+  return Error{fmt::format("it has no layer \"{}\"; its layers: {}", wanted, list_of(names))};
+}
+
+Result<WmtsGrid> read_grid(const pugi::xml_node& contents, const WmtsLink& link, const RemoteOptions& options) {
+  for (const pugi::xml_node& node : children_of(contents, "TileMatrixSet")) {
+    if (text_of(node, "Identifier") != link.matrix_set) continue;
+    const Result<WmtsMatrixSet> set = read_matrix_set(node);
+    if (!set) return set.error();
+    return grid_of(*set, link.limits, options.body);
+  }
+  return Error{"the document does not describe it"};
+}
+
+/// Of several matrix sets those in longitude and latitude come first, and of a kind that was asked for, that.
+bool is_wanted(const TileGrid& grid, const RemoteOptions& options) {
+  const bool mercator = grid.projection == Projection::web_mercator;
+  return mercator == (options.projection == Projection::web_mercator);
+}
+
+struct ChosenGrid {
+  WmtsGrid placed;
+  std::string matrix_set;
+};
+
+Result<ChosenGrid> choose_grid(const pugi::xml_node& contents, const WmtsLayer& layer, const RemoteOptions& options) {
+  std::vector<std::string> names;
+  std::string reasons;
+  std::optional<ChosenGrid> resampled;
+  for (const WmtsLink& link : layer.links) {
+    names.push_back(link.matrix_set);
+    if (!options.matrix_set.empty() && link.matrix_set != options.matrix_set) continue;
+    Result<WmtsGrid> placed = read_grid(contents, link, options);
+    if (placed && is_wanted(placed->grid, options)) return ChosenGrid{*std::move(placed), link.matrix_set};
+    if (placed) {
+      if (!resampled) resampled = ChosenGrid{*std::move(placed), link.matrix_set};
+      continue;
+    }
+    if (names.size() <= kMaxShown) {
+      reasons += fmt::format("; matrix set \"{}\": {}", link.matrix_set.substr(0, 100), placed.error().message);
+    }
+  }
+  if (resampled) return *std::move(resampled);
+  if (!reasons.empty()) return Error{fmt::format("layer \"{}\" cannot be shown{}", layer.name, reasons)};
+  return Error{
+      fmt::format("layer \"{}\" has no matrix set \"{}\"; it has: {}", layer.name, options.matrix_set, list_of(names))};
+}
+
+struct ChosenFormat {
+  ImageFormat format;
+  std::string media_type;
+};
+
+Result<ChosenFormat> choose_format(const WmtsLayer& layer, const RemoteOptions& options) {
+  std::vector<std::string> types;
+  for (const WmtsResource& resource : layer.resources) types.push_back(resource.format);
+  if (layer.resources.empty()) types = layer.formats;
+  const auto among = [&](std::span<const std::string_view> known) {
+    return std::ranges::find_if(types, [&](const std::string& type) {
+      return std::ranges::any_of(known, [&](std::string_view one) { return same_letters(one, type); });
+    });
+  };
+  const auto jpeg = among(kJpegTypes);
+  const auto png = among(kPngTypes);
+  if (jpeg != types.end() && options.format != ImageFormat::png) return ChosenFormat{ImageFormat::jpeg, *jpeg};
+  if (png != types.end() && options.format != ImageFormat::jpeg) return ChosenFormat{ImageFormat::png, *png};
+  return Error{fmt::format(
+      "layer \"{}\" has tiles as {}; {} can be read", layer.name, list_of(types),
+      options.format ? "what was asked for is not among them; image/jpeg and image/png" : "image/jpeg and image/png")};
+}
+
+Result<std::string> choose_style(const WmtsLayer& layer, const std::string& wanted) {
+  if (wanted.empty()) return layer.styles.empty() ? std::string("default") : layer.styles.front();
+  if (std::ranges::find(layer.styles, wanted) != layer.styles.end()) return wanted;
+  return Error{fmt::format("layer \"{}\" has no style \"{}\"; it has: {}", layer.name, wanted, list_of(layer.styles))};
+}
+
+/// Every dimension gets a value; true if the time is the newest.
+Result<bool> choose_dimensions(const WmtsLayer& layer, const std::string& time, WmtsRequest& request) {
+  bool newest = false;
+  bool has_time = false;
+  for (const WmtsDimension& dimension : layer.dimensions) {
+    const bool is_time = same_letters(dimension.name, "time");
+    const Result<ChosenTime> chosen = choose_time(dimension, is_time ? time : std::string());
+    if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
+    request.dimensions[dimension.name] = chosen->value;
+    newest = newest || (is_time && chosen->newest);
+    has_time = has_time || is_time;
+  }
+  if (!time.empty() && !has_time) return Error{fmt::format("layer \"{}\" has no time dimension", layer.name)};
+  return newest;
+}
+
+Result<std::string> make_url(const WmtsLayer& layer, const WmtsRequest& request, const pugi::xml_node& capabilities) {
+  for (const WmtsResource& resource : layer.resources) {
+    if (resource.format == request.media_type) return rest_template(resource.url_template, request);
+  }
+  const std::string address = kvp_address(capabilities);
+  if (address.empty()) return Error{"it has neither a ResourceURL nor a GetTile with key-value pairs"};
+  return kvp_template(address, request);
+}
+
+double clamped(Angle angle, Angle low, Angle high) { return std::clamp(angle.deg(), low.deg(), high.deg()); }
+
+/// What both rectangles hold. A box that leaves nothing, or one that cannot be cut simply, does not count.
+GeoRect narrowed(const GeoRect& tiles, const std::optional<GeoRect>& box) {
+  if (!box || tiles.east < tiles.west) return tiles;
+  const GeoRect both{.west = Angle::degrees(clamped(box->west, tiles.west, tiles.east)),
+                     .south = Angle::degrees(clamped(box->south, tiles.south, tiles.north)),
+                     .east = Angle::degrees(clamped(box->east, tiles.west, tiles.east)),
+                     .north = Angle::degrees(clamped(box->north, tiles.south, tiles.north))};
+  return both.west < both.east && both.south < both.north ? both : tiles;
+}
+
+/// What a person says of the grid can narrow the levels; what it is, the document says.
+Status check_against(const RemoteOptions& options, TileGrid& grid) {
+  if (options.root_span_deg && std::abs(*options.root_span_deg / grid.root_span_deg - 1.0) > 1e-9) {
+    return Error{fmt::format("its root tile spans {}°, not the {}° that were given", grid.root_span_deg,
+                             *options.root_span_deg)};
+  }
+  if (Status same = check_projection(grid, options); !same) return same;
+  if (options.tile_px && *options.tile_px != grid.tile_px) {
+    return Error{fmt::format("its tiles have {} pixels, not the {} that were given", grid.tile_px, *options.tile_px)};
+  }
+  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
+  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
+  if (first > last)
+    return Error{fmt::format("it has levels {} to {}, none of those asked for", grid.min_level, grid.max_level)};
+  grid.min_level = first;
+  grid.max_level = last;
+  return Done{};
+}
+
+Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const RemoteOptions& options) {
+  const pugi::xml_node contents = child_of(capabilities, "Contents");
+  const Result<WmtsLayer> layer = find_layer(contents, options.layer);
+  if (!layer) return layer.error();
+  const Result<ChosenFormat> format = choose_format(*layer, options);
+  if (!format) return format.error();
+  const Result<std::string> style = choose_style(*layer, options.style);
+  if (!style) return style.error();
+  Result<ChosenGrid> chosen = choose_grid(contents, *layer, options);
+  if (!chosen) return chosen.error();
+  if (Status checked = check_against(options, chosen->placed.grid); !checked) return checked.error();
+  WmtsRequest request{.layer = layer->name,
+                      .style = *style,
+                      .matrix_set = chosen->matrix_set,
+                      .media_type = format->media_type,
+                      .dimensions = {}};
+  const Result<bool> newest = choose_dimensions(*layer, options.time, request);
+  if (!newest) return newest.error();
+  const Result<std::string> url = make_url(*layer, request, capabilities);
+  if (!url) return Error{fmt::format("layer \"{}\": {}", layer->name, url.error().message)};
+
+  RemoteTileSet set;
+  set.url = *url;
+  set.info.grid = chosen->placed.grid;
+  set.info.grid.bounds = narrowed(set.info.grid.bounds, layer->bounds);
+  set.info.format = format->format;
+  set.info.name = (layer->title.empty() ? layer->name : layer->title).substr(0, kMaxTextBytes);
+  set.info.attribution = text_of(child_of(capabilities, "ServiceProvider"), "ProviderName").substr(0, kMaxTextBytes);
+  set.info.body = chosen->placed.body;
+  set.level_names = std::move(chosen->placed.level_names);
+  set.shifts = std::move(chosen->placed.shifts);
+  if (*newest) set.absence_life = kNewestAbsenceLife;
+  return set;
+}
+
+/// Why a document is none of a WMTS; empty if it is.
+std::string fault_of_root(const pugi::xml_node& root) {
+  const std::string_view name = local_name(root.name());
+  if (name == "ExceptionReport") {
+    const auto text = text_of(child_of(root, "Exception"), "ExceptionText");
+    return fmt::format("the server answers with an exception: {}", text.substr(0, 300));
+  }
+  if (name == "Capabilities" && child_of(root, "Contents")) return {};
+  if (name.starts_with("WMS") || name.starts_with("WMT_MS")) {
+    return "the capabilities of a WMS, which has no tiles; ask for those of its WMTS";
+  }
+  return fmt::format("not the capabilities of a WMTS: its root is <{}>, or it has no <Contents>", name.substr(0, 64));
+}
+
+}  // namespace
+
+Result<RemoteTileSet> parse_wmts_capabilities(std::string_view xml, const RemoteOptions& options,
+                                              const std::string& where) {
+  if (xml.size() > kMaxCapabilitiesBytes) {
+    return Error{fmt::format("{}: longer than {} bytes", where, kMaxCapabilitiesBytes)};
+  }
+  if (Status checked = check_options(options, where); !checked) return checked.error();
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
+  if (!parsed) return Error{fmt::format("{}: not XML at byte {}: {}", where, parsed.offset, parsed.description())};
+  const pugi::xml_node root = document.document_element();
+  if (const std::string fault = fault_of_root(root); !fault.empty()) return Error{where + ": " + fault};
+  Result<RemoteTileSet> set = describe_layer(root, options);
+  if (!set) return Error{where + ": " + set.error().message};
+  if (Status checked = check_url_template(*set, true, where); !checked) return checked.error();
+  apply_options(*set, options);
+  if (Status checked = check_grid(set->info.grid, where); !checked) return checked.error();
+  return set;
+}
+
+}  // namespace terrella

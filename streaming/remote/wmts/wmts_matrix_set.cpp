@@ -1,0 +1,88 @@
+#include "streaming/remote/wmts/wmts_matrix_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "streaming/remote/wmts/xml_names.h"
+#include "streaming/sets/tileset_check.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::size_t kMaxMatrices = 64;
+constexpr std::size_t kMaxNameBytes = 256;
+constexpr std::int64_t kMaxTilesASide = std::int64_t{1} << 40;
+
+bool in_range(const std::optional<std::int64_t>& value, std::int64_t low, std::int64_t high) {
+  return value && *value >= low && *value <= high;
+}
+
+Result<WmtsMatrix> read_matrix(const pugi::xml_node& node) {
+  WmtsMatrix matrix{.name = std::string(text_of(node, "Identifier"))};
+  if (matrix.name.empty() || matrix.name.size() > kMaxNameBytes) {
+    return Error{fmt::format("a TileMatrix has no Identifier, or one over {} bytes", kMaxNameBytes)};
+  }
+  const auto fault = [&](const std::string& what) {
+    return Error{fmt::format("TileMatrix \"{}\": {}", matrix.name, what)};
+  };
+  const auto scale = to_number(text_of(node, "ScaleDenominator"));
+  if (!scale || *scale <= 0.0) return fault("ScaleDenominator is not a positive number");
+  const auto corner = to_pair(text_of(node, "TopLeftCorner"));
+  if (!corner) return fault("TopLeftCorner is not two numbers");
+  const auto width = to_integer(text_of(node, "TileWidth"));
+  if (!in_range(width, kMinTilePx, kMaxTilePx) || width != to_integer(text_of(node, "TileHeight"))) {
+    return fault(fmt::format("TileWidth and TileHeight are not the same number in [{}, {}]", kMinTilePx, kMaxTilePx));
+  }
+  const auto columns = to_integer(text_of(node, "MatrixWidth"));
+  const auto rows = to_integer(text_of(node, "MatrixHeight"));
+  if (!in_range(columns, 1, kMaxTilesASide) || !in_range(rows, 1, kMaxTilesASide)) {
+    return fault("MatrixWidth or MatrixHeight is not a positive whole number");
+  }
+  matrix.scale_denominator = *scale;
+  matrix.corner = *corner;
+  matrix.tile_px = static_cast<int>(*width);
+  matrix.columns = *columns;
+  matrix.rows = *rows;
+  return matrix;
+}
+
+}  // namespace
+
+Result<WmtsMatrixSet> read_matrix_set(const pugi::xml_node& node) {
+  WmtsMatrixSet set{.name = std::string(text_of(node, "Identifier")),
+                    .crs = std::string(text_of(node, "SupportedCRS")),
+                    .matrices = {}};
+  for (const pugi::xml_node& matrix : children_of(node, "TileMatrix")) {
+    if (set.matrices.size() == kMaxMatrices) return Error{fmt::format("more than {} matrices", kMaxMatrices)};
+    Result<WmtsMatrix> read = read_matrix(matrix);
+    if (!read) return read.error();
+    set.matrices.push_back(*std::move(read));
+  }
+  if (set.matrices.empty()) return Error{"it has no TileMatrix"};
+  std::ranges::sort(set.matrices,
+                    [](const WmtsMatrix& a, const WmtsMatrix& b) { return a.scale_denominator > b.scale_denominator; });
+  return set;
+}
+
+std::vector<WmtsLimits> read_limits(const pugi::xml_node& link) {
+  std::vector<WmtsLimits> all;
+  for (const pugi::xml_node& node : children_of(child_of(link, "TileMatrixSetLimits"), "TileMatrixLimits")) {
+    const auto first_row = to_integer(text_of(node, "MinTileRow"));
+    const auto last_row = to_integer(text_of(node, "MaxTileRow"));
+    const auto first_column = to_integer(text_of(node, "MinTileCol"));
+    const auto last_column = to_integer(text_of(node, "MaxTileCol"));
+    if (!in_range(first_row, 0, kMaxTilesASide) || !in_range(last_row, first_row.value_or(0), kMaxTilesASide)) continue;
+    if (!in_range(first_column, 0, kMaxTilesASide) || !in_range(last_column, first_column.value_or(0), kMaxTilesASide))
+      continue;
+    if (all.size() == kMaxMatrices) break;
+    all.push_back({.matrix = std::string(text_of(node, "TileMatrix")),
+                   .first_column = *first_column,
+                   .last_column = *last_column,
+                   .first_row = *first_row,
+                   .last_row = *last_row});
+  }
+  return all;
+}
+
+}  // namespace terrella

@@ -1,0 +1,201 @@
+#include "streaming/sets/directory_source.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "base/number.h"
+#include "streaming/file_bytes.h"
+#include "streaming/sets/tileset_json.h"
+#include "streaming/sets/tms_roots.h"
+#include "streaming/sets/tms_xml.h"
+#include "streaming/tile_lister.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Numbers of columns and rows stay below it at every level.
+constexpr double kMostTilesAcross = 1e15;
+
+/// The whole number that a name is, written as tiles' names are; nothing for any other name.
+std::optional<std::int64_t> number_named(const std::string& name) {
+  const auto number = read_number(name);
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kMostTilesAcross) return {};
+  const auto whole = static_cast<std::int64_t>(*number);
+  return std::to_string(whole) == name ? std::optional(whole) : std::nullopt;
+}
+
+class DirectorySource : public TileSource, public TileLister {
+ public:
+  DirectorySource(TileSetInfo info, DirectoryLayout layout) : info_(std::move(info)), layout_(std::move(layout)) {}
+
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
+    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    const fs::path path = path_of(id);
+    Result<std::vector<std::byte>, FileError> bytes = read_file(path, kMaxTileBytes);
+    if (!bytes) return failure(bytes.error());
+    if (bytes->empty()) return TileFailure{Absence::blank, path.string() + ": an empty file"};
+    return EncodedTile{*std::move(bytes)};
+  }
+
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override {
+    const auto folder = layout_.folder.find(level);
+    if (folder == layout_.folder.end()) return 0;
+    std::int64_t count = 0;
+    std::error_code error;
+    for (const fs::directory_entry& column : fs::directory_iterator(layout_.root / folder->second, error)) {
+      std::error_code not_a_folder;
+      for (const fs::directory_entry& tile : fs::directory_iterator(column.path(), not_a_folder)) {
+        if (tile.path().extension() == "." + layout_.extension) ++count;
+      }
+    }
+    return count;
+  }
+
+  [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
+    for (const auto& [level, folder] : layout_.folder) {
+      for (const bool squeezed : {false, true}) {
+        if (squeezed && !info_.grid.reduced) continue;
+        const Result<bool> more = list_level(level, squeezed, call);
+        if (!more) return more.error();
+        if (!*more) return Done{};
+      }
+    }
+    return Done{};
+  }
+
+ private:
+  using Call = std::function<bool(const TileId&)>;
+
+  [[nodiscard]] fs::path levels(bool squeezed) const {
+    return squeezed ? layout_.root / kSqueezedFolder : layout_.root;
+  }
+
+  /// False if the call wants no more. A level without a folder has no tiles.
+  [[nodiscard]] Result<bool> list_level(int level, bool squeezed, const Call& call) const {
+    const fs::path folder = levels(squeezed) / layout_.folder.at(level);
+    std::error_code failed;
+    for (fs::directory_iterator column(folder, failed), end; !failed && column != end; column.increment(failed)) {
+      const auto x = number_named(column->path().filename().string());
+      std::error_code vanished;
+      if (!x || !column->is_directory(vanished)) continue;
+      const Result<bool> more = list_column(column->path(), {.level = level, .x = *x}, squeezed, call);
+      if (!more || !*more) return more;
+    }
+    if (failed && failed != std::errc::no_such_file_or_directory) return cannot_list(folder, failed);
+    return true;
+  }
+
+  [[nodiscard]] Result<bool> list_column(const fs::path& folder, TileId id, bool squeezed, const Call& call) const {
+    std::error_code failed;
+    for (fs::directory_iterator tile(folder, failed), end; !failed && tile != end; tile.increment(failed)) {
+      const auto row = number_named(tile->path().stem().string());
+      if (!row || tile->path().extension() != "." + layout_.extension) continue;
+      id.y = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - *row : *row;
+      id.squeeze =
+          squeezed && id.y >= 0 && id.y < rows(info_.grid, id.level) ? squeeze_of_row(info_.grid, id.level, id.y) : 0;
+      if ((id.squeeze > 0) != squeezed || !exists(info_.grid, id)) continue;
+      if (!call(id)) return false;
+    }
+    if (failed) return cannot_list(folder, failed);
+    return true;
+  }
+
+  static Error cannot_list(const fs::path& folder, const std::error_code& why) {
+    return Error{fmt::format("{}: cannot be listed: {}; check the folder's rights", folder.string(), why.message())};
+  }
+
+  [[nodiscard]] fs::path path_of(const TileId& id) const {
+    const std::int64_t row = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - id.y : id.y;
+    return levels(id.squeeze != 0) / layout_.folder.at(id.level) / std::to_string(id.x) /
+           fmt::format("{}.{}", row, layout_.extension);
+  }
+
+  static TileFailure failure(const FileError& error) {
+    switch (error.problem) {
+      case FileProblem::missing:
+        return {Absence::absent, error.message};
+      case FileProblem::too_large:
+        return {Absence::broken, error.message};
+      case FileProblem::unreadable:
+        break;
+    }
+    return {Absence::failed, error.message};
+  }
+
+  const TileSetInfo info_;
+  const DirectoryLayout layout_;
+};
+
+std::string_view as_text(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool has_any_level(const DirectoryLayout& layout) {
+  for (const auto& [level, folder] : layout.folder) {
+    std::error_code ignored;
+    if (fs::is_directory(layout.root / folder, ignored)) return true;
+  }
+  return false;
+}
+
+Result<std::unique_ptr<TileSource>> with_tiles(TileSetInfo info, DirectoryLayout layout, const fs::path& description) {
+  if (!has_any_level(layout)) {
+    return Error{fmt::format("{}: {} describes levels {} to {}, but there is no folder \"{}\" or any other with tiles",
+                             layout.root.string(), description.filename().string(), info.grid.min_level,
+                             info.grid.max_level, layout.folder.begin()->second)};
+  }
+  return make_directory_source(std::move(info), std::move(layout));
+}
+
+Result<std::unique_ptr<TileSource>> open_json(const fs::path& root, const fs::path& description) {
+  const auto bytes = read_file(description, kMaxTileSetJsonBytes);
+  if (!bytes) return Error{bytes.error().message};
+  Result<TileSetInfo> info = parse_tileset_json(as_text(*bytes), description.string());
+  if (!info) return info.error();
+  DirectoryLayout layout{.root = root, .folder = {}, .extension = info->format == ImageFormat::png ? "png" : "jpg"};
+  for (int level = info->grid.min_level; level <= info->grid.max_level; ++level) {
+    layout.folder[level] = std::to_string(level);
+  }
+  return with_tiles(*std::move(info), std::move(layout), description);
+}
+
+Result<std::unique_ptr<TileSource>> open_tms(const fs::path& root, const fs::path& description) {
+  const auto bytes = read_file(description, kMaxTmsXmlBytes);
+  if (!bytes) return Error{bytes.error().message};
+  Result<TmsDescription> tms = parse_tms_xml(as_text(*bytes), description.string());
+  if (!tms) return tms.error();
+  tms = correct_tms_roots(*std::move(tms), root);
+  if (!tms) return tms.error();
+  DirectoryLayout layout{
+      .root = root, .folder = std::move(tms->folder), .extension = tms->extension, .rows_from_south = true};
+  return with_tiles(std::move(tms->info), std::move(layout), description);
+}
+
+}  // namespace
+
+std::unique_ptr<TileSource> make_directory_source(TileSetInfo info, DirectoryLayout layout) {
+  return std::make_unique<DirectorySource>(std::move(info), std::move(layout));
+}
+
+Result<std::unique_ptr<TileSource>> open_directory(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path / kTileSetFile, ignored)) return open_json(path, path / kTileSetFile);
+  if (fs::exists(path / kTmsFile, ignored)) return open_tms(path, path / kTmsFile);
+  const bool empty = fs::is_empty(path, ignored);
+  return Error{
+      fmt::format("{}: {}, so it is not a tile set. A directory must hold tiles as {{z}}/{{x}}/{{y}}.jpg or .png and "
+                  "beside them {} (written "
+                  "by `terrella cut`) or the {} of a geodetic TMS",
+                  path.string(),
+                  empty ? "the directory is empty" : "the directory holds no tileset.json and no tilemapresource.xml",
+                  kTileSetFile, kTmsFile)};
+}
+
+}  // namespace terrella

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "streaming/json_fields.h"
+#include "tiles/tile_source.h"
+
+namespace terrella {
+
+/// Reads the field "elevation" of a tileset.json or a source description (streaming/README.md); none if it is not
+/// there. `fields` reads `object`, and gets the error. thread: any
+[[nodiscard]] std::optional<ElevationInfo> read_elevation(const nlohmann::json& object, JsonFields& fields,
+                                                          const std::string& where);
+
+}  // namespace terrella

@@ -1,0 +1,245 @@
+#include "streaming/sets/geopackage_pyramid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "streaming/sets/geopackage_matrix.h"
+#include "streaming/sets/gpkg_coverage.h"
+#include "streaming/sets/gpkg_schema.h"
+#include "streaming/sets/tile_range.h"
+#include "streaming/sets/tileset_check.h"
+#include "streaming/sets/tileset_json.h"
+
+namespace terrella {
+namespace {
+
+constexpr double kMaxCoordinateDeg = 1e6;
+constexpr int kMaxTables = 1000;
+
+/// A row of gpkg_contents with its row of gpkg_tile_matrix_set.
+struct TileTable {
+  std::string name, identifier, description;
+  std::int64_t srs_id = 0;
+  Extent set;
+  std::optional<Extent> data;
+  bool is_coverage = false;
+  Projection projection = Projection::equirectangular;
+};
+
+/// Degrees that a unit of the table's reference system is: metres of Web Mercator count as degrees of its rows.
+double degrees_a_unit(const TileTable& table) {
+  return table.projection == Projection::web_mercator ? 1.0 / kMercatorDegree_m : 1.0;
+}
+
+std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, double unit_deg) {
+  std::array<double, 4> sides{};
+  for (int i = 0; i < 4; ++i) {
+    const std::optional<double> side = query.number(first_column + i);
+    if (!side || !(std::abs(*side * unit_deg) <= kMaxCoordinateDeg)) return std::nullopt;
+    sides[static_cast<std::size_t>(i)] = *side * unit_deg;
+  }
+  const Extent extent{sides[0], sides[1], sides[2], sides[3]};
+  return extent.west < extent.east && extent.south < extent.north ? std::optional(extent) : std::nullopt;
+}
+
+/// What an SRS is called, for example "EPSG:4326".
+std::string srs_name(SqliteReader& reader, std::int64_t srs_id) {
+  Result<SqliteQuery, SqlError> query = reader.prepare(
+      "SELECT upper(organization), organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?1");
+  if (query) {
+    query->bind(1, srs_id);
+    const Result<bool, SqlError> row = query->step();
+    if (row && *row && query->text(0) && query->integer(1)) {
+      return fmt::format("{}:{}", *query->text(0), *query->integer(1));
+    }
+  }
+  return fmt::format("srs_id {}", srs_id);
+}
+
+bool is_epsg(SqliteReader& reader, std::int64_t srs_id, int code) {
+  return srs_id == code || srs_name(reader, srs_id) == fmt::format("EPSG:{}", code);
+}
+
+Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, const std::string& where) {
+  const std::optional<std::string> name = query.text(0);
+  if (!name) return Error{where + ": gpkg_contents: a table_name is not a text"};
+  const std::optional<std::int64_t> srs_id = query.integer(3);
+  if (!srs_id)
+    return Error{fmt::format("{}: gpkg_tile_matrix_set: the srs_id of \"{}\" is not a whole number", where, *name)};
+  TileTable table{.name = *name,
+                  .identifier = query.text(1).value_or(*name),
+                  .description = query.text(2).value_or(""),
+                  .srs_id = *srs_id,
+                  .set = {},
+                  .data = {},
+                  .is_coverage = query.text(12) == kCoverageDataType};
+  if (is_epsg(reader, *srs_id, kSrsWebMercator)) table.projection = Projection::web_mercator;
+  const std::optional<Extent> set = get_extent(query, 8, degrees_a_unit(table));
+  if (!set) {
+    return Error{
+        fmt::format("{}: gpkg_tile_matrix_set: min_x, min_y, max_x, max_y of \"{}\" are not the corners of a "
+                    "rectangle in degrees",
+                    where, *name)};
+  }
+  table.set = *set;
+  table.data = get_extent(query, 4, degrees_a_unit(table));
+  return table;
+}
+
+/// The first tile table that can be used, pictures before heights: any if `any_srs` (one of ours), else in EPSG:4326 or
+/// EPSG:3857.
+Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
+  Result<SqliteQuery, SqlError> query = reader.prepare(
+      "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
+      "m.min_y, "
+      "m.max_x, m.max_y, c.data_type FROM gpkg_contents c JOIN gpkg_tile_matrix_set m ON m.table_name = c.table_name "
+      "WHERE c.data_type IN ('tiles', '2d-gridded-coverage') ORDER BY c.data_type DESC");
+  if (!query) return Error{fmt::format("{}: not a GeoPackage with tiles: {}", where, query.error().message)};
+  std::optional<Error> refused;
+  for (int i = 0; i < kMaxTables; ++i) {
+    const Result<bool, SqlError> more = query->step();
+    if (!more) return Error{fmt::format("{}: gpkg_contents: {}", where, more.error().message)};
+    if (!*more) break;
+    Result<TileTable> table = get_table(reader, *query, where);
+    if (!table) return table;
+    const bool mercator = table->projection == Projection::web_mercator && !table->is_coverage;
+    if (any_srs || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
+    if (!refused) {
+      refused =
+          Error{fmt::format("{}: the {} of \"{}\" are in {}, they must be in EPSG:4326{} (gdalwarp -t_srs "
+                            "EPSG:4326 makes a picture that `terrella cut` takes)",
+                            where, table->is_coverage ? "heights" : "tiles", table->name,
+                            srs_name(reader, table->srs_id), table->is_coverage ? "" : " or EPSG:3857")};
+    }
+  }
+  if (refused) return *refused;
+  return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
+}
+
+/// Longitudes that go on beyond 180° (0 to 360 is common for planets) come back at the other side.
+GeoRect bounds_of(const Extent& extent) {
+  const double width = extent.east - extent.west;
+  const auto wrap = [](double lon) { return lon > 180.0 ? lon - 360.0 : (lon < -180.0 ? lon + 360.0 : lon); };
+  const bool whole_turn = width >= 360.0;
+  const bool shifted = extent.west >= -180.0 && extent.west < 180.0 && extent.east > 180.0;
+  const double west = whole_turn ? -180.0 : std::clamp(extent.west, -180.0, 180.0);
+  const double east = whole_turn ? 180.0 : (shifted ? wrap(extent.east) : std::clamp(extent.east, -180.0, 180.0));
+  return {.west = Angle::degrees(west),
+          .south = Angle::degrees(std::clamp(extent.south, -90.0, 90.0)),
+          .east = Angle::degrees(east),
+          .north = Angle::degrees(std::clamp(extent.north, -90.0, 90.0))};
+}
+
+Extent in_latitude(Extent extent, Projection projection) {
+  if (projection != Projection::web_mercator) return extent;
+  extent.south = latitude_of_mercator_row_deg(extent.south);
+  extent.north = latitude_of_mercator_row_deg(extent.north);
+  return extent;
+}
+
+/// By the first tile that the table holds: the format is only said, decoders look for themselves.
+ImageFormat format_of(SqliteReader& reader, const std::string& table) {
+  Result<SqliteQuery, SqlError> query =
+      reader.prepare("SELECT tile_data FROM " + quote_identifier(table) + " WHERE typeof(tile_data) = 'blob' LIMIT 1");
+  if (!query) return ImageFormat::unknown;
+  const Result<bool, SqlError> row = query->step();
+  return row && *row ? sniff_format(query->blob(0).value_or(std::span<const std::byte>{})) : ImageFormat::unknown;
+}
+
+/// A viewer keeps the tiles of the coarsest level; more than these are no base to stand on.
+constexpr std::int64_t kMaxRootTiles = 512;
+
+Result<bool, SqlError> has_tiles(SqliteReader& reader, const std::string& table, std::int64_t zoom) {
+  Result<SqliteQuery, SqlError> query =
+      reader.prepare("SELECT 1 FROM " + quote_identifier(table) + " WHERE zoom_level = ?1 LIMIT 1");
+  if (!query) return query.error();
+  query->bind(1, zoom);
+  return query->step();
+}
+
+/// gdal_translate lists all zoom levels but writes the finest alone; gdaladdo fills the others.
+Status drop_empty_levels(SqliteReader& reader, GeoPackageTiles& tiles, const std::string& where) {
+  while (!tiles.levels.empty()) {
+    const Result<bool, SqlError> some = has_tiles(reader, tiles.table, tiles.levels.begin()->second.zoom);
+    if (!some) return Error{fmt::format("{}: the tile table \"{}\": {}", where, tiles.table, some.error().message)};
+    if (*some) break;
+    tiles.levels.erase(tiles.levels.begin());
+  }
+  if (tiles.levels.empty()) return Error{fmt::format("{}: the tile table \"{}\" holds no tiles", where, tiles.table)};
+  TileGrid& grid = tiles.info.grid;
+  grid.min_level = tiles.levels.begin()->first;
+  const std::int64_t roots = count_places(grid, grid.min_level);
+  if (roots > kMaxRootTiles) {
+    return Error{
+        fmt::format("{}: its coarsest tiles are {} in number, at most {} can be a base: add overviews with `gdaladdo "
+                    "{} 2 4 8 16`",
+                    where, roots, kMaxRootTiles, where)};
+  }
+  return Done{};
+}
+
+/// The text of our side table, if there is one.
+Result<std::optional<std::string>> read_description(SqliteReader& reader, const std::string& where) {
+  const Result<bool, SqlError> ours = reader.has_table(kTileSetTable);
+  if (!ours) return Error{fmt::format("{}: {}", where, ours.error().message)};
+  if (!*ours) return std::optional<std::string>{};
+  Result<SqliteQuery, SqlError> query =
+      reader.prepare(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
+  const auto refuse = [&](const std::string& why) {
+    return Error{fmt::format("{}: {}: {}", where, kTileSetTable, why)};
+  };
+  if (!query) return refuse(query.error().message);
+  const Result<bool, SqlError> row = query->step();
+  if (!row) return refuse(row.error().message);
+  std::optional<std::string> text = *row ? query->text(0) : std::nullopt;
+  if (!text) return refuse(fmt::format("no text under the key '{}'", kTileSetKey));
+  return text;
+}
+
+}  // namespace
+
+Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where) {
+  const Result<std::optional<std::string>> description = read_description(reader, where);
+  if (!description) return description.error();
+  const bool ours = description->has_value();
+  const Result<TileTable> table = find_table(reader, ours, where);
+  if (!table) return table.error();
+  const auto matrices = read_matrices(reader, {table->name, degrees_a_unit(*table)}, table->set, where);
+  if (!matrices) return matrices.error();
+
+  GeoPackageTiles tiles;
+  tiles.table = table->name;
+  tiles.is_coverage = table->is_coverage;
+  if (ours) {
+    Result<TileSetInfo> info = parse_tileset_json(**description, fmt::format("{}: {}", where, kTileSetTable));
+    if (!info) return info.error();
+    tiles.info = *std::move(info);
+    const bool mercator = tiles.info.grid.projection == Projection::web_mercator;
+    if (mercator != (table->projection == Projection::web_mercator)) {
+      return Error{fmt::format(
+          "{}: its description and its gpkg_tile_matrix_set differ on whether it is in Web Mercator", where)};
+    }
+    if (Status matched = match_grid(*matrices, table->set, tiles, where); !matched) return matched.error();
+    return tiles;
+  }
+  tiles.info.name = table->identifier;
+  tiles.info.attribution = table->description;
+  tiles.info.grid.projection = table->projection;
+  tiles.info.grid.bounds = bounds_of(in_latitude(table->data.value_or(table->set), table->projection));
+  tiles.info.format = format_of(reader, table->name);
+  if (table->is_coverage) {
+    const Result<ElevationInfo> elevation = read_coverage(reader, table->name, where);
+    if (!elevation) return elevation.error();
+    tiles.info.elevation = *elevation;
+  }
+  if (Status placed = place_on_grid(*matrices, table->set, tiles, where); !placed) return placed.error();
+  if (Status grid = check_grid(tiles.info.grid, where); !grid) return grid.error();
+  if (Status filled = drop_empty_levels(reader, tiles, where); !filled) return filled.error();
+  return tiles;
+}
+
+}  // namespace terrella

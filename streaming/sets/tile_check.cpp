@@ -1,0 +1,53 @@
+#include "streaming/sets/tile_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "codecs/image.h"
+#include "codecs/jpeg_codec.h"
+#include "codecs/png_codec.h"
+
+namespace terrella {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kJpegEnd = "\xFF\xD9"sv;
+constexpr std::string_view kPngEnd = "\0\0\0\0IEND\xAE\x42\x60\x82"sv;
+/// Some encoders pad what follows the end; further back it is not an end but a picture within the picture.
+constexpr std::size_t kMostPadding = 16;
+
+bool ends_with(std::string_view bytes, std::string_view end) {
+  const std::size_t from = bytes.size() - std::min(bytes.size(), end.size() + kMostPadding);
+  return bytes.find(end, from) != std::string_view::npos;
+}
+
+Error not_a_picture(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first != std::string_view::npos && bytes[first] == '<')
+    return Error{"a page of HTML or XML instead of a picture"};
+  if (bytes.starts_with("RIFF")) return Error{"WebP, which is not read; JPEG or PNG is needed"};
+  if (bytes.starts_with("GIF8")) return Error{"GIF, which is not read; JPEG or PNG is needed"};
+  return Error{"neither JPEG nor PNG"};
+}
+
+}  // namespace
+
+Status check_tile(std::span<const std::byte> bytes, int tile_px) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const ImageFormat format = sniff_format(bytes);
+  if (format == ImageFormat::unknown) return not_a_picture(text);
+  const bool jpeg = format == ImageFormat::jpeg;
+  const Result<PictureSize> size = jpeg ? jpeg_size(bytes) : png_size(bytes);
+  if (!size) return size.error();
+  if (size->width_px != tile_px || size->height_px != tile_px) {
+    return Error{fmt::format("a picture of another size than the set's {}×{} pixels", tile_px, tile_px)};
+  }
+  if (!ends_with(text, jpeg ? kJpegEnd : kPngEnd)) return Error{"a picture that ends too early"};
+  return Done{};
+}
+
+}  // namespace terrella

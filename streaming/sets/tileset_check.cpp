@@ -1,0 +1,69 @@
+#include "streaming/sets/tileset_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace terrella {
+namespace {
+
+Error field_error(const std::string& where, const char* field, double value, const std::string& allowed) {
+  return Error{fmt::format("{}: {} is {}, it must be {}", where, field, value, allowed)};
+}
+
+// A bound that was counted in radians and back may lie over ±180° or ±90° by rounding.
+constexpr double kAngleSlackDeg = 1e-9;
+
+bool within(double value, double low, double high) {
+  return value >= low - kAngleSlackDeg && value <= high + kAngleSlackDeg;
+}
+
+Status check_bounds(const GeoRect& bounds, const std::string& where) {
+  for (const double lon : {bounds.west.deg(), bounds.east.deg()}) {
+    if (!within(lon, -180.0, 180.0)) return field_error(where, "bounds: a longitude", lon, "in [-180, 180]");
+  }
+  for (const double lat : {bounds.south.deg(), bounds.north.deg()}) {
+    if (!within(lat, -90.0, 90.0)) return field_error(where, "bounds: a latitude", lat, "in [-90, 90]");
+  }
+  if (!(bounds.south < bounds.north)) {
+    return field_error(where, "bounds: south", bounds.south.deg(), fmt::format("under north, {}", bounds.north.deg()));
+  }
+  if (bounds.west == bounds.east) return field_error(where, "bounds: west", bounds.west.deg(), "other than east");
+  return Done{};
+}
+
+/// Tiles of a quadtree over the square: those of 360° and their quarters.
+Status check_mercator(const TileGrid& grid, const std::string& where) {
+  if (grid.projection != Projection::web_mercator) return Done{};
+  const double halvings = std::log2(360.0 / grid.root_span_deg);
+  if (halvings < 0.0 || halvings != std::round(halvings)) {
+    return field_error(where, "root_span_deg", grid.root_span_deg, "360 or a half, a quarter … of it in Web Mercator");
+  }
+  if (grid.tile_px > kMaxMercatorTilePx) {
+    return field_error(where, "tile_px", grid.tile_px, fmt::format("at most {} in Web Mercator", kMaxMercatorTilePx));
+  }
+  if (grid.reduced) return Error{where + ": polar_rows are not squeezed in Web Mercator, which has no poles"};
+  return Done{};
+}
+
+}  // namespace
+
+Status check_grid(const TileGrid& grid, const std::string& where) {
+  if (!(grid.root_span_deg >= kMinRootSpanDeg && grid.root_span_deg <= kMaxRootSpanDeg)) {
+    return field_error(where, "root_span_deg", grid.root_span_deg,
+                       fmt::format("in [{}, {}] degrees", kMinRootSpanDeg, kMaxRootSpanDeg));
+  }
+  if (grid.tile_px < kMinTilePx || grid.tile_px > kMaxTilePx) {
+    return field_error(where, "tile_px", grid.tile_px, fmt::format("in [{}, {}]", kMinTilePx, kMaxTilePx));
+  }
+  if (grid.max_level < 0 || grid.max_level > kMaxTileLevel) {
+    return field_error(where, "max_level", grid.max_level, fmt::format("in [0, {}]", kMaxTileLevel));
+  }
+  if (grid.min_level < 0 || grid.min_level > grid.max_level) {
+    return field_error(where, "min_level", grid.min_level, fmt::format("in [0, max_level = {}]", grid.max_level));
+  }
+  if (Status square = check_mercator(grid, where); !square) return square.error();
+  return check_bounds(grid.bounds, where);
+}
+
+}  // namespace terrella

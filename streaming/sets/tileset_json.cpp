@@ -1,0 +1,101 @@
+#include "streaming/sets/tileset_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geo/body.h"
+#include "streaming/json_fields.h"
+#include "streaming/projection_names.h"
+#include "streaming/sets/elevation_json.h"
+#include "streaming/sets/tileset_check.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr const char* kCutKeyField = "cut_key";
+
+
+const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
+
+Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
+  JsonFields fields(object, where);
+  TileSetInfo info;
+  const int version = fields.integer("version", kVersion);
+  if (version < 1 || version > kVersion) {
+    fields.fail<int>("version", fmt::format("is {}, this program reads version {}", version, kVersion));
+  }
+  info.name = fields.text("name");
+  info.attribution = fields.text("attribution");
+  info.body = fields.text("body");
+  const bool mercator = fields.choice("projection", kProjectionNames, 0) == static_cast<int>(Projection::web_mercator);
+  info.grid.root_span_deg = mercator && !fields.has("root_span_deg") ? 360.0 : fields.number("root_span_deg");
+  info.grid.tile_px = fields.integer("tile_px", std::nullopt);
+  info.grid.min_level = fields.integer("min_level", 0);
+  info.grid.max_level = fields.integer("max_level", std::nullopt);
+  info.grid.projection = static_cast<Projection>(fields.choice("projection", kProjectionNames, 0));
+  info.grid.latitude =
+      fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
+  info.grid.bounds = fields.bounds("bounds");
+  info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
+  info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  info.elevation = read_elevation(object, fields, where);
+  if (info.elevation && info.format != ImageFormat::png) {
+    fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
+  }
+  if (fields.error()) return *fields.error();
+  if (Status grid = check_grid(info.grid, where); !grid) return grid.error();
+  if (!info.body.empty()) {
+    if (const auto body = parse_body(info.body); !body)
+      return Error{where + ": the field \"body\": " + body.error().message};
+  }
+  return info;
+}
+
+}  // namespace
+
+double tidy_degrees(Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; }
+
+std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key) {
+  const TileGrid& grid = info.grid;
+  nlohmann::ordered_json object;
+  object["version"] = kVersion;
+  object["name"] = info.name;
+  object["attribution"] = info.attribution;
+  object["body"] = info.body;
+  object["root_span_deg"] = grid.root_span_deg;
+  object["tile_px"] = grid.tile_px;
+  object["min_level"] = grid.min_level;
+  object["max_level"] = grid.max_level;
+  object["projection"] = projection_name(grid.projection);
+  object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
+  object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
+                      tidy_degrees(grid.bounds.north)};
+  if (grid.reduced) object["polar_rows"] = "squeezed too";
+  object["format"] = name_of(info.format);
+  if (info.elevation) {
+    object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
+    if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
+  }
+  if (!cut_key.empty()) object[kCutKeyField] = cut_key;
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> read_cut_key(std::string_view text) {
+  const Result<json> object = parse_json_object(text, kMaxTileSetJsonBytes, {});
+  if (!object) return {};
+  const auto key = object->find(kCutKeyField);
+  return key != object->end() && key->is_string() ? std::optional(key->get<std::string>()) : std::nullopt;
+}
+
+Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where) {
+  const Result<json> object = parse_json_object(text, kMaxTileSetJsonBytes, where);
+  if (!object) return object.error();
+  return read_fields(*object, where);
+}
+
+}  // namespace terrella
