@@ -172,7 +172,7 @@ class Drawn(GeoreferenceTest):
             with self.subTest(world):
                 self.picture(picture, "-of", {"png": "PNG", "jpg": "JPEG", "tif": "GTiff"}[picture[-3:]], size=(64, 32))
                 self.write(world, b"0.25\n0\n0\n-0.25\n10.125\n49.875\n")
-                self.assert_done("cut", picture, "-o", "out.gpkg")
+                self.assert_done("cut", picture, "-o", "out.gpkg", "--force")
                 info = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)
                 for ours, said in zip(info["bounds"], (10, 42, 26, 50)):
                     self.assertAlmostEqual(ours, said, delta=PLACED_PX * 0.25)

@@ -213,7 +213,7 @@ class NoServerTest(ProgramTest):
     def test_a_set_of_which_every_tile_is_missing_leaves_no_picture(self):
         with servers.misbehaving(self.folder / "nothing", {}) as server:
             self.assert_fails(1, "render", server.template, "--max-level", "2", "-o", "x.png", *VIEW,
-                              says=["0/0/0", "404", "none of the", "nothing was written"])
+                              says=["0.jpg", "404", "none of the", "nothing was written"])
         self.assertFalse((self.folder / "x.png").exists())
 
     def test_a_template_without_a_place_for_the_level_is_wrong(self):

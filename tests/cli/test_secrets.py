@@ -239,12 +239,12 @@ class OtherServersTest(SecretsTest):
             self.describe("template.json", url=other.template, max_level=1)
             self.keeps(FAILED, "render", secret_address(one.address + "/template.json"), "-o", "a.png", *VIEW, *HEADERS,
                        says=[other.address, "port"])
-            # Without headers the tiles of the other are drawn, and user and password stay where they were given for.
-            self.keeps(DONE_IN_PART, "render", caps, "-o", "a.png", *VIEW)
+            # Without headers the other is asked for its tiles, and user and password stay where they were given for.
+            self.keeps(FAILED, "render", caps, "-o", "a.png", *VIEW)
             self.assertTrue(other.log())
             self.assert_got_nothing(other.log())
             # The same server's tiles are asked for with the headers.
-            self.keeps(DONE_IN_PART, "render", secret_address(one.address + "/own.xml"), "-o", "b.png", *VIEW, *HEADERS)
+            self.keeps(FAILED, "render", secret_address(one.address + "/own.xml"), "-o", "b.png", *VIEW, *HEADERS)
             tiles = [entry for entry in one.log() if entry["path"].endswith(".png")]
             self.assertTrue(tiles and all(entry["headers"].get("X-Key") == HEADER for entry in tiles))
 
