@@ -37,6 +37,11 @@ void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now
   constexpr double kSmoothing_s = 5.0;
   const double seconds = std::chrono::duration<double>(now - measured_).count();
   if (seconds <= 0.0) return;
+  // A lock says nothing about the rate.
+  if (counts.locked) {
+    measured_ = now;
+    return;
+  }
   const std::int64_t asked = counts.passed - counts.there;
   const double rate = static_cast<double>(asked - asked_measured_) / seconds;
   // A running mean that begins with no opinion: what it has seen so far counts for all of it.
@@ -53,6 +58,7 @@ std::string PreloadProgress::line(const PreloadCounts& counts) const {
   std::string text = fmt::format("{:.1f} % of {} tiles: {} stored ({}), {} there already", part * 100.0, counts.planned,
                                  counts.stored, bytes_text(static_cast<double>(counts.stored_bytes)), counts.there);
   if (counts.lacking() > 0) text += fmt::format(", {} lacking", counts.lacking());
+  if (counts.locked) return text + "; the cache is locked by another program, waiting for it";
   const double tiles_per_s = weight_seen_ > 0.0 ? tiles_seen_ / weight_seen_ : 0.0;
   if (tiles_per_s >= 0.05) {
     text += fmt::format("; {:.0f} tiles/s, {} left", tiles_per_s,

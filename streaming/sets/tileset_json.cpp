@@ -19,7 +19,6 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr const char* kCutKeyField = "cut_key";
 
-
 const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
 
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {

@@ -283,7 +283,7 @@ class OpenFiles(LimitTest):
 
 
 class Locked(LimitTest):
-    hold_s = 10.0  # progress is told every two seconds, on a busy machine later
+    hold_s = 4.0
 
     def hold(self, statement):
         """Another program's lock, let go of after a while."""
