@@ -21,8 +21,8 @@ namespace terrella {
 struct LabelSight {
   glm::dvec3 hiding_half_axes_m{0.0};  ///< half axes of an opaque ellipsoid that hides labels; 0: none
   bool shown = true;
-  bool above_ground = true;         ///< true: labels over the ground are visible
-  bool chosen_above_ground = true;  ///< true: of those, labels with through_surface are visible
+  bool above_ground = true;         ///< true: all labels over the ground are visible
+  bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
 
 /// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. Of
