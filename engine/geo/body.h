@@ -9,7 +9,7 @@
 
 namespace terrella {
 
-/// A planet or moon: its name, as shown to people, and its figure.
+/// A planet or moon: its name, as shown to people, and its figure. The functions of this header are pure. thread: any
 struct Body {
   std::string name;
   Ellipsoid ellipsoid;

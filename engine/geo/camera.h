@@ -13,7 +13,7 @@ namespace terrella {
 
 /// The eye's place and its direction of view, as the command line gives them. The heading is clockwise from north. The
 /// pitch is upward from the horizontal. At pitch -90°, straight down, the heading is the upward direction in the
-/// picture.
+/// picture. The functions of this header are pure. thread: any
 struct Camera {
   Geodetic eye{.lat = {}, .lon = {}, .height_m = 1.0e7};
   Angle heading{};

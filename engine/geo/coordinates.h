@@ -4,8 +4,7 @@
 
 #include "geo/angle.h"
 
-///
-/// All coordinate systems of Terrella, in one place. Other files refer to this one.
+/// All coordinate systems of Terrella, in one place. Other files refer to this one. Plain values. thread: any
 ///
 /// ECEF       Earth-centred, Earth-fixed, right-handed, metres, double. +x to 0°N 0°E, +y to 0°N 90°E, +z to the
 ///            north pole. Other bodies use their own prime meridian and pole.

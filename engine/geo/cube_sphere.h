@@ -33,11 +33,11 @@ struct FacePoint {
 ///
 /// Watertight seams depend on these bit-exact promises. The value depends only on |i|, |j| and the signs (odd
 /// functions). At i = ±1 or j = ±1, both faces that share the edge or corner give the same bits. i = 0 and j = 0 give
-/// exact zeros. Equatorial faces have T = ±x or ±y and B = +z.
+/// exact zeros. Equatorial faces have T = ±x or ±y and B = +z. thread: any
 [[nodiscard]] EcefDir cube_to_sphere(const FacePoint& p, CubeMapping mapping = CubeMapping::tangent);
 
 /// Returns the face point of a direction, on the face of its largest component (ties: x before y before z). Error ≤
-/// 4e-16 in i and j.
+/// 4e-16 in i and j. thread: any
 [[nodiscard]] FacePoint sphere_to_cube(const EcefDir& direction, CubeMapping mapping = CubeMapping::tangent);
 
 }  // namespace terrella

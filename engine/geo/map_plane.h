@@ -24,7 +24,7 @@ using MapRing = std::vector<MapPoint>;
 
 /// Clips a ring at a meridian or parallel, `axis` = `at_deg`. `side` 1 keeps the part with larger coordinates, -1 the
 /// part with smaller ones (Sutherland and Hodgman 1974, doi:10.1145/360767.360802). Edges added along the cut cancel
-/// under even-odd filling. Points on the cut have exactly its coordinate.
+/// under even-odd filling. Points on the cut have exactly its coordinate. thread: any
 [[nodiscard]] MapRing clip_ring(const MapRing& ring, double MapPoint::*axis, double at_deg, double side);
 
 }  // namespace terrella

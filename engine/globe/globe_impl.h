@@ -31,7 +31,7 @@ struct ObjectLayer {
   [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
 };
 
-/// The implementation of Globe. Globe has checked thread and context before each call.
+/// The implementation of Globe. Globe has checked thread and context before each call. thread: main
 struct Globe::Impl {
   explicit Impl(const GlobeOptions& o) : options(o) {}
 

@@ -91,7 +91,7 @@ class Air {
 
 /// A ray in the plane of the eye and the planet's centre; the eye is at (0, radius).
 struct SkyRay {
-  double sine, cosine;  ///< of the angle from the zenith
+  double sine, cosine;  ///< sine and cosine of the angle from the zenith
   double begin, end;    ///< range in which the ray is in the air
   double middle;        ///< point at which the air is densest
 };

@@ -16,6 +16,7 @@ struct HeightLoaderOptions {
 
 extern template class Loader<HeightTile>;
 
+/// Loads tiles of heights. thread: main
 class HeightLoader : public Loader<HeightTile> {
  public:
   HeightLoader(const ElevationSource& source, const HeightLoaderOptions& options = {});

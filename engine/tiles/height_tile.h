@@ -8,7 +8,7 @@
 namespace terrella {
 
 /// The heights of one tile, metres over the ellipsoid (or over the zero level of the data), rows from the north. Each
-/// height is that of its pixel's centre. Unknown heights are filled from their surroundings, falling to 0.
+/// height is that of its pixel's centre. Unknown heights are filled from their surroundings, falling to 0. thread: any
 struct HeightTile {
   TileId id;
   int side_px = 0;

@@ -43,7 +43,8 @@ inline constexpr int kMaxTileLevel = 24;
 
 /// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (engine/DESIGN.md, 4).
 /// Rows are measured in degrees of "row latitude". In an equal_area grid one degree is 1/180 of the picture's height.
-/// In a web_mercator grid it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180).
+/// In a web_mercator grid it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180). The functions of
+/// this header are pure. thread: any
 struct TileGrid {
   double root_span_deg = 180.0;  ///< span of a level-0 tile, degrees, in both directions; (0, 1e4]
   int tile_px = 256;             ///< pixels per side, [16, 4096]

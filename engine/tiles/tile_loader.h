@@ -44,7 +44,6 @@ struct LoaderCounts {
   std::size_t lacked = 0;    ///< of those, tiles that failed
 };
 
-///
 /// Reads, fetches and decodes tiles. Workers read and decode. A tile that the source has to fetch waits in the network,
 /// not in a worker. The caller uses two calls: request() and poll(). A tile is in one state at a time:
 ///   waiting   the tile is wanted, and no worker has looked for it yet;

@@ -9,7 +9,7 @@ namespace terrella {
 using Seconds = std::chrono::duration<double>;
 
 /// A movement of the camera from one place to another. It starts and ends gently, follows the globe's curve, and climbs
-/// on the way if the way is long.
+/// on the way if the way is long. The functions of this header are pure. thread: any
 struct Flight {
   Camera from;
   Camera to;

@@ -6,7 +6,8 @@
 
 namespace terrella {
 
-/// The eye's vertical and heading as directions. Unlike latitude and longitude, they are not singular at a pole.
+/// The eye's vertical and heading as directions. Unlike latitude and longitude, they are not singular at a pole. The
+/// functions of this header are pure. thread: any
 struct GroundFrame {
   glm::dvec3 up;     ///< geodetic normal at the eye, unit, ECEF axes
   glm::dvec3 ahead;  ///< horizontal direction of the heading, unit, ECEF axes

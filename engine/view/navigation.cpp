@@ -190,7 +190,6 @@ void Navigator::advance(Seconds now) {
   stay_over_ground();
 }
 
-//
 //  --- helpers of the events
 
 Seconds Navigator::pass(Seconds now) {

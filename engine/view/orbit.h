@@ -4,7 +4,8 @@
 
 namespace terrella {
 
-/// An eye that looks at a fixed point, and can be tilted and turned around that point.
+/// An eye that looks at a fixed point, and can be tilted and turned around that point. The functions of this header are
+/// pure. thread: any
 struct Orbit {
   Ecef pivot;         ///< on the surface, seen at the picture's centre
   Angle azimuth;      ///< direction of the line of sight at the pivot, clockwise from north

@@ -4,6 +4,8 @@
 
 namespace terrella {
 
+// Plain values. thread: any
+
 /// The texturing method of patches: shaders/README.md. `automatic` is the command line's `auto`.
 enum class Texturing { vertex, paper, exact, automatic };
 

@@ -4,7 +4,8 @@
 
 namespace terrella {
 
-/// Range of the eye's height in navigation: 1 m to 50 equatorial radii.
+/// Range of the eye's height in navigation: 1 m to 50 equatorial radii. The functions of this header are pure.
+/// thread: any
 struct HeightRange {
   double lowest_m, highest_m;
   [[nodiscard]] double clamp(double height_m) const;  ///< NaN gives lowest_m
