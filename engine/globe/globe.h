@@ -47,7 +47,7 @@ struct GlobeOptions {
   int segments = 24;  ///< edges of triangles along a patch's side: even, [2, 128]
   CubeMapping mapping = CubeMapping::tangent;
   /// Border of neighbouring texels around a tile in its slot, [0, 64]; mip k has 2^-k times as many. Filtering reaches
-  /// 8 texels. With fewer, tile borders show.
+  /// at most 8 texels. Without a gutter, tile borders show.
   int gutter_px = 8;
   DepthMode depth = DepthMode::reversed;
   bool unlit = false;  ///< draws imagery only: no light, no sky, black background
@@ -137,9 +137,9 @@ struct GlobeBudget {
 /// in the destructor. If no context is current, the GL objects are taken to be gone with their context.
 class Globe {
  public:
-  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current, if the context is older
-  /// than 4.5, if a shader does not compile, if the time is outside the almanac's years, or if detail, error, segments
-  /// or gutter are out of range.
+  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current, the context is older than
+  /// 4.5, or a shader does not compile. Also fails if the time is outside the almanac's years, or if detail, error,
+  /// segments or gutter are out of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
   /// The same with a first image layer and, optionally, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,

@@ -32,7 +32,7 @@ class TileStream {
   TileStream(Loader<Decoded> loader, TileResidency& residency, LayerId layer, Clock::duration retry_after)
       : loader_(std::move(loader)), residency_(residency), layer_(layer), retry_after_(retry_after) {}
 
-  /// Requests all tiles that the frame wants. Of these, `missing` tiles count towards has_news().
+  /// Requests all tiles that the frame wants, in place of the previous request.
   void request(std::span<const TileRequest> wanted) {
     wants_ = !wanted.empty();
     loader_.request(wanted);
@@ -55,7 +55,8 @@ class TileStream {
       note(missing, {next.front().id, failure, layer_});
     }
   }
-  /// True if a frame would have something to do: a tile has arrived, a retry is due, or a wanted tile is not in flight.
+  /// True if a frame would have something to do: a tile has arrived, a retry is due, or tiles are wanted and none is in
+  /// flight.
   [[nodiscard]] bool has_news() const {
     if (residency_.has_retry(Clock::now())) return true;
     const LoaderCounts counts = loader_.counts();

@@ -15,8 +15,8 @@ struct GreyPicture {
 
 /// Converts a map of the whole planet to six faces of a cube, in OpenGL's order and orientation (+x, -x, +y, -y, +z, -z
 /// of ECEF). Looking up by direction has no seam at the antimeridian and no pole. `side_px` is the side of a face, at
-/// least 1. A quarter of the map's width keeps the map's detail, except for 20 % in the middle of a face. Bilinear.
-/// thread: any
+/// least 1. A quarter of the map's width keeps the map's detail, except for a loss of 20 % in the middle of a face.
+/// Bilinear. thread: any
 [[nodiscard]] std::array<std::vector<std::uint8_t>, 6> cube_faces(const GreyPicture& map, int side_px);
 
 }  // namespace terrella

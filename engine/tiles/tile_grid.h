@@ -76,10 +76,10 @@ struct RowLatitudes {
 /// Number of tiles of a row that is squeezed by 2^squeeze.
 [[nodiscard]] std::int64_t squeezed_columns(const TileGrid& grid, int level, int squeeze);
 [[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);  ///< tiles that cover [90°, -90°], ≥ 1
-/// Returns the squeeze of a row in a reduced grid, a layout known from weather models. This is the largest k for which
-/// texels 2^k times as wide are at most 20 % longer along the parallel than along the meridian, at the row's edge
-/// nearest to the equator (engine/DESIGN.md, 12). 0 for other rows, for grids that are not reduced, and for equal-area
-/// rows.
+/// Returns the squeeze of a row in a reduced grid, a layout known from weather models: the largest k that keeps texels
+/// short enough. Texels 2^k times as wide must be at most 20 % longer along the parallel than along the meridian, at
+/// the row's edge nearest to the equator (engine/DESIGN.md, 12). 0 for other rows, for grids that are not reduced, and
+/// for equal-area rows.
 [[nodiscard]] int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y);
 /// Returns the tile to use for a tile of the full grid: in a reduced row the squeezed tile over it, else the tile
 /// itself.

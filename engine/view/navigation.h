@@ -42,8 +42,8 @@ class Navigator {
   void pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, Seconds now);
   void pointer_move(glm::dvec2 at_px, Seconds now);
   /// Ends a drag. `late` is how long before `now` this event and the events just before it may have happened, for
-  /// example after a slow frame. A movement that could also be a rest does not flick. No flick is faster than the
-  /// average over all events of that time.
+  /// example after a slow frame. A movement that could also be a rest does not flick. The speed of a flick is averaged
+  /// over at least `late`.
   void pointer_up(PointerButton button, Seconds now, Seconds late = Seconds(0.0));
   void double_click(glm::dvec2 at_px, Seconds now);
   void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< positive steps zoom towards the ground
