@@ -17,8 +17,7 @@ namespace {
 constexpr double kWidestCell_deg = 1.0;
 constexpr double kNarrowestCell_deg = 0.05;
 constexpr double kCellsAcross = 64.0;
-/// Cells with more points are divided further. Where rings cross themselves, the tessellator may need the square of
-/// this number.
+/// Cells with more points are divided: for rings that cross themselves GLU may need the square of this number.
 constexpr std::size_t kMostCellPoints = 512;
 constexpr int kMostDivisions = 12;
 constexpr double kMostArcPieces = 4.0e6;
@@ -138,8 +137,7 @@ class AreaFiller {
     fill_block(clipped(all, axis, at, 1.0), upper);
   }
 
-  /// Removes rings that run only along the block's border. Each covers the whole block or nothing; `full` is their
-  /// combined effect.
+  /// Removes rings that only follow the block's border. `full` tells if together they cover the block.
   static Rings without_whole_turns(const Rings& rings, const MapRect& rect, bool& full) {
     const double whole = (rect.east_deg - rect.west_deg) * (rect.north_deg - rect.south_deg);
     Rings open;
