@@ -5,7 +5,7 @@
 
 namespace terrella {
 
-/// A GLSL file of this folder as it was when the library was built.
+/// A GLSL file of this folder, with its text when the library was built.
 struct EmbeddedShader {
   std::string_view name;
   std::string_view text;

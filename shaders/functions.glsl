@@ -1,10 +1,10 @@
-// Functions of angles that the place of a texel hangs on. A driver's own may be coarse (GLSL promises nothing): the engine
-// measures them once and defines OWN_FUNCTIONS where they are (engine/render/shader_functions.h). The polynomials are
-// minimax, by iteratively reweighted least squares; each leaves less than a float's rounding.
+// Angle functions that determine a texel's position. GLSL promises no accuracy, and a driver's functions may be coarse.
+// The engine measures them once and defines OWN_FUNCTIONS if they are (engine/render/gl/shader_functions.h). The
+// polynomials are minimax, by iteratively reweighted least squares. Each has an error below a float's rounding.
 #if defined(OWN_FUNCTIONS)
 float own_atan(float y, float x) {
   float a = abs(x), b = abs(y), large = max(a, b), small = min(a, b);
-  bool over = small > 0.41421356 * large;   // tan 22.5 degrees: from 45 degrees the rest is small again
+  bool over = small > 0.41421356 * large;   // tan 22.5 degrees: above it, subtracting 45 degrees leaves a small rest
   precise float t = over ? (small - large) / (small + large) : small / max(large, 1e-37);
   float z = t * t;
   float p = t + t * z * (-0.33332955 + z * (0.19977926 + z * (-0.13879850 + z * 0.08060308)));
@@ -14,7 +14,8 @@ float own_atan(float y, float x) {
   return y < 0.0 ? -p : p;
 }
 
-// To a turn either way: a quarter's multiple is taken off in two parts, the first of which has few digits.
+// Valid up to a turn either way. Subtracts a multiple of a quarter turn in two parts, the first of which has few
+// digits.
 vec2 own_sin_cos(float angle) {
   float quarters = floor(angle * 0.63661977 + 0.5);
   precise float r = (angle - quarters * 1.5703125) - quarters * 4.8382679e-4;
@@ -28,7 +29,7 @@ vec2 own_sin_cos(float angle) {
 
 float own_inversesqrt(float x) {
   float r = inversesqrt(x);
-  r *= 1.5 - 0.5 * x * r * r;               // Newton's step: each doubles the digits
+  r *= 1.5 - 0.5 * x * r * r;               // Newton's step: each doubles the number of digits
   return r * (1.5 - 0.5 * x * r * r);
 }
 

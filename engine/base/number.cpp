@@ -20,7 +20,7 @@ std::optional<double> read_number(std::string_view text) {
   const std::string_view digits = trimmed(text);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  // from_chars reads "nan" and "inf", and stops at the first character that it cannot use.
+  // from_chars accepts "nan" and "inf", and stops at the first character that it cannot use.
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }

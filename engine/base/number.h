@@ -7,14 +7,16 @@
 
 namespace terrella {
 
-/// Text as a finite decimal number; blanks around it are allowed, nothing else is: no "nan", "inf", hexadecimal, units,
-/// and nothing that overflows or underflows a double. The decimal point is '.' whatever the locale. thread: any
+/// Reads a finite decimal number. Blanks around the number are allowed. Refuses everything else: "nan", "inf",
+/// hexadecimal, units, and numbers that overflow or underflow a double. The decimal point is '.' in every locale.
+/// thread: any
 [[nodiscard]] std::optional<double> read_number(std::string_view text);
 
-/// The pieces between commas, blanks around each removed; always at least one.
+/// Splits text at its commas and removes the blanks around each piece. Returns at least one piece. thread: any
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Text in double quotes for an error message: shortened if it is long, control characters shown as '?'.
+/// Puts text into double quotes for an error message. Shortens long text and shows control characters as '?'.
+/// thread: any
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace terrella

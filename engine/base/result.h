@@ -7,14 +7,13 @@
 
 namespace terrella {
 
-/// A failure of the world (a file, a server, bytes from outside), told to a person: it names the input, says
-/// what is wrong with it and, where one can say it, what to do.
+/// A failure caused by the outside world: a file, a server, foreign bytes. The message is for a person. It names the
+/// input, says what is wrong with it and, if possible, what to do.
 struct Error {
   std::string message;
 };
 
-/// A value or the reason why there is none. Misuse (value() of a failure) is an assert.
-/// thread: any
+/// A value, or the reason why there is no value. Misuse, as value() of a failure, is an assertion. thread: any
 template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
@@ -51,7 +50,7 @@ class [[nodiscard]] Result {
   std::variant<T, E> state_;
 };
 
-/// The outcome of something that has no value to return.
+/// The success value of an operation that returns nothing else.
 struct Done {};
 using Status = Result<Done>;
 

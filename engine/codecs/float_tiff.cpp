@@ -13,10 +13,11 @@
 namespace terrella {
 namespace {
 
-/// What libtiff may allocate at a time: a strip, or a table of the file's own sizes. A tile of 4096² floats is 64 MiB.
+/// Limit of a single allocation by libtiff: a strip, or a table with sizes from the file. A tile of 4096² floats is 64
+/// MiB.
 constexpr tmsize_t kMaxTileAllocation = 80L << 20;
 
-/// A file in memory that libtiff reads; nothing is written.
+/// A file in memory, which libtiff only reads.
 struct MemoryFile {
   std::span<const std::byte> bytes;
   std::uint64_t at = 0;
@@ -25,10 +26,11 @@ struct MemoryFile {
 
 tmsize_t read_memory(thandle_t handle, void* to, tmsize_t size) {
   auto& file = *static_cast<MemoryFile*>(handle);
-  // Nothing beyond the end, as of a file: an error (-1) makes libtiff 4.5 clear memory before its buffer.
+  // Reading past the end returns 0 bytes, as with a file. An error (-1) would make libtiff 4.5 clear memory before its
+  // buffer.
   if (size < 0 || file.at > file.bytes.size()) return 0;
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(size), file.bytes.size() - file.at);
-  if (count == 0) return 0;  // an empty file has no place to copy from
+  if (count == 0) return 0;  // an empty file has no address to copy from
   std::memcpy(to, file.bytes.data() + file.at, count);
   file.at += count;
   return static_cast<tmsize_t>(count);
@@ -68,7 +70,7 @@ MemoryTiff open_memory(MemoryFile& file) {
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &file);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_warning, nullptr);
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxTileAllocation);
-  // m: read through the functions, without a memory map.
+  // "m" makes libtiff use the read functions, without a memory map.
   return MemoryTiff(TIFFClientOpenExt("tile", "rm", &file, read_memory, write_nothing, seek_memory, keep_open,
                                       size_of_memory, nullptr, nullptr, options.get()));
 }

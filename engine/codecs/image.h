@@ -17,17 +17,17 @@ struct Image {
   std::vector<std::uint8_t> rgba;  ///< width · height · 4 bytes
 };
 
-/// What a decoder may allocate. A picture over a limit is refused before its pixels are read.
+/// Limits of a decoder's memory. A picture over a limit is refused before its pixels are read.
 struct DecodeLimits {
   int max_side_px = 8192;
-  std::size_t max_bytes = 256UL << 20;  ///< of decoded pixels
+  std::size_t max_bytes = 256UL << 20;  ///< decoded pixels
 };
 
 enum class ImageFormat { jpeg, png, unknown };
-/// By the first bytes, not by a name.
+/// Recognises the format by the first bytes. thread: any
 [[nodiscard]] ImageFormat sniff_format(std::span<const std::byte> bytes);
 
-/// Pixels, as a picture's header says; not checked against any limit.
+/// The size in a picture's header, pixels; not checked against any limit.
 struct PictureSize {
   int width_px = 0;
   int height_px = 0;
@@ -37,7 +37,7 @@ struct PictureSize {
 /// error. thread: any
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
 
-/// thread: any. JPEG: quality 1…100, alpha dropped, 4:2:0. PNG: RGB if every alpha is 255, else RGBA.
+/// Encodes a picture. JPEG: quality 1…100, alpha dropped, 4:2:0. PNG: RGB if every alpha is 255, else RGBA. thread: any
 [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality);
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(const Image& image);
 

@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Refuses a picture of no size, or over a limit; called before its pixels are allocated. thread: any
+/// Refuses a picture of zero size or over a limit. Called before the pixels are allocated. thread: any
 [[nodiscard]] Status check_size(std::uint64_t width_px, std::uint64_t height_px, const DecodeLimits& limits);
 
 }  // namespace terrella

@@ -48,7 +48,7 @@ Result<Image> decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& 
     return Error{"JPEG: " + fits.error().message};
   }
   image.rgba.resize(rgba_size(image.width_px, image.height_px));
-  // Without a limit on scans a progressive file of a few kilobytes keeps the decoder busy for minutes.
+  // Without a limit on scans, a progressive file of a few kilobytes can keep the decoder busy for minutes.
   constexpr int kFlags = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
   if (tjDecompress2(handle.get(), data, size, image.rgba.data(), image.width_px, 0, image.height_px, TJPF_RGBA,
                     kFlags) != 0) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr png_alloc_size_t kMaxChunkBytes = 8UL << 20;
 
-/// What libpng's callbacks share. They are C frames that longjmp passes over: nothing in them may need a destructor.
+/// State of libpng's callbacks. longjmp skips their C frames, so no object in them may need a destructor.
 struct Decoder {
   std::span<const std::byte> rest;
   char message[128] = "unknown failure";
@@ -50,13 +50,13 @@ bool set_up(Decoder& decoder) {
   if (decoder.info == nullptr) return false;
   png_set_read_fn(decoder.png, &decoder, on_read);
   png_set_chunk_malloc_max(decoder.png, kMaxChunkBytes);
-  // Only what makes pixels is read: profiles and texts can be compressed bombs.
+  // Only chunks that affect pixels are read: profiles and texts can be compression bombs.
   png_set_keep_unknown_chunks(decoder.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_set_crc_action(decoder.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   return true;
 }
 
-/// False: decoder.message says why.
+/// False on error; decoder.message says why.
 bool read_header(Decoder& decoder) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_read_info(decoder.png, decoder.info);
@@ -114,7 +114,7 @@ const char* name_of_colour(int colour_type) {
 
 Error png_failure(const std::string& message) { return Error{"PNG: " + message}; }
 
-// Up to the end of the header.
+// Reads up to the end of the header.
 Status begin(Decoder& decoder, std::span<const std::byte> bytes) {
   decoder.rest = bytes;
   if (!set_up(decoder)) return png_failure("out of memory");

@@ -4,18 +4,18 @@
 
 namespace terrella {
 
-/// decode_image() for bytes that sniff_format() took for a PNG. Sixteen bits are rounded to eight, palettes and gray
-/// are expanded; gamma and colour profiles are not applied. thread: any
+/// decode_image() for bytes that sniff_format() recognised as PNG. Rounds 16 bits to 8 and expands palettes and gray.
+/// Does not apply gamma and colour profiles. thread: any
 [[nodiscard]] Result<Image> decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
-/// The numbers of a gray PNG of 16 bits, in this machine's order, rows from the top. Any other PNG is refused, and the
-/// error says what it is. thread: any
+/// The numbers of a gray PNG of 16 bits, in native byte order, rows from the top. Any other PNG is refused, with an
+/// error that says what differs. thread: any
 struct Gray16 {
   int width_px = 0;
   int height_px = 0;
   std::vector<std::uint16_t> values;
 };
 [[nodiscard]] Result<Gray16> decode_gray16_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
-/// What the header says; nothing is decoded. thread: any
+/// Reads the size from the header without decoding. thread: any
 [[nodiscard]] Result<PictureSize> png_size(std::span<const std::byte> bytes);
 
 }  // namespace terrella

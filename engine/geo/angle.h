@@ -5,9 +5,8 @@
 
 namespace terrella {
 
-/// A plane angle. It can only be made by saying its unit; inside it is radians.
-/// degrees() and deg() are exact to 1 ulp each way; multiples of 90° are exact in degrees, not in radians.
-/// thread: any
+/// A plane angle, radians inside. It can be made only by naming the unit. degrees() and deg() are exact to 1 ulp each
+/// way. Multiples of 90° are exact in degrees, not in radians. thread: any
 class Angle {
  public:
   constexpr Angle() = default;

@@ -23,17 +23,17 @@ Body sphere(std::string name, double radius_m) {
   return {.name = std::move(name), .ellipsoid = Ellipsoid(radius_m, 0.0)};
 }
 
-/// Figures other than Earth's are those of the IAU Working Group on Cartographic Coordinates and Rotational Elements,
-/// report of 2015 (Archinal et al. 2018, doi:10.1007/s10569-017-9805-5), compared with what PROJ 9.1 has of it (its
-/// database's authority IAU_2015): equatorial and polar radius of a spheroid; for what is triaxial the mean radius, as
-/// a sphere; for Titan the radius that the report has maps use.
+/// Source of all figures but Earth's: IAU Working Group on Cartographic Coordinates and Rotational Elements, report of
+/// 2015 (Archinal et al. 2018, doi:10.1007/s10569-017-9805-5). They were compared with PROJ 9.1 (authority IAU_2015)
+/// for the bodies in its database. A spheroid has its equatorial and polar radius. A triaxial body is a sphere of its
+/// mean radius. Titan has the radius that the report prescribes for maps.
 std::array<Body, 24> make_presets() {
   return {
       // WGS 84: NGA.STND.0036, defining parameters.
       Body{.name = "earth", .ellipsoid = Ellipsoid(6378137.0, 1.0 / 298.257223563)},
       sphere("moon", 1737400.0),
       from_axes("mars", 3396190.0, 3376200.0),
-      // Earth's mean radius R1 = (2a + b) / 3 of WGS 84, rounded to a decimetre.
+      // Earth's mean radius R1 = (2a + b) / 3 of WGS 84, rounded to 0.1 m.
       sphere("sphere", 6371008.8),
       from_axes("mercury", 2440530.0, 2438260.0),
       sphere("venus", 6051800.0),

@@ -9,20 +9,21 @@
 
 namespace terrella {
 
-/// A planet or moon: a name for people and a figure.
+/// A planet or moon: its name, as shown to people, and its figure. The functions of this header are pure. thread: any
 struct Body {
   std::string name;
   Ellipsoid ellipsoid;
 };
 
-/// Presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn … ; source of each figure in
-/// body.cpp.
+/// All presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn and more. body.cpp gives the
+/// source of each figure.
 [[nodiscard]] std::span<const Body> body_presets();
 
 /// Earth, WGS 84: a = 6378137 m, f = 1/298.257223563.
 [[nodiscard]] const Body& earth();
 
-/// Reads `--body`: a preset's name, or "A,F" (semi-major axis in metres, flattening). The error names the text.
+/// Reads the value of `--body`: the name of a preset, or "A,F" (semi-major axis in metres, flattening). The error
+/// quotes the text.
 [[nodiscard]] Result<Body> parse_body(std::string_view text);
 
 }  // namespace terrella

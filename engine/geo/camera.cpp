@@ -15,11 +15,11 @@
 namespace terrella {
 namespace {
 
-/// One field of --camera; without limits any finite number will do.
+/// One field of --camera. Without limits, any finite number is valid.
 struct CameraField {
   std::string_view name;
   double low, high;
-  std::string_view range;  ///< the limits in words
+  std::string_view range;  ///< the limits in words, for the error
   double initial;
 };
 
@@ -38,7 +38,7 @@ Error bad_camera(std::string_view text, const std::string& reason) {
   return {"camera " + in_quotes(text) + ": " + reason};
 }
 
-/// A picture position as multiples of right and up where forward is 1.
+/// Returns a picture position in multiples of right and up, in the plane at forward = 1.
 glm::dvec2 slopes(const View& view, glm::dvec2 pixel_px) {
   const double per_px = 2.0 * view.tan_half_fov_y / view.viewport.height_px;
   return {(pixel_px.x - 0.5 * view.viewport.width_px) * per_px + view.shear_x,
@@ -71,8 +71,8 @@ Result<Camera> parse_camera(std::string_view text) {
 
 View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport) {
   assert(viewport.width_px >= 1 && viewport.height_px >= 1);
-  // East, north and up from latitude and longitude, not from the position: at a pole the longitude still says where
-  // north is.
+  // East, north and up follow from latitude and longitude, not from the position: at a pole only the longitude defines
+  // where north is.
   const double sin_lon = std::sin(camera.eye.lon.rad());
   const double cos_lon = std::cos(camera.eye.lon.rad());
   const double sin_lat = std::sin(camera.eye.lat.rad());

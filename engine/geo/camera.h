@@ -11,9 +11,9 @@
 
 namespace terrella {
 
-/// Where the eye is and which way it looks; the command line's camera.
-/// heading clockwise from north; pitch up from the horizontal: -90° straight down, and then heading says which way
-/// is up in the picture.
+/// The eye's place and its direction of view, as the command line gives them. The heading is clockwise from north. The
+/// pitch is upward from the horizontal. At pitch -90°, straight down, the heading is the upward direction in the
+/// picture. The functions of this header are pure. thread: any
 struct Camera {
   Geodetic eye{.lat = {}, .lon = {}, .height_m = 1.0e7};
   Angle heading{};
@@ -22,8 +22,8 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses what is not finite, |LAT| > 90, |PITCH| >
-/// 90, FOV outside [0.01, 170], ALT outside ±1e12; the error names the field.
+/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses values that are not finite, |LAT| > 90,
+/// |PITCH| > 90, FOV outside [0.01, 170] and ALT outside ±1e12. The error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
 
 /// Picture size in pixels, each ≥ 1.
@@ -33,28 +33,31 @@ struct Viewport {
   bool operator==(const Viewport&) const = default;
 };
 
-/// A camera bound to a body and a picture size, in double: what selection, picking and drawing share.
+/// A camera combined with a body and a picture size, in double. Selection, picking and drawing all use this value.
 struct View {
   Ecef eye;
   glm::dvec3 right, up, forward;  ///< orthonormal, ECEF axes
   double tan_half_fov_y;
   Viewport viewport;
-  double shear_x = 0.0;       ///< off-axis: the slope, right of forward, that the picture's centre looks along
-  double eye_spread_m = 0.0;  ///< two eyes stand this far to its right and left; selection serves both
+  /// Slope, to the right of forward, of the ray through the picture's centre; 0 unless the view is off-axis.
+  double shear_x = 0.0;
+  /// Distance of each of two eyes from `eye`, to its left and right; selection serves both eyes.
+  double eye_spread_m = 0.0;
   [[nodiscard]] double aspect() const { return double(viewport.width_px) / double(viewport.height_px); }
   /// Pixels that one radian covers at the picture's centre.
   [[nodiscard]] double pixels_per_radian() const { return 0.5 * viewport.height_px / tan_half_fov_y; }
 };
 [[nodiscard]] View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport);
 
-/// view_from_ecef without its translation (the eye is subtracted in double first); an off-axis view's shear is in it,
-/// so that it is no rotation there, and what projects needs to know nothing of it.
+/// view_from_ecef without its translation: the eye is subtracted in double beforehand. The matrix contains the shear of
+/// an off-axis view, and then is not a rotation. Code that projects does not have to treat that case.
 [[nodiscard]] glm::dmat3 view_from_ecef_rotation(const View& view);
-/// Direction through a pixel position (centres at halves), unit, ECEF axes.
+/// Returns the unit direction through a pixel position (pixel centres at halves), ECEF axes.
 [[nodiscard]] EcefDir pixel_ray(const View& view, glm::dvec2 pixel_px);
-/// The pixel position of a point; nothing if it is at or behind the eye plane.
+/// Returns the pixel position of a point; nothing if the point is at or behind the eye's plane.
 [[nodiscard]] std::optional<glm::dvec2> project(const View& view, const Ecef& p);
-/// The surface point under a pixel, height 0; nothing beside the globe. From inside: the far wall.
+/// Returns the surface point under a pixel, at height 0; nothing if the pixel shows no part of the globe. From inside
+/// the body, the point is on the far wall.
 [[nodiscard]] std::optional<Geodetic> pick(const View& view, const Ellipsoid& ellipsoid, glm::dvec2 pixel_px);
 
 }  // namespace terrella

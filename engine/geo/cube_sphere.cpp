@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-// Each polar face continues the face around 0° E, so that T is +y on all three.
+// Each polar face continues the face at 0° E, so T is +y on all three.
 constexpr std::array<CubeFaceFrame, kCubeFaces> kFrames = {{
     {.n = {1, 0, 0}, .t = {0, 1, 0}, .b = {0, 0, 1}},
     {.n = {0, 1, 0}, .t = {-1, 0, 0}, .b = {0, 0, 1}},
@@ -19,7 +19,7 @@ constexpr std::array<CubeFaceFrame, kCubeFaces> kFrames = {{
     {.n = {0, 0, -1}, .t = {0, 1, 0}, .b = {1, 0, 0}},
 }};
 
-/// Odd by construction, and exactly ±1 at ±1, where tan(π/4) in double is one step short.
+/// Odd by construction, and exactly ±1 at ±1, where tan(π/4) in double is one ulp short.
 double warp(double x, CubeMapping mapping) {
   if (mapping == CubeMapping::plain || x == 0.0) return x;
   const double magnitude = std::abs(x);
@@ -45,10 +45,10 @@ const CubeFaceFrame& face_frame(CubeFace face) { return kFrames.at(static_cast<s
 
 EcefDir cube_to_sphere(const FacePoint& p, CubeMapping mapping) {
   const CubeFaceFrame& frame = face_frame(p.face);
-  // The frames hold 0 and ±1 only, so this sum is exact: two faces reach the same cube point with the same bits. N's
-  // zeros are +0, and +0 plus a zero of either sign is +0, so no -0 gets out to turn 180° into -180°.
+  // The frames contain only 0 and ±1, so this sum is exact, and two faces get the same bits for a shared cube point.
+  // The zeros of N are +0, and +0 plus a zero of either sign is +0. So no -0 arises that would turn 180° into -180°.
   const glm::dvec3 on_cube = frame.n + warp(p.i, mapping) * frame.t + warp(p.j, mapping) * frame.b;
-  // x, y, z in this order on every face: rounding must not depend on which of them is the face's axis.
+  // All faces add x, y, z in this order, so that rounding does not depend on the axis of the face.
   const double length = std::sqrt(on_cube.x * on_cube.x + on_cube.y * on_cube.y + on_cube.z * on_cube.z);
   return EcefDir{on_cube / length};
 }

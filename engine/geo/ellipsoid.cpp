@@ -14,7 +14,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Longitude in (-180°, 180°]. atan2 alone would tell -180° for y = -0 (or a y that rounds away) and, on the axis,
+/// Longitude in (-180°, 180°]. atan2 alone would return -180° for y = -0 (or a y that rounds away) and, on the axis,
 /// 180° for x = -0.
 Angle longitude(double x, double y) {
   if (x == 0.0 && y == 0.0) return Angle{};
@@ -22,8 +22,8 @@ Angle longitude(double x, double y) {
   return Angle::radians(lon <= -std::numbers::pi ? std::numbers::pi : lon);
 }
 
-/// The quadratic A t² - 2 B t + C = 0 of a ray and the unit sphere; its discriminant (a quarter of the textbook's)
-/// comes from the ray's closest approach to the centre: B² - A C would lose all its digits for an eye far away.
+/// The quadratic A t² - 2 B t + C = 0 of a ray and the unit sphere. The discriminant, a quarter of the textbook's,
+/// follows from the ray's closest approach to the centre. B² - A C would lose all its digits for a distant eye.
 struct RayQuadratic {
   double a, b, c, discriminant;
 };
@@ -57,7 +57,7 @@ Geodetic Ellipsoid::to_geodetic(const Ecef& p) const {
   double lon_deg = 0.0;
   double height_m = 0.0;
   geocentric.Reverse(p.xyz_m.x, p.xyz_m.y, p.xyz_m.z, lat_deg, lon_deg, height_m);
-  // The longitude straight from the position spares it the rounding of a turn through degrees.
+  // The longitude comes straight from the position, which avoids the rounding of a conversion to degrees.
   return {.lat = Angle::degrees(lat_deg), .lon = longitude(p.xyz_m.x, p.xyz_m.y), .height_m = height_m};
 }
 
@@ -81,14 +81,14 @@ std::optional<double> Ellipsoid::intersect_m(const Ecef& origin, const EcefDir& 
   const RayQuadratic q = ray_quadratic(origin.xyz_m * to_unit_sphere, direction.xyz * to_unit_sphere);
   if (!std::isfinite(q.discriminant) || !std::isfinite(q.c)) return std::nullopt;
 
-  if (q.c < 0.0) {  // inside: there is always a crossing, so a discriminant below 0 is rounding
+  if (q.c < 0.0) {  // inside there is always a crossing, so a discriminant below 0 is rounding
     const double root = std::sqrt(std::max(q.discriminant, 0.0));
-    // Of the two forms of the far root, the one that adds numbers of like sign: the other may come out negative.
+    // The far root has two forms. Use the form that adds numbers of like sign; the other may be negative.
     return q.b >= 0.0 ? (q.b + root) / q.a : q.c / (q.b - root);
   }
   if (q.b < 0.0 || q.discriminant < 0.0) return std::nullopt;
   if (q.c == 0.0) return 0.0;
-  return q.c / (q.b + std::sqrt(q.discriminant));  // (b - root) / a may come out negative just over the surface
+  return q.c / (q.b + std::sqrt(q.discriminant));  // (b - root) / a may be negative just over the surface
 }
 
 }  // namespace terrella

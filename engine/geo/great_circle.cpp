@@ -18,14 +18,14 @@ glm::dvec3 direction(const MapPoint& p) {
   return Ellipsoid::normal(Angle::degrees(p.lat_deg), Angle::degrees(p.lon_deg)).xyz;
 }
 
-/// The same place with its longitude within half a turn of `near_deg`.
+/// Returns the same place with a longitude within half a turn of `near_deg`.
 MapPoint place_near(const glm::dvec3& n, double near_deg) {
   const double lon = Angle::radians(std::atan2(n.y, n.x)).deg();
   return {near_deg + std::remainder(lon - near_deg, 360.0),
           Angle::radians(std::atan2(n.z, std::hypot(n.x, n.y))).deg()};
 }
 
-/// Appends what leads from `a` to `b`, `b` included, `a` not.
+/// Appends the points of the way from `a` to `b`, including `b` but not `a`.
 void append_halves(const MapPoint& a, const MapPoint& b, int halvings, MapRing& ring) {
   const MapPoint flat{0.5 * (a.lon_deg + b.lon_deg), 0.5 * (a.lat_deg + b.lat_deg)};
   const glm::dvec3 middle = glm::normalize(direction(a) + direction(b));
@@ -41,7 +41,7 @@ void append_halves(const MapPoint& a, const MapPoint& b, int halvings, MapRing& 
 
 bool is_pole(const MapPoint& p) { return std::abs(p.lat_deg) == 90.0; }
 
-/// Appends the edge from the ring's last point to a position, with that position.
+/// Appends the edge from the last point of the ring to a position, including that position.
 Status append_edge(const MapPoint& given_from, const MapPoint& given_to, MapRing& ring) {
   const MapPoint from = ring.back();
   const double turn_deg = given_to.lon_deg - given_from.lon_deg;
@@ -52,7 +52,7 @@ Status append_edge(const MapPoint& given_from, const MapPoint& given_to, MapRing
   const double east_deg = std::remainder(turn_deg, 360.0);
   const MapPoint to{from.lon_deg + east_deg, given_to.lat_deg};
   if (is_pole(from) || is_pole(to) || east_deg == 0.0) {
-    // A pole has every longitude: the edge is a meridian, and the rest of the way lies at the pole.
+    // A pole has every longitude: the edge is a meridian, and the rest of the edge stays at the pole.
     if (is_pole(from)) ring.push_back({to.lon_deg, from.lat_deg});
     if (is_pole(to) && !is_pole(from)) ring.push_back({from.lon_deg, to.lat_deg});
     ring.push_back(to);
@@ -73,7 +73,8 @@ Status append_edge(const MapPoint& given_from, const MapPoint& given_to, MapRing
   return Done{};
 }
 
-/// Twice the integral of the sine of the latitude along a way round the planet: positive if it lies north.
+/// Returns twice the integral of sin(latitude) along a way round the planet; positive if the way is mostly in the
+/// north.
 double mean_side(const MapRing& ring) {
   double sum = 0.0;
   for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -84,7 +85,7 @@ double mean_side(const MapRing& ring) {
   return ring.back().lon_deg > ring.front().lon_deg ? sum : -sum;
 }
 
-/// Cuts a ring whose longitudes run on into its parts within [-180, 180].
+/// Cuts a ring with continuing longitudes into parts within [-180, 180].
 std::vector<MapRing> cut_at_antimeridian(const MapRing& ring) {
   const auto by_lon = [](const MapPoint& a, const MapPoint& b) { return a.lon_deg < b.lon_deg; };
   const auto [west, east] = std::ranges::minmax_element(ring, by_lon);
@@ -116,7 +117,7 @@ Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions) {
 }
 
 double pieces_of(const std::vector<MapPoint>& positions) {
-  // An arc of angle s lies up to s²/8 off its chord: pieces are this long, or twice.
+  // An arc of angle s deviates by up to s²/8 from its chord. Pieces have this length, or twice this length.
   const double piece_deg = Angle::radians(std::sqrt(8.0 * Angle::degrees(kArcTolerance_deg).rad())).deg();
   double turned_deg = 0.0;
   for (std::size_t i = 1; i < positions.size(); ++i) {

@@ -7,22 +7,23 @@
 
 namespace terrella {
 
-// Distances and areas on the ellipsoid itself, by GeographicLib's exact geodesics (C. F. F. Karney, J. Geodesy 87
-// (2013), and GeodesicExact for any flattening): nanometres on Earth. Heights do not count. Latitudes beyond a pole by
-// rounding are taken at the pole. thread: any
+// Distances and areas on the ellipsoid, by GeographicLib's exact geodesics (C. F. F. Karney, J. Geodesy 87 (2013), and
+// GeodesicExact for any flattening). Error: nanometres on Earth. Heights are ignored. A latitude that rounding put
+// beyond a pole counts as the pole. thread: any
 
-/// Metres of the shortest way.
+/// Length of the shortest way between two places, metres.
 [[nodiscard]] double geodesic_m(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to);
 
-/// Metres from the first place over all others to the last; 0 of fewer than two.
+/// Length of the way from the first place through all others to the last, metres; 0 for fewer than two places.
 [[nodiscard]] double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places);
 
 struct PolygonMeasure {
-  double area_m2 = 0.0;  ///< of the smaller side, never negative; of a ring that crosses itself what remains of both
-  double perimeter_m = 0.0;  ///< with the way from the last place to the first
+  /// Area of the smaller side, never negative; for a ring that crosses itself, the difference of its two sides.
+  double area_m2 = 0.0;
+  double perimeter_m = 0.0;  ///< includes the way from the last place to the first
 };
 
-/// A ring of geodesics, over ±180° and around a pole too; nothing encloses an area of fewer than three places.
+/// Measures a ring of geodesics, which may cross ±180° or go round a pole. The area is 0 for fewer than three places.
 [[nodiscard]] PolygonMeasure polygon_measure(const Ellipsoid& ellipsoid, std::span<const Geodetic> ring);
 
 }  // namespace terrella

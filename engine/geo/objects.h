@@ -12,7 +12,7 @@
 
 namespace terrella {
 
-/// A colour as it is shown, sRGB, 0 to 255; alpha 255 is opaque.
+/// A displayed colour, sRGB, 0 to 255; alpha 255 is opaque.
 struct ObjectColor {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
@@ -21,16 +21,16 @@ struct ObjectColor {
   bool operator==(const ObjectColor&) const = default;
 };
 
-/// A place drawn as a sphere in metres, or else as a disc that keeps its size on the screen.
+/// A point, drawn as a sphere with a radius in metres or as a disc of constant size on the screen.
 struct PointObject {
   Geodetic place = {};
   double radius_m = 0.0;  ///< > 0: a sphere around `place`; 0: a marker of `size_px`
-  float size_px = 10.0F;  ///< a marker's diameter
+  float size_px = 10.0F;  ///< diameter of a marker
   ObjectColor color{230, 60, 50};
-  bool through_surface = false;  ///< shines through a surface seen from below that is translucent for chosen objects
+  bool through_surface = false;  ///< visible from below through a surface that is translucent for selected objects
 };
 
-/// A line through places, by the shortest ways on the ellipsoid (geodesics); heights change evenly on the way.
+/// A line through places, along geodesics of the ellipsoid. The height changes evenly between two places.
 struct LineObject {
   std::vector<Geodetic> places = {};
   float width_px = 2.0F;
@@ -38,36 +38,37 @@ struct LineObject {
   bool through_surface = false;
 };
 
-/// An area with holes: whatever an odd number of rings encloses. Edges, ±180° and poles as geo/great_circle.h says. The
-/// fill lies at one height, the mean of its places'; the stroke follows each place's.
+/// An area with holes: all that an odd number of rings encloses. geo/great_circle.h defines edges, ±180° and poles. The
+/// fill lies at one height, the mean height of the places. The stroke follows the height of each place.
 struct PolygonObject {
-  std::vector<std::vector<Geodetic>> rings = {};  ///< a ring's last place may repeat its first
-  ObjectColor fill{230, 60, 50, 90};              ///< alpha 0: none
-  ObjectColor stroke{230, 60, 50};                ///< alpha 0: none
+  std::vector<std::vector<Geodetic>> rings = {};  ///< the last place of a ring may repeat its first
+  ObjectColor fill{230, 60, 50, 90};              ///< alpha 0: no fill
+  ObjectColor stroke{230, 60, 50};                ///< alpha 0: no stroke
   float stroke_width_px = 2.0F;
   bool through_surface = false;
 };
 
-/// A text beside a place, right of what marks it there. UTF-8.
+/// A text, UTF-8, to the right of the marker or sphere at a place.
 struct LabelObject {
   std::string text = {};
   Geodetic place = {};
   ObjectColor color{255, 255, 255};
-  float size_px = 10.0F;  ///< of the marker
-  double radius_m = 0.0;  ///< of the sphere
-  double priority = 0.0;  ///< where two would overlap, the higher stays; among equals the first
+  float size_px = 10.0F;  ///< size of the marker
+  double radius_m = 0.0;  ///< radius of the sphere
+  /// Of two labels that would overlap, the one with the higher priority is shown; on a tie, the first.
+  double priority = 0.0;
   bool through_surface = false;
 };
 
-/// A corner of a mesh, in the model's own frame: metres, y up, z forward, x to the left (glTF 2.0).
+/// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0).
 struct MeshVertex {
   glm::vec3 position_m{0.0F};
-  glm::vec3 normal{0.0F};        ///< unit; 0: its triangle's own
-  glm::vec2 uv{0.0F};            ///< of the texture, v down
-  glm::vec4 color_linear{1.0F};  ///< goes with the part's colour
+  glm::vec3 normal{0.0F};        ///< unit; 0: use the normal of the triangle
+  glm::vec2 uv{0.0F};            ///< texture coordinates, v down
+  glm::vec4 color_linear{1.0F};  ///< multiplied by the colour of the part
 };
 
-/// A picture for parts of meshes: RGBA8, sRGB, rows from the top.
+/// A texture of mesh parts: RGBA8, sRGB, first row at the top.
 struct MeshTexture {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> rgba = {};
@@ -76,27 +77,28 @@ struct MeshTexture {
 /// Triangles with one material.
 struct MeshPart {
   std::vector<MeshVertex> vertices = {};
-  std::vector<std::uint32_t> indices = {};  ///< three a triangle, each less than the number of vertices
+  std::vector<std::uint32_t> indices = {};  ///< three per triangle, each less than the number of vertices
   glm::vec4 color_linear{1.0F};
-  bool translucent = false;  ///< else alpha counts only where it is less than `cutoff`, which is then not drawn
+  /// False: drawn opaque, but texels with alpha below `cutoff` are not drawn.
+  bool translucent = false;
   float cutoff = 0.0F;
-  std::shared_ptr<const MeshTexture> texture = {};  ///< none: white
+  std::shared_ptr<const MeshTexture> texture = {};  ///< empty: white
 };
 
 struct MeshModel {
   std::vector<MeshPart> parts = {};
 };
 
-/// A model that stands at a place, upright there. Those that share a model are drawn together.
+/// A model that stands upright at a place. Objects that share a model are drawn together.
 struct MeshObject {
   std::shared_ptr<const MeshModel> model = {};
   Geodetic place = {};
-  Angle heading = {};  ///< clockwise from north, of the model's forward
+  Angle heading = {};  ///< direction of the model's forward axis, clockwise from north
   double scale = 1.0;  ///< > 0
   bool through_surface = false;
 };
 
-/// What is drawn over, on and under a planet beside the planet itself. Plain values: thread any.
+/// All objects of a scene: over, on and under the ground. A plain value. thread: any
 struct ObjectScene {
   std::vector<PointObject> points = {};
   std::vector<LineObject> lines = {};
@@ -108,7 +110,7 @@ struct ObjectScene {
   }
 };
 
-/// An object lies under the ground if any of its places does (height < 0): then the surface is drawn over it.
+/// True if any place of the object lies under the ground (height < 0). The surface is then drawn over the object.
 [[nodiscard]] inline bool is_underground(const Geodetic& place) { return place.height_m < 0.0; }
 [[nodiscard]] inline bool is_underground(const std::vector<Geodetic>& places) {
   for (const Geodetic& place : places) {

@@ -10,15 +10,15 @@
 #include "globe/globe_impl.h"
 #include "render/gl/gl_state.h"
 
-// The façade: checks that a call may be made, then makes it.
+// The façade. Each function checks that the call is allowed, then forwards it.
 namespace terrella {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Any day will do for stars without a time: noon of an equinox.
+// Sky for stars without a time: any instant will do; this one is noon of an equinox.
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
-// Longest wait for a tile before a look at what is due by the clock: retries.
+// Longest wait for a tile before checking for due retries.
 constexpr std::chrono::milliseconds kLook{100};
 
 bool has_context() { return glGetString(GL_VERSION) != nullptr; }
@@ -32,7 +32,7 @@ Status check_context() {
   return Done{};
 }
 
-// Said so that NaN is outside too.
+// Conditions are written so that NaN is out of range too.
 Status check_ranges(const GlobeOptions& o) {
   if (!(o.texels_per_pixel >= 0.125 && o.texels_per_pixel <= 8.0)) {
     return Error{"a globe's texels_per_pixel is from 0.125 to 8, not " + std::to_string(o.texels_per_pixel)};
@@ -52,7 +52,7 @@ Status check_ranges(const GlobeOptions& o) {
   return Done{};
 }
 
-// Misuse: told at once where assertions are on.
+// Reports misuse by an assertion.
 bool refuse([[maybe_unused]] const char* call, [[maybe_unused]] const char* why) {
 #ifndef NDEBUG
   std::fprintf(stderr, "terrella: %s: %s\n", call, why);
@@ -208,7 +208,8 @@ bool Globe::has_relief() const { return impl_->relief != nullptr; }
 
 void Globe::set_camera(const Camera& camera) {
   if (!impl_->may_call("Globe::set_camera")) return;
-  if (camera == impl_->camera) return;  // callers set it every frame: what a view gave way in stays found
+  // Callers set the camera every frame; an unchanged camera keeps the reduced detail.
+  if (camera == impl_->camera) return;
   impl_->camera = camera;
   impl_->restore_detail();
 }

@@ -31,90 +31,96 @@ namespace terrella {
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
-  double paper_a = 4.0;      ///< formula (6)'s a, [2, 8]
-  double paper_band = 0.05;  ///< formula (5)'s b, (0, 0.5]
-  /// Squeezed tiles near the poles, where the set has them and `texturing` is exact or automatic; else the full grid.
+  double paper_a = 4.0;      ///< paper 1's a in formula (6), [2, 8]
+  double paper_band = 0.05;  ///< paper 1's b in formula (5), (0, 0.5]
+  /// Draws squeezed tiles near the poles if the set has them and `texturing` is exact or automatic. False: draws the
+  /// full grid.
   bool squeezed_rows = true;
-  int polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many tile columns, [1, 4096]
-  /// Detail asked of the imagery, [0.125, 8]: a texel is at most a pixel over this, along the meridian, as far as the
-  /// set goes. Tiles, bytes and memory grow with its square; `bench accuracy` has the curve.
+  /// A patch that touches a pole takes a coarser level if it spans more than this many tile columns, [1, 4096].
+  int polar_columns = 32;
+  /// Detail of the imagery, [0.125, 8]: along the meridian a texel is at most 1 / texels_per_pixel of a pixel, if the
+  /// set has that detail. Tiles, bytes and memory grow with the square of this number. `bench accuracy` has the curve.
   double texels_per_pixel = 1.0;
-  /// Farthest that the ellipsoid may be drawn from where it is, and what is interpolated from its place, in pixels,
-  /// [0.01, 16]: a patch that would be further off is split.
+  /// Largest error on the screen, in pixels, [0.01, 16], of the drawn ellipsoid and of values interpolated over it. A
+  /// patch with a larger error is split.
   double max_error_px = 0.2;
-  int segments = 24;  ///< a patch's side in triangles' edges: even, [2, 128]
+  int segments = 24;  ///< edges of triangles along a patch's side: even, [2, 128]
   CubeMapping mapping = CubeMapping::tangent;
-  /// Texels of the neighbours around a tile in its slot, [0, 64], mip k has 2^-k of them. 8 is as far as filtering
-  /// reaches; without any, tile borders show.
+  /// Border of neighbouring texels around a tile in its slot, [0, 64]; mip k has 2^-k times as many. Filtering reaches
+  /// at most 8 texels. Without a gutter, tile borders show.
   int gutter_px = 8;
   DepthMode depth = DepthMode::reversed;
-  bool unlit = false;  ///< imagery alone: no light, no sky, black background
+  bool unlit = false;  ///< draws imagery only: no light, no sky, black background
   SurfaceLook surface{};
-  double exaggeration = 1.0;  ///< of heights, [0, 100]
+  double exaggeration = 1.0;  ///< factor of the heights, [0, 100]
   StereoLook stereo{};
-  /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
+  /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
+  /// prevents.
   bool naive_translucency = false;
-  bool sky = false;               ///< stars, Sun, Moon and atmosphere; never with `unlit`
-  std::optional<UtcTime> time{};  ///< of Sun and sky; none: the Sun stands over the viewer's shoulder, is not drawn,
-                                  ///< and it is day everywhere (ImageLook::daylight)
-  std::vector<Star> stars{};      ///< of the sky
-  GreyPicture night_lights{};     ///< of the Earth's night side, with a sky and a time; may be empty
-  std::vector<std::byte> label_font{};     ///< a font file for the labels of objects; empty: no labels
-  std::size_t gpu_bytes = 512UL << 20;     ///< tile texture slots, of all image layers together
-  std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; room for 64 tiles at least
+  bool sky = false;  ///< draws stars, Sun, Moon and atmosphere; not with `unlit`
+  /// Time for Sun and sky. None: the Sun shines from over the viewer's shoulder and is not drawn, and it is day
+  /// everywhere (ImageLook::daylight).
+  std::optional<UtcTime> time{};
+  std::vector<Star> stars{};  ///< stars of the sky
+  /// City lights on the Earth's night side, drawn only with a sky and a time; may be empty.
+  GreyPicture night_lights{};
+  std::vector<std::byte> label_font{};     ///< bytes of a font file for the labels of objects; empty: no labels
+  std::size_t gpu_bytes = 512UL << 20;     ///< texture slots for tiles, all image layers together
+  std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; at least 64 tiles always fit
   std::size_t upload_bytes_per_frame = 8UL << 20;
   std::chrono::microseconds upload_time_per_frame{4000};
-  /// Patches whose relief is made anew in a frame, about 0.3 ms each, beyond those that the frame cannot do without:
-  /// tiles of heights wait, and mountains become finer, frame by frame.
+  /// Patches whose relief may be rebuilt per frame, about 0.3 ms each. Patches without which the frame cannot be drawn
+  /// do not count. The other height tiles wait, and mountains become finer frame by frame.
   int relief_meshes_per_frame = 24;
   int workers = 2;  ///< decoder threads
-  /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
-  /// still wanted. Positive.
+  /// Time after which a tile of imagery or heights that failed for now (Absence::failed) is retried, if it is still
+  /// wanted. Positive.
   std::chrono::milliseconds retry_after{30'000};
 };
 
-/// What one frame did.
+/// Statistics of one frame.
 struct FrameStats {
   int patches = 0;
-  int band_patches = 0;  ///< of those, drawn by a per-fragment program
+  int band_patches = 0;  ///< of those, patches drawn by a per-fragment program
   int draw_calls = 0;
   long triangles = 0;
-  int tiles_wanted = 0;        ///< tiles the view asks for at full quality
-  int tiles_missing = 0;       ///< of those, neither on the GPU nor finally failed
-  int tiles_lacked = 0;        ///< of those, finally failed
-  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are there
-  bool imagery_shown = false;  ///< a tile of imagery is in view, be it a coarse one that stands in
+  int tiles_wanted = 0;        ///< tiles that the view needs at full quality
+  int tiles_missing = 0;       ///< of those, tiles neither on the GPU nor finally failed
+  int tiles_lacked = 0;        ///< of those, tiles that finally failed
+  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are loaded
+  bool imagery_shown = false;  ///< a tile of imagery is in view, even if only a coarser fallback
   std::size_t uploaded_bytes = 0;
-  std::size_t objects_cut = 0;   ///< lines and areas tessellated since the frame before
-  int heights_missing = 0;       ///< elevation tiles that the view wants and that have not come or failed
-  int heights_lacked = 0;        ///< elevation tiles that failed, of those that views wanted lately
-  bool heights_arrived = false;  ///< since it was drawn: another frame will show the ground as it is now
-  int relief_meshes = 0;         ///< patches whose relief was made anew
-  int relief_put_off = 0;        ///< patches drawn coarser than their relief asks for, for now
+  std::size_t objects_cut = 0;  ///< lines and areas tessellated since the previous frame
+  int heights_missing = 0;      ///< elevation tiles that the view needs and that have neither arrived nor failed
+  int heights_lacked = 0;       ///< failed elevation tiles among those that recent views needed
+  /// Heights arrived after this frame was drawn: another frame will show the newer ground.
+  bool heights_arrived = false;
+  int relief_meshes = 0;   ///< patches whose relief was rebuilt
+  int relief_put_off = 0;  ///< patches drawn coarser than their relief needs, for now
   double selection_ms = 0.0;
-  // What is held, of all layers that were drawn.
-  std::size_t gpu_bytes = 0;     ///< texture slots, filled or not
+  // Totals over all layers that were drawn.
+  std::size_t gpu_bytes = 0;     ///< texture slots, used or free
   std::size_t height_bytes = 0;  ///< elevation tiles
-  std::size_t patches_held = 0;  ///< patches worked out, drawn or not
-  std::size_t tiles_known = 0;   ///< tiles of imagery of which something is remembered
+  std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
+  std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state
 };
 
-/// A tile that the source could not give, and why.
+/// A missing tile, and the reason.
 struct LackingTile {
   TileId id;
   TileFailure failure;
-  LayerId layer = LayerId::none;  ///< of imagery
+  LayerId layer = LayerId::none;  ///< the image layer of the tile
 };
 
-/// What is under a pixel.
+/// The objects and layers under a pixel.
 struct GlobePick {
-  std::optional<Geodetic> place{};       ///< of the ground (view/ground.h); nothing beside the globe
-  LayerId imagery = LayerId::none;       ///< the highest image layer drawn there, by its bounds
-  LayerId objects = LayerId::none;       ///< the layer of the object; none: no object
-  std::optional<PickedObject> object{};  ///< in the lists that the layer was given
+  std::optional<Geodetic> place{};       ///< place on the ground (view/ground.h); none beside the globe
+  LayerId imagery = LayerId::none;       ///< the top image layer drawn there, according to its bounds
+  LayerId objects = LayerId::none;       ///< layer of the object; none: no object
+  std::optional<PickedObject> object{};  ///< kind and index in the layer's lists
 };
 
-/// What a globe may use; the same as in GlobeOptions.
+/// Budget of a globe; the fields are those of GlobeOptions.
 struct GlobeBudget {
   std::size_t gpu_bytes;
   std::size_t upload_bytes_per_frame;
@@ -122,19 +128,20 @@ struct GlobeBudget {
   int relief_meshes_per_frame;
 };
 
-/// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
-/// sees them into a framebuffer. Every call leaves the GL state as it found it.
+/// Draws image layers, heights and objects as a camera sees them, into a framebuffer. A globe is made in any current
+/// OpenGL 4.5 context. Every call leaves the GL state as it found it.
 ///
-/// thread: main (the one that it was made on, with its context current) for every call and for the end of its life. A
-/// call that is not is told by an assertion that names the call; without assertions what returns a Status or a Result
-/// returns an error, render() draws nothing, and the rest does nothing. At the end of its life the context must be
-/// current; if none is, its GL objects are gone with the context they were of.
+/// thread: main for every call and the destructor: the thread on which the globe was made, with its context current. A
+/// call that breaks this rule is reported by an assertion that names the call. Without assertions, calls that return a
+/// Status or a Result return an error, render() draws nothing, and other calls do nothing. The context must be current
+/// in the destructor. If no context is current, the GL objects are taken to be gone with their context.
 class Globe {
  public:
-  /// Without layers: a body in a plain colour. Fails if no context is current, it is older than 4.5, a shader does not
-  /// compile, the time is outside the almanac's years, or detail, error, segments or gutter are outside their ranges.
+  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current, the context is older than
+  /// 4.5, or a shader does not compile. Also fails if the time is outside the almanac's years, or if detail, error,
+  /// segments or gutter are out of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
-  /// The same with a first image layer and, if there are any, heights.
+  /// The same with a first image layer and, optionally, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});
@@ -142,34 +149,36 @@ class Globe {
   Globe(const Globe&) = delete;
   Globe& operator=(const Globe&) = delete;
 
-  /// Over the image layers that are there. Fails without a source, or if it says of its grid what cannot be.
+  /// Adds an image layer over the existing ones. Fails if the source is null, or if its description of its grid is
+  /// invalid.
   Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look = {});
-  /// In place of those before of the layer. Fails if it is no image layer of this globe.
+  /// Replaces the look of an image layer. Fails if `imagery` is not an image layer of this globe.
   Status set_look(LayerId imagery, const ImageLook& look);
   [[nodiscard]] Result<ImageLook> look(LayerId imagery) const;
-  /// So that `position` others of its kind, imagery or objects, lie under it; over all others if there are no more.
-  /// Objects of one kind that lie at the same place are drawn in the order of their layers.
+  /// Moves a layer so that `position` other layers of its kind (imagery or objects) lie under it; to the top if there
+  /// are fewer. Objects of one kind at the same place are drawn in the order of their layers.
   Status move(LayerId layer, std::size_t position);
-  [[nodiscard]] std::vector<LayerId> imagery() const;  ///< the lowest first
-  /// Over the object layers that are there. Fails if their programs cannot be made.
+  [[nodiscard]] std::vector<LayerId> imagery() const;  ///< lowest first
+  /// Adds an object layer over the existing ones. Fails if its shader programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
-  /// In place of those before of the layer.
+  /// Replaces the objects of a layer.
   Status set_objects(LayerId layer, ObjectScene objects);
   Status show_objects(LayerId layer, bool shown);
-  /// Alpha of its objects times `opacity`, [0, 1]; at 0 they are neither drawn nor picked. What is opaque costs a
-  /// little less than what is not.
+  /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
+  /// Opaque objects cost slightly less than translucent ones.
   Status fade_objects(LayerId layer, double opacity);
-  [[nodiscard]] std::vector<LayerId> objects() const;  ///< the lowest first
-  /// An image layer or an object layer. Fails if it is not there, or not any more.
+  [[nodiscard]] std::vector<LayerId> objects() const;  ///< lowest first
+  /// Removes an image layer or an object layer. Fails if the globe does not have the layer.
   Status remove(LayerId layer);
-  /// Whom to thank for a layer, in place of what its source says; objects have nothing until it is said. Empty: nobody.
+  /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
+  /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);
-  /// What the sources of the last frame want to be said, each text once: of the image layers, the lowest first, that
-  /// had a tile in view (under an opaque layer too), of the elevation, of the object layers that were shown.
+  /// Returns the attribution texts of the last frame, each text once: of the image layers with a tile in view, lowest
+  /// first and including those under an opaque layer, of the elevation, and of the visible object layers.
   [[nodiscard]] std::vector<std::string> attributions() const;
-  /// Replaces the elevation; none: the ellipsoid. A Ground from before keeps the heights that it had.
+  /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
-  [[nodiscard]] bool has_relief() const;  ///< has elevation
+  [[nodiscard]] bool has_relief() const;  ///< true if the globe has elevation
 
   void set_camera(const Camera& camera);
   [[nodiscard]] const Camera& camera() const;
@@ -177,51 +186,51 @@ class Globe {
   void set_unlit(bool unlit);
   void set_surface(const SurfaceLook& surface);
   void set_stereo(const StereoLook& stereo);
-  void set_sky(bool on);                       ///< nothing if the globe was made without one
-  void set_exaggeration(double exaggeration);  ///< of heights, [0, 100]
-  /// Of Sun and sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes nothing. City lights
-  /// are there only in a globe that was made with a time.
+  void set_sky(bool on);                       ///< no effect if the globe was made without a sky
+  void set_exaggeration(double exaggeration);  ///< factor of the heights, [0, 100]
+  /// Sets the time for Sun and sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes
+  /// nothing. City lights need a globe that was made with a time.
   Status set_time(std::optional<UtcTime> time);
-  /// From the next frame on. Image layers share the GPU's part evenly, and each has room for 16 tiles at least.
+  /// Sets the budget from the next frame on. Image layers share the GPU memory evenly. Each layer has room for at least
+  /// 16 tiles.
   void set_budget(const GlobeBudget& budget);
-  /// For tests: the seed of another order of patches; none: as they are chosen.
+  /// For tests: draws the patches in a random order with this seed; none: in the normal order.
   void set_patch_shuffle(std::optional<unsigned> seed);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
-  /// and uploads what has arrived, within the budget. Returns what the frame did.
+  /// Draws one frame into `framebuffer` (a GL name, 0 is the window; sRGB or not), with the lower left corner at
+  /// `corner_px`. Uploads arrived tiles within the budget.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
 
-  /// True when the last frame showed everything that its view asks for.
+  /// True if the last frame showed everything that its view needs.
   [[nodiscard]] bool settled() const;
-  /// `told` is called at the end of a frame with which the globe has settled, when the one before had not; none:
-  /// nobody. It must not end the globe's life.
+  /// Sets a callback for the end of each frame with which the globe becomes settled; empty: none. The callback must not
+  /// destroy the globe.
   void on_settled(std::function<void()> told);
-  /// False if another frame would show what the last one did: nothing was set, nothing has arrived. Costs a few
-  /// comparisons; a settled globe changes by itself only where a source that could not be asked is asked again.
+  /// False if another frame would be the same as the last one: nothing was set, and nothing has arrived. Costs a few
+  /// comparisons. A settled globe changes by itself only when it retries a source.
   [[nodiscard]] bool needs_frame() const;
-  /// Renders until settled or the deadline; false at the deadline.
+  /// Renders until the globe is settled or the deadline has passed. False if the deadline has passed.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
-  [[nodiscard]] LoaderCounts loading() const;  ///< of all image layers
-  /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)
-  /// are requested again after GlobeOptions::retry_after, if they are still wanted.
+  [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
+  /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now
+  /// (Absence::failed) are retried after GlobeOptions::retry_after, if they are still wanted.
   [[nodiscard]] const std::deque<LackingTile>& lacking() const;
-  /// The same of elevation: coarser heights stand for these tiles, or the ellipsoid.
+  /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
   [[nodiscard]] const std::deque<LackingTile>& lacking_heights() const;
 
-  /// What a pixel shows, of the one eye's picture (geo/coordinates.h).
+  /// Returns what a pixel of the mono picture shows (geo/coordinates.h).
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
-  /// Where a place at its height is in the picture; nothing if it is outside of it, behind the eye or hidden
-  /// by the ground.
+  /// Returns the pixel position of a place at its height; nothing if the place is outside the picture, behind the eye
+  /// or hidden by the ground.
   [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
-  /// View of the camera at a picture size: picks and projections (geo/camera.h on the ellipsoid, view/ground.h on the
-  /// ground) take it.
+  /// Returns the camera's view for a picture size, as the functions for picking and projecting take it: geo/camera.h
+  /// for the ellipsoid, view/ground.h for the ground.
   [[nodiscard]] View view(Viewport viewport) const;
-  /// The ground as it is drawn. The value stays valid when the globe or its elevation is gone.
+  /// Returns the ground as it is drawn. The value stays valid after the globe or its elevation is gone.
   [[nodiscard]] Ground ground() const;
-  /// Height of the drawn ground over the ellipsoid, exaggerated, where the heights that are there say it; 0 without
-  /// any.
+  /// Height of the drawn ground over the ellipsoid, exaggerated, from the loaded heights; 0 without any.
   [[nodiscard]] double ground_height_m(Angle lat, Angle lon) const;
-  /// The same not exaggerated; nothing without heights.
+  /// The same without exaggeration; nothing without heights.
   [[nodiscard]] std::optional<double> elevation_m(Angle lat, Angle lon) const;
 
  private:

@@ -6,23 +6,24 @@
 #include "globe/globe_impl.h"
 #include "surface/far_side_curtain.h"
 
-// A frame: what it takes from the loaders, what it selects, what it asks for, what it draws.
+// One frame: takes tiles from the loaders, selects patches, requests tiles, draws.
 namespace terrella {
 namespace {
 
 using FrameClock = std::chrono::steady_clock;
 
-// Steps by a quarter in which detail gives way to the budget: six tile levels.
+// Largest number of steps that reduce the detail to fit the budget. Each step takes a quarter off; 16 steps are six
+// tile levels.
 constexpr int kMostCoarser = 16;
 
-// Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
+// Direction of the Sun if no time is set: over the viewer's left shoulder, so that the visible side is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
 
 }  // namespace
 
-// The lowest layer that is drawn must be opaque: where it is not, a plain colour lies under it.
+// The lowest drawn layer must be opaque. If it is not, a plain colour lies under it.
 void Globe::Impl::stack_layers() {
   stack.clear();
   for (const auto& layer : images) {
@@ -37,14 +38,14 @@ void Globe::Impl::stack_layers() {
     stack.insert(stack.begin(), plain.get());
   }
   if (stack.size() == 1) return;
-  // Of programs whose like are there: only a broken driver refuses them.
+  // Similar programs exist already, so only a broken driver refuses these.
   const bool special = std::ranges::any_of(stack, [this](const auto* layer) { return layer->is_special(has_night()); });
   const Status prepared = renderer->prepare_further(special);
   assert(prepared);
   if (!prepared) stack.resize(1);
 }
 
-// Of one eye, half of a side-by-side picture is all there is.
+// In side-by-side stereo each eye gets half the width.
 Viewport Globe::Impl::eye_picture(Viewport viewport) const {
   if (options.stereo.mode == Stereo::side_by_side) viewport.width_px = std::max(1, viewport.width_px / 2);
   return viewport;
@@ -76,7 +77,7 @@ void Globe::Impl::select(Viewport viewport) {
   for (ImageLayer* layer : stack) layer->cover(view, layer == &first, frame);
 }
 
-// A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
+// A view that wants more tiles than fit is drawn a little coarser. Otherwise it would never be finished.
 void Globe::Impl::select_within_budget(Viewport viewport) {
   select(viewport);
   for (int step = 0; step < kMostCoarser; ++step) {
@@ -87,7 +88,7 @@ void Globe::Impl::select_within_budget(Viewport viewport) {
   }
 }
 
-// Each frame another layer is the first to upload.
+// In each frame a different layer is the first to upload.
 std::size_t Globe::Impl::take_finished() {
   UploadAllowance allowance{options.upload_bytes_per_frame, FrameClock::now() + options.upload_time_per_frame};
   std::size_t bytes = 0;
@@ -97,8 +98,8 @@ std::size_t Globe::Impl::take_finished() {
   return bytes;
 }
 
-// After the picture is drawn: who steers the eye sees the new ground before it is drawn. One by one, until the frame's
-// share of meshes has to be made anew.
+// Runs after the picture is drawn, so that code that steers the eye sees the new ground before it is drawn. Takes tiles
+// singly until the frame's share of meshes must be rebuilt.
 void Globe::Impl::take_heights() {
   if (!heights) return;
   const ImageLayer& first = *stack.front();
@@ -124,7 +125,7 @@ void Globe::Impl::ask_heights() {
   stats.relief_put_off = relief->put_off();
 }
 
-// Without a time there is no Sun to draw: its light comes over the viewer's shoulder.
+// Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
 std::optional<SkyInput> Globe::Impl::sky() const {
   if (!almanac || !sky_on || options.unlit) return std::nullopt;
   SkyInput input{.almanac = *almanac};

@@ -23,15 +23,15 @@ struct ObjectLayer {
   bool shown = true;
   double opacity = 1.0;
   std::string attribution = {};
-  // Worked out when they are first needed, and kept while the layer stays as it is, whatever the others do.
+  // Computed when first needed, and kept until the layer itself changes.
   std::optional<Angle> line_length = {};
   std::optional<CutObjects> cut = {};
-  std::optional<ObjectScene> faded = {};  ///< there if opacity is less than 1
+  std::optional<ObjectScene> faded = {};  ///< set if opacity is less than 1
 
   [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
 };
 
-/// What is behind the façade. Calls are those of Globe, which has checked thread and context.
+/// The implementation of Globe. Globe has checked thread and context before each call. thread: main
 struct Globe::Impl {
   explicit Impl(const GlobeOptions& o) : options(o) {}
 
@@ -78,8 +78,8 @@ struct Globe::Impl {
   [[nodiscard]] bool needs_frame() const;
   void restore_detail();
 
-  /// False, and told where assertions are on, if a call comes from another thread than the globe's, or without the
-  /// context that the globe was made in.
+  /// False if a call comes from another thread than the globe's, or without the globe's context. Reports the misuse by
+  /// an assertion.
   [[nodiscard]] bool may_call(const char* call) const;
   [[nodiscard]] bool may_draw(const char* call) const;
 
@@ -87,24 +87,24 @@ struct Globe::Impl {
   GlobeOptions options;
   Camera camera;
   std::shared_ptr<Relief> relief;  ///< shared with each Ground; none: the ellipsoid
-  std::shared_ptr<ArrivalBell> bell = std::make_shared<ArrivalBell>();  ///< rung when a tile of any kind has come
-  std::optional<TileStream<HeightTile>> heights;                        ///< there if relief is
+  std::shared_ptr<ArrivalBell> bell = std::make_shared<ArrivalBell>();  ///< rung when a tile of any kind has arrived
+  std::optional<TileStream<HeightTile>> heights;                        ///< set if relief is
   std::string heights_attribution;
   std::uint64_t last_id = 0;
-  std::vector<std::unique_ptr<ImageLayer>> images;  ///< the lowest first
-  std::unique_ptr<ImageLayer> plain;                ///< made where no image layer is opaque
-  std::vector<ImageLayer*> stack;                   ///< what a frame draws, the lowest first: it is opaque
+  std::vector<std::unique_ptr<ImageLayer>> images;  ///< lowest first
+  std::unique_ptr<ImageLayer> plain;                ///< made if no image layer is opaque
+  std::vector<ImageLayer*> stack;                   ///< layers that a frame draws, lowest first; the lowest is opaque
   std::vector<ObjectLayer> objects;
   std::size_t objects_cut = 0;  ///< since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
-  View view;  ///< what is selected for: the eye's, or both eyes'
+  View view;  ///< view for selection: the eye's, or both eyes'
   std::optional<EyePair> eyes;
-  std::optional<Almanac> almanac;  ///< there if there is a sky or a time
+  std::optional<Almanac> almanac;  ///< set if there is a sky or a time
   bool sky_on = false;
   std::optional<unsigned> patch_shuffle;
   std::uint64_t frame = 0;
-  Viewport drawn;       ///< the last frame's
-  bool changed = true;  ///< since the last frame
+  Viewport drawn;       ///< viewport of the last frame
+  bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
   FrameStats stats;

@@ -6,7 +6,7 @@
 #include "globe/globe_impl.h"
 #include "objects/faded_scene.h"
 
-// What a globe is made of at run time: image layers, object layers, heights.
+// The layers of a globe at run time: imagery, objects, heights.
 namespace terrella {
 namespace {
 
@@ -34,7 +34,7 @@ Status check_opacity(const char* call, double opacity) {
   return Error{fmt::format("{}: an opacity of {}; give one from 0 to 1", call, opacity)};
 }
 
-/// The element at `from` moves so that `position` others are before it, or to the end.
+/// Moves the element at `from` so that `position` others are before it, or to the end.
 template <class T>
 void move_to(std::vector<T>& all, typename std::vector<T>::iterator from, std::size_t position) {
   const auto to = all.begin() + static_cast<std::ptrdiff_t>(std::min(position, all.size() - 1));
@@ -49,7 +49,7 @@ Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, con
   if (Status good = check_opacity("Globe::add_imagery", look.opacity); !good) return good.error();
   const LayerId id = next_id();
   const std::size_t share = options.gpu_bytes / (images.size() + 1);
-  for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new one takes its part
+  for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new layer takes its share
   images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, relief.get(), bell));
   restore_detail();
   return id;
@@ -147,7 +147,7 @@ Status Globe::Impl::fade_objects(LayerId id, double opacity) {
   return show_objects();
 }
 
-// A scene is cut once. Fading it changes colours alone.
+// Cuts a scene once. Fading the scene changes only its colours.
 CutScene Globe::Impl::cut_scene(ObjectLayer& layer, Angle step) {
   if (!layer.cut || layer.cut->step != step) {
     layer.cut = cut_objects(layer.scene, options.body.ellipsoid, step);
@@ -158,7 +158,7 @@ CutScene Globe::Impl::cut_scene(ObjectLayer& layer, Angle step) {
   return {*layer.faded, *layer.cut};
 }
 
-// What is drawn in one go lies together, whatever layer it is of.
+// Objects that one draw takes must be contiguous, across layers.
 Status Globe::Impl::show_objects() {
   changed = true;
   std::vector<ObjectLayer*> seen;
@@ -209,13 +209,13 @@ void Globe::Impl::make_relief(const ElevationSource& elevation) {
   heights_attribution = elevation.tiles()->info().attribution;
 }
 
-// Patches are raised in their vertices, and have slopes: all of them are made anew.
+// Relief raises the vertices of patches and adds slopes, so all patches are discarded.
 Status Globe::Impl::set_elevation(const std::optional<ElevationSource>& elevation) {
   if (!elevation && !relief) return Done{};
   if (elevation.has_value() != (relief != nullptr)) {
     if (Status made = renderer->set_relief(elevation.has_value()); !made) return made;
   }
-  const std::shared_ptr<Relief> before = std::move(relief);  // patches refer to it until they are made anew
+  const std::shared_ptr<Relief> before = std::move(relief);  // patches refer to the old relief until they are discarded
   heights.reset();
   if (elevation) make_relief(*elevation);
   for (const auto& layer : images) layer->set_relief(relief.get());

@@ -4,7 +4,7 @@
 #include "globe/globe_impl.h"
 #include "surface/daylight.h"
 
-// What is under a pixel.
+// Picking: the place, layer and object under a pixel.
 namespace terrella {
 namespace {
 

@@ -11,7 +11,7 @@ constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
 constexpr int kAnyLevel = -1000;
 
-// The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
+// The other texturing methods exist for comparison, so they draw the full grid, as every tool does.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
   const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
   grid.reduced = grid.reduced && options.squeezed_rows && polar_program;
@@ -36,7 +36,7 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
   if (!source) return;
   LoaderOptions loading{
       .workers = options.workers, .gutter = options.gutter_px, .mips = kMips, .bell = std::move(bell)};
-  // What waits for slots is no more than all slots hold.
+  // Tiles waiting for slots hold at most as many bytes as all slots.
   loading.max_finished_bytes =
       std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
   stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, options.retry_after);
@@ -44,7 +44,7 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
   auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief, nullptr);
-  // Its tiles are all there, and empty.
+  // The tiles of the plain colour are all resident, and empty.
   for (const TileId& id : plain->roots_) {
     TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
     entry.state = TileState::resident;
@@ -77,7 +77,7 @@ bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
 }
 
-// Slot 0 and those of the root tiles are never given up.
+// Slot 0 and those of the root tiles are never evicted.
 bool ImageLayer::coarsen() {
   const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
   if (!stream_ || coverage_.tiles <= room * 9 / 10) return false;
@@ -124,7 +124,7 @@ void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
                    first ? OutOfBounds::ancestor : OutOfBounds::nothing);
 }
 
-// Root tiles come first: an ancestor for everything.
+// Root tiles come first, because they are the fallback for every other tile.
 void ImageLayer::ask() {
   if (!stream_) return;
   std::vector<TileRequest> requests;
@@ -155,7 +155,7 @@ LayerFrame ImageLayer::frame(bool first, bool has_night) {
           .alpha = look_.alpha};
 }
 
-// Where a root tile has finally failed nothing will ever cover its patches: there is nothing to wait for.
+// Patches of a root tile that has finally failed can never be covered, so nothing waits for them.
 bool ImageLayer::settled() {
   if (!stream_) return true;
   if (!coverage_.wanted.empty()) return false;

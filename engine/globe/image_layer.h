@@ -17,36 +17,37 @@
 
 namespace terrella {
 
-/// What a frame may still upload.
+/// The uploads that a frame may still make.
 struct UploadAllowance {
   std::size_t bytes = 0;
   std::chrono::steady_clock::time_point deadline;
 };
 
-/// One image layer of a globe: its tiles on their way from the source to the GPU, and what a frame draws of them.
-/// thread: main (of the context)
+/// One image layer of a globe: its tiles from the source to the GPU, and the patches that a frame draws with them.
+/// thread: main
 class ImageLayer {
  public:
-  /// `gpu_bytes`: this layer's share. `relief` as the globe's, none: the ellipsoid. `bell` rings when a tile has come.
+  /// `gpu_bytes` is this layer's share of the budget. `relief` is the globe's; null: the ellipsoid. `bell` rings when a
+  /// tile has arrived.
   ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
              std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
-  /// The plain colour that stands where no layer is opaque.
+  /// Makes the layer of plain colour that is drawn if no layer is opaque.
   [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
 
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
-  void set_relief(Relief* relief);  ///< everything about patches is made anew
+  void set_relief(Relief* relief);  ///< discards all patches
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
-  /// Where there is no night a layer by night is not.
+  /// True if a frame draws this layer. False for a night layer if the globe has no night.
   [[nodiscard]] bool is_drawn(bool has_night) const;
-  /// Covers whatever lies under it, wherever it has tiles.
+  /// True if the layer hides all layers under it wherever it has tiles.
   [[nodiscard]] bool is_opaque(bool has_night) const;
-  /// Takes programs of its own: it shows on one side of the terminator, or brightness is its alpha.
+  /// True if the layer needs special programs: it shows on one side of the terminator, or brightness is its alpha.
   [[nodiscard]] bool is_special(bool has_night) const;
   [[nodiscard]] const std::string& attribution() const { return attribution_; }
   void set_attribution(std::string text) { attribution_ = std::move(text); }
-  /// The last frame drew some of its tiles in view.
+  /// True if the last frame drew some of its tiles in view.
   [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
 
@@ -54,21 +55,21 @@ class ImageLayer {
   [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
   [[nodiscard]] const std::vector<SelectedPatch>& patches() const { return patches_; }
   [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
-  /// Asked for; less than the globe's where a view wants more tiles than there is room for.
+  /// Requested detail; less than the globe's if a view wants more tiles than fit.
   [[nodiscard]] double texels_per_pixel() const { return texels_per_pixel_ * detail_; }
   void restore_detail() { detail_ = 1.0; }
-  /// Asks for less detail if the last view wanted more tiles than there is room for; true if so.
+  /// Lowers the detail if the last view wanted more tiles than fit; true if so.
   bool coarsen();
   [[nodiscard]] FurtherImagery as_further();
 
-  /// Uploads what has arrived; returns the bytes. Tiles that are lacking are added to `lacking`.
+  /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `lacking`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
-  /// Leaves patches out on which nothing of it shows. Without a Sun there is no night.
+  /// Drops patches on which nothing of the layer shows. Without a Sun there is no night.
   void keep_side(const std::optional<glm::dvec3>& sun);
   /// Finds a tile for each cell of patches().
   void cover(const View& view, bool first, std::uint64_t frame);
   void ask();
-  void end_frame(std::uint64_t frame);  ///< what frames have not used for long goes
+  void end_frame(std::uint64_t frame);  ///< evicts and forgets what frames have not used for long
   void stop_asking();
   [[nodiscard]] LayerFrame frame(bool first, bool has_night);
 
@@ -76,7 +77,7 @@ class ImageLayer {
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
   [[nodiscard]] bool settled();
   [[nodiscard]] LoaderCounts loading() const { return stream_ ? stream_->counts() : LoaderCounts{}; }
-  /// TileStream::has_news().
+  /// See TileStream::has_news().
   [[nodiscard]] bool has_news() const { return stream_ && stream_->has_news(); }
 
  private:
@@ -96,7 +97,7 @@ class ImageLayer {
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
   double detail_ = 1.0;
-  bool has_transparency_ = false;  ///< a tile came that has some
+  bool has_transparency_ = false;  ///< a loaded tile has transparency
 };
 
 }  // namespace terrella

@@ -14,25 +14,25 @@
 
 namespace terrella {
 
-/// Keeps the tiles that failed last, the latest at the end, as Globe::lacking() gives them.
+/// Appends a failed tile to a list of the latest failures, for Globe::lacking().
 inline void note(std::deque<LackingTile>& missing, LackingTile tile) {
   constexpr std::size_t kMost = 64;
   missing.push_back(std::move(tile));
   if (missing.size() > kMost) missing.pop_front();
 }
 
-/// The tiles of one layer on their way from the source into the scene. It requests what a frame wants, hands over what
-/// has come, and marks in the residency what is missing and when to retry. Imagery and heights differ only in what is
-/// decoded, and in what the layer does with a decoded tile. thread: main
+/// Brings the tiles of one layer from the source into the scene. Requests the tiles that a frame wants and hands over
+/// arrived tiles. Marks in the residency which tiles are missing and when to retry them. Imagery and heights differ
+/// only in the decoded tile and its use. thread: main
 template <class Decoded>
 class TileStream {
  public:
   using Clock = TileResidency::Clock;
-  /// `residency` must outlive the stream. `retry_after`: from a failure for now to the next request.
+  /// `residency` must outlive the stream. `retry_after` is the time from a temporary failure to the next request.
   TileStream(Loader<Decoded> loader, TileResidency& residency, LayerId layer, Clock::duration retry_after)
       : loader_(std::move(loader)), residency_(residency), layer_(layer), retry_after_(retry_after) {}
 
-  /// Requests all that the frame wants. `missing` tiles of it count towards has_news().
+  /// Requests all tiles that the frame wants, in place of the previous request.
   void request(std::span<const TileRequest> wanted) {
     wants_ = !wanted.empty();
     loader_.request(wanted);
@@ -40,9 +40,10 @@ class TileStream {
   void stop() {
     if (std::exchange(wants_, false)) loader_.request({});
   }
-  /// Tiles whose time to retry has come are unknown again.
+  /// Marks tiles as unknown again when their time to retry has come.
   void retry() { residency_.retry(Clock::now()); }
-  /// The next decoded tile; none if nothing else has come. Tiles that failed are marked, and added to `missing`.
+  /// Returns the next decoded tile; none if no other tile has arrived. Marks failed tiles and appends them to
+  /// `missing`.
   std::optional<Loaded<Decoded>> take(std::deque<LackingTile>& missing) {
     for (;;) {
       std::vector<Loaded<Decoded>> next = loader_.poll(1);
@@ -54,8 +55,8 @@ class TileStream {
       note(missing, {next.front().id, failure, layer_});
     }
   }
-  /// True if a frame would have something to do: a tile has come, a retry is due, or a tile is wanted and not under
-  /// way.
+  /// True if a frame would have something to do: a tile has arrived, a retry is due, or tiles are wanted and none is in
+  /// flight.
   [[nodiscard]] bool has_news() const {
     if (residency_.has_retry(Clock::now())) return true;
     const LoaderCounts counts = loader_.counts();

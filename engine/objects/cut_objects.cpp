@@ -6,7 +6,8 @@
 namespace terrella {
 namespace {
 
-/// Areas take their triangles from the lowest to the highest: the highest are left out if there are too many.
+/// Areas get their triangles from the lowest to the highest. If there are too many triangles, the highest areas are
+/// left out.
 void cut_fills(const ObjectScene& scene, const Ellipsoid& ellipsoid, CutObjects& cut) {
   for (const PolygonObject& polygon : scene.polygons) cut.heights_m.push_back(mean_height_m(polygon));
   std::vector<std::size_t> order(scene.polygons.size());
@@ -21,7 +22,7 @@ void cut_fills(const ObjectScene& scene, const Ellipsoid& ellipsoid, CutObjects&
   }
 }
 
-/// Outlines lie as high as the fills.
+/// Outlines lie at the height of the fills.
 void cut_outlines(const ObjectScene& scene, const Ellipsoid& ellipsoid, CutObjects& cut) {
   cut.outlines.resize(scene.polygons.size());
   for (std::size_t k = 0; k < scene.polygons.size(); ++k) {

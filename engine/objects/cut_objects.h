@@ -8,27 +8,27 @@
 
 namespace terrella {
 
-/// Lines are cut more coarsely, and areas are left out, if a scene would need more than this.
+/// Limits of one scene. Over the first, lines are cut more coarsely; over the second, areas are left out.
 inline constexpr std::size_t kMostLineVertices = 4'000'000;
 inline constexpr std::size_t kMostFillTriangles = 8'000'000;
 
-/// The lines and areas of a scene, cut so that they follow the ellipsoid: the slow part of making batches. Colours play
-/// no part in it, but for what has alpha 0, which is left empty.
+/// The lines and areas of a scene, cut so that they follow the ellipsoid. This is the slow part of making batches.
+/// Colours do not matter, except that objects with alpha 0 are left empty.
 struct CutObjects {
   using Way = std::vector<glm::dvec3>;  ///< ECEF, metres
 
-  Angle step{};                            ///< that lines and outlines were cut at
-  std::vector<Way> lines;                  ///< one for each line
-  std::vector<FillMesh> fills;             ///< one for each area
-  std::vector<double> heights_m;           ///< one for each area: the mean of its places'
-  std::vector<std::vector<Way>> outlines;  ///< for each area, one for each ring
+  Angle step{};                            ///< step at which lines and outlines were cut
+  std::vector<Way> lines;                  ///< one per line
+  std::vector<FillMesh> fills;             ///< one per area
+  std::vector<double> heights_m;           ///< one per area: mean height of its places
+  std::vector<std::vector<Way>> outlines;  ///< per area, one per ring
 };
 
-/// The length of all lines and outlines together, as an angle on the sphere.
+/// Returns the length of all lines and outlines together, as an angle on the sphere.
 [[nodiscard]] Angle line_length(const ObjectScene& scene);
 
-/// The step that lines and outlines of that length are cut at: kLineStep, or as many doublings of it as keep them
-/// within kMostLineVertices. Doublings, so that the step, and with it every cut, rarely changes as a scene grows.
+/// Returns the step for lines and outlines of a total length: kLineStep, doubled until they fit within
+/// kMostLineVertices. The step only doubles so that it, and every cut, rarely changes as a scene grows.
 [[nodiscard]] Angle line_step(Angle length);
 
 /// Cuts all lines and areas of a scene. thread: any

@@ -4,7 +4,7 @@
 
 namespace terrella {
 
-/// The same objects, their alpha times `opacity`, [0, 1]; opaque parts of meshes become translucent ones. Models that
+/// Returns the same objects with alpha times `opacity`, [0, 1]. Opaque parts of meshes become translucent. Models that
 /// several meshes share stay shared. thread: any
 [[nodiscard]] ObjectScene faded(ObjectScene scene, double opacity);
 

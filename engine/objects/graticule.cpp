@@ -15,10 +15,11 @@ namespace {
 constexpr double kSpacings_deg[] = {30.0, 15.0, 10.0, 5.0,  2.0,   1.0,   0.5,  0.2,
                                     0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 constexpr double kLeastSpacing_px = 90.0;
-constexpr int kLinesEachWay = 28;             // from the picture's centre; farther ones run together
-constexpr int kHalvings = 20;                 // of a chord that the horizon cuts
-constexpr double kNamedMeridians_deg = 50.0;  // from the picture's centre, on a whole globe
-constexpr double kBeyond = 0.25;              // of the picture's size that lines are drawn past its edges
+constexpr int kLinesEachWay = 28;  // lines to each side of the picture's centre; more would run together
+constexpr int kHalvings = 20;      // bisections of a chord that the horizon cuts
+// On a whole globe, only meridians this near to the picture's centre are labelled.
+constexpr double kNamedMeridians_deg = 50.0;
+constexpr double kBeyond = 0.25;  // lines continue past the picture's edges by this fraction of its size
 
 double spacing_for(double pixels_per_degree) {
   double best = kSpacings_deg[0];
@@ -28,14 +29,15 @@ double spacing_for(double pixels_per_degree) {
   return best;
 }
 
-/// Length of chords between two crossings. Wide spacings come with whole globes and with poles, where lines bend most.
+/// Length of chords between two crossings. Wide spacings occur with whole globes and at poles, where lines are most
+/// curved.
 double chord_deg(double spacing_deg) { return spacing_deg / (spacing_deg >= 5.0 ? 24.0 : 8.0); }
 
-/// What is near the picture's centre, and how fine the net may be there.
+/// The part of the planet near the picture's centre, and the spacing of lines in it.
 struct Region {
   double lat_deg, lon_deg;
   double parallels_deg, meridians_deg;
-  double reach_deg;  ///< great-circle distance that can be seen, from the centre
+  double reach_deg;  ///< visible great-circle distance from the centre
 };
 
 Region region_of(const View& view, const Ellipsoid& ellipsoid) {
@@ -83,7 +85,7 @@ class Tracer {
   }
 
  private:
-  /// Where a place is in the picture; nothing behind the horizon or far outside.
+  /// Returns the position of a place in the picture; nothing behind the horizon or far outside.
   [[nodiscard]] std::optional<glm::dvec2> picture(const Geodetic& place) const {
     const EcefDir normal = Ellipsoid::normal(place.lat, place.lon);
     const Ecef p = ellipsoid_.position(normal);
@@ -96,7 +98,7 @@ class Tracer {
     return near ? px : std::nullopt;
   }
 
-  /// The last point that is seen between a seen and an unseen one.
+  /// Finds the last visible point between a visible and a hidden one.
   [[nodiscard]] glm::dvec2 edge(const Curve& curve, double seen, double unseen) const {
     glm::dvec2 best = *picture(curve(seen));
     for (int i = 0; i < kHalvings; ++i) {
@@ -112,7 +114,7 @@ class Tracer {
   const Ellipsoid& ellipsoid_;
 };
 
-/// "30° N", "0.25° W"; decimals as the spacing needs.
+/// Formats "30° N", "0.25° W", with as many decimals as the spacing needs.
 std::string name(double deg, double spacing_deg, const char* positive, const char* negative) {
   const int decimals = spacing_deg >= 1.0 ? 0 : static_cast<int>(std::ceil(-std::log10(spacing_deg) - 1e-9));
   char text[40];
@@ -139,7 +141,7 @@ class Builder {
   [[nodiscard]] double south() const { return std::max(region_.lat_deg - region_.reach_deg, -90.0); }
   [[nodiscard]] double north() const { return std::min(region_.lat_deg + region_.reach_deg, 90.0); }
 
-  /// Longitudes from the centre that can be seen; all of them where a pole can.
+  /// Visible longitudes to each side of the centre; all if a pole is visible.
   [[nodiscard]] double reach_lon_deg() const {
     const double farthest = std::max(std::abs(south()), std::abs(north()));
     if (farthest >= 90.0 || region_.reach_deg >= 90.0) return 180.0;
@@ -166,11 +168,12 @@ class Builder {
   void add_meridians() {
     const double spacing = region_.meridians_deg;
     const double reach = std::min(reach_lon_deg(), kLinesEachWay * spacing);
-    // Where all meridians meet only every quarter goes on to the pole.
+    // Meridians meet at the pole: only every quarter continues to the pole.
     const double stop = 90.0 - std::min(region_.parallels_deg, 10.0);
     long first = std::lround(std::ceil((region_.lon_deg - reach) / spacing - 1e-9));
     const long last = std::lround(std::floor((region_.lon_deg + reach) / spacing + 1e-9));
-    if (double(last - first + 1) * spacing > 360.0 + 1e-9) ++first;  // ±180° of the centre are one meridian
+    // 180° east and 180° west of the centre are one meridian.
+    if (double(last - first + 1) * spacing > 360.0 + 1e-9) ++first;
     for (long i = first; i <= last; ++i) {
       const double lon = std::remainder(double(i) * spacing, 360.0);
       const bool quarter = std::abs(std::remainder(lon, 90.0)) < 1e-9;
@@ -181,7 +184,7 @@ class Builder {
           tracer_.trace([&](double lat) { return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)}; },
                         low, high, chord_deg(region_.parallels_deg));
       add_lines(pieces, std::abs(lon) < 1e-9 || std::abs(std::abs(lon) - 180.0) < 1e-9);
-      // Near the limb the names would stand closer than they can be read.
+      // Near the limb the labels would stand too close to be read.
       const bool faces_eye = std::abs(std::remainder(lon - region_.lon_deg, 360.0)) < kNamedMeridians_deg;
       if (faces_eye) label_meridian(pieces, lon, name(lon, spacing, "E", "W"));
     }
@@ -196,7 +199,7 @@ class Builder {
            px.y <= view_.viewport.height_px - label_.foot_px;
   }
 
-  /// Where a line crosses x = value (axis 0) or y = value (axis 1).
+  /// Finds the crossing of a line with x = value (axis 0) or y = value (axis 1).
   [[nodiscard]] std::optional<glm::dvec2> crossing(const std::vector<std::vector<glm::dvec2>>& pieces, int axis,
                                                    double value) const {
     for (const auto& piece : pieces) {
@@ -242,9 +245,9 @@ class Builder {
     }
   }
 
-  /// Keeps a label that lies in the picture and covers none before it.
+  /// Keeps a label if it lies in the picture and covers no earlier label.
   void put(const GraticuleLabel& label) {
-    // A degree sign is two bytes and one character.
+    // The degree sign is two bytes but one character.
     const glm::dvec2 size(label_.character_px * double(label.text.size() - 1), label_.line_px);
     const glm::dvec2 low = label.at_px - label.anchor * size;
     if (!inside(low) || !inside(low + size)) return;
@@ -267,9 +270,10 @@ class Builder {
   std::vector<Box> taken_;
 };
 
-constexpr double kParallelStep_deg = 0.5;  // off by at most its square times sine times cosine of the latitude over 8
+// Error is at most step² · sin(latitude) · cos(latitude) / 8.
+constexpr double kParallelStep_deg = 0.5;
 
-/// The lines of a planet, a degree of latitude or longitude at a time.
+/// Makes the lines of a planet, one degree of latitude or longitude at a time.
 class PlanetNet {
  public:
   explicit PlanetNet(const GraticuleLook& look)
@@ -298,7 +302,7 @@ class PlanetNet {
     if (lat_deg != 0.0) add_label(lat_deg, 0.0, name(lat_deg, spacing_deg_, "N", "S"));
   }
 
-  // By way of the equator: from pole to pole there is more than one shortest way.
+  // Goes through a place on the equator: from pole to pole there is more than one shortest way.
   void add_meridian(double lon_deg, bool to_poles) {
     const double end_deg = to_poles ? 90.0 : 90.0 - spacing_deg_;
     add_line({place(-end_deg, lon_deg), place(0.0, lon_deg), place(end_deg, lon_deg)});

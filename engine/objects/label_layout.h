@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// Code points of a UTF-8 text; U+FFFD for each byte that begins none. thread: any
+/// Returns the code points of a UTF-8 text, with U+FFFD for each byte that does not begin a code point. thread: any
 [[nodiscard]] std::u32string code_points(std::string_view utf8);
 
 /// A box on the picture, pixels, y down.
@@ -18,21 +18,22 @@ struct LabelBox {
   glm::vec2 low_px, high_px;
 };
 
-/// The room that labels take on a picture, first come, first served. thread: one
+/// The space that labels occupy in a picture. The first label to claim a space gets it. thread: any, but one call at a
+/// time
 class LabelRoom {
  public:
   explicit LabelRoom(Viewport picture);
-  /// Takes a box if all of it lies in the picture and none before it overlaps it.
+  /// Claims a box. False if the box is not wholly in the picture, or overlaps a box claimed before.
   bool take(const LabelBox& box);
 
  private:
   Viewport picture_;
   int columns_, rows_;
-  std::vector<std::vector<LabelBox>> cells_;  ///< the boxes that touch each square of the picture
+  std::vector<std::vector<LabelBox>> cells_;  ///< per square of the picture, the boxes that touch it
 };
 
-/// Whether an ellipsoid around the planet's centre with these half axes, metres, stands between the eye and a point, or
-/// holds it. Half axes of 0 hide nothing. thread: any
+/// True if an ellipsoid around the planet's centre hides or contains a point. The half axes are in metres; half axes of
+/// 0 hide nothing. thread: any
 [[nodiscard]] bool is_behind(const glm::dvec3& point_m, const glm::dvec3& eye_m, const glm::dvec3& half_axes_m);
 
 }  // namespace terrella

@@ -48,7 +48,8 @@ void add_points(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid, Ob
   batches.markers = joined(markers);
 }
 
-/// Appends a line with a vertex before and one behind it; those of a closed one are its neighbours round the corner.
+/// Appends a line with one vertex before and one after it. For a closed line, these are its neighbours round the
+/// corner.
 void append_line(const std::vector<glm::dvec3>& way, float width_px, ObjectColor color, bool closed,
                  std::vector<LineVertex>& out) {
   if (way.size() < 2 || width_px <= 0.0F || color.alpha == 0) return;
@@ -62,7 +63,7 @@ void append_line(const std::vector<glm::dvec3>& way, float width_px, ObjectColor
   out.push_back(vertex(closed ? way[1] : way.back(), 0.0F));
 }
 
-/// Lines, then the outlines of areas.
+/// Appends lines, then the outlines of areas.
 void add_lines(std::span<const CutScene> scenes, ObjectBatches& batches) {
   Buckets<LineVertex> buckets;
   for (const auto& [scene, cut] : scenes) {
@@ -87,8 +88,8 @@ struct CutArea {
   double height_m;
 };
 
-/// Areas from the lowest to the highest, so that from above those that are translucent lie over each other as they do
-/// in space, whatever their order; where they lie equally high, as the scenes have them.
+/// Sorts areas from the lowest to the highest, so that translucent areas seen from above are blended in the right
+/// order. Areas of equal height keep the order of their scenes.
 std::vector<CutArea> by_height(std::span<const CutScene> scenes) {
   std::vector<CutArea> areas;
   for (const auto& [scene, cut] : scenes) {

@@ -13,14 +13,14 @@
 
 namespace terrella {
 
-/// What is drawn before the surface and what after it (paper 2, 2.2).
+/// Objects drawn before the surface and objects drawn after it (paper 2, 2.2).
 enum class ObjectPart { underground, above_ground };
 
-/// Which objects of a part: `chosen` are those with through_surface (2.9's third mode).
+/// A choice of objects of a part: `chosen` are those with through_surface (paper 2, 2.9, third mode).
 enum class ObjectChoice { all, chosen, others };
 
-/// A sphere (`size` its radius in metres) or a marker (its diameter in pixels) as the GPU keeps it; positions as
-/// PatchVertex has them.
+/// A sphere (`size` is its radius in metres) or a marker (`size` is its diameter in pixels) in the layout for the GPU.
+/// Positions are split as in PatchVertex.
 struct DotInstance {
   glm::vec3 high_m;
   glm::vec3 low_m;
@@ -29,8 +29,8 @@ struct DotInstance {
 };
 static_assert(sizeof(DotInstance) == 32);
 
-/// A corner of lines. A piece begins at each that has a width, and leads to the one after it. Each line stands between
-/// two more vertices, which say how its ends are mitred.
+/// A vertex of lines. Each vertex with a width begins a piece that leads to the next vertex. One more vertex before and
+/// one after each line define the mitres of its ends.
 struct LineVertex {
   glm::vec3 high_m;
   glm::vec3 low_m;
@@ -46,8 +46,8 @@ struct FillVertex {
 };
 static_assert(sizeof(FillVertex) == 28);
 
-/// Things of one kind, sorted by part, then by opacity (what is opaque first), then by choice, and in the scene's order
-/// within these, areas by their height: what one draw takes lies together.
+/// Objects of one kind, sorted by part, then by opacity (opaque first), then by choice. Within these, objects keep the
+/// scene's order, and areas are sorted by height. So each draw takes one contiguous range.
 template <class T>
 struct Batch {
   struct Range {
@@ -57,7 +57,7 @@ struct Batch {
   static constexpr std::size_t kBuckets = 8;
 
   std::vector<T> items;
-  std::array<std::size_t, kBuckets + 1> first{};  ///< of each bucket, and the end
+  std::array<std::size_t, kBuckets + 1> first{};  ///< begin of each bucket, and the end of the last
 
   [[nodiscard]] static std::size_t bucket(ObjectPart part, bool opaque, bool chosen) {
     return (part == ObjectPart::above_ground ? 4U : 0U) + (opaque ? 0U : 2U) + (chosen ? 1U : 0U);
@@ -69,23 +69,23 @@ struct Batch {
   }
 };
 
-/// A scene as the GPU takes it.
+/// A scene in the layout for the GPU.
 struct ObjectBatches {
   Batch<DotInstance> spheres;
   Batch<DotInstance> markers;
-  Batch<LineVertex> lines;  ///< a range of n vertices is n - 3 pieces
+  Batch<LineVertex> lines;  ///< a range of n vertices contains n - 3 pieces
   std::vector<FillVertex> fill_vertices;
   Batch<std::uint32_t> fill_indices;
-  std::size_t fills_dropped = 0;  ///< areas left out because the scene's would be more than kMostFillTriangles
+  std::size_t fills_dropped = 0;  ///< areas left out because the scene would have more than kMostFillTriangles
 };
 
-/// A scene, and its lines and areas as cut_objects() cut them, maybe when the scene had other colours.
+/// A scene with its lines and areas, cut by cut_objects(). The colours may have changed since the cut.
 struct CutScene {
   const ObjectScene& scene;
   const CutObjects& cut;
 };
 
-/// Sorts what several scenes hold; a scene's objects lie over those of the scenes before it. thread: any
+/// Sorts the objects of several scenes. Objects of a later scene lie over those of earlier scenes. thread: any
 [[nodiscard]] ObjectBatches make_batches(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid);
 /// Cuts and sorts one scene. thread: any
 [[nodiscard]] ObjectBatches make_batches(const ObjectScene& scene, const Ellipsoid& ellipsoid);

@@ -1,5 +1,5 @@
-// Areas are cut in the plane of longitude and latitude, where ±180° and the poles are edges like others: at a grid,
-// cell blocks halved again and again, and what is left in a cell goes to GLU's tessellator.
+// Areas are cut in the plane of longitude and latitude, where ±180° and the poles are ordinary edges. A grid cuts them:
+// blocks of cells are halved again and again. GLU's tessellator fills the part that remains in each cell.
 #include <GL/glu.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr double kWidestCell_deg = 1.0;
 constexpr double kNarrowestCell_deg = 0.05;
 constexpr double kCellsAcross = 64.0;
-/// More in a cell are divided further: the tessellator may need the square of it where rings cross themselves.
+/// Cells with more points are divided: for rings that cross themselves GLU may need the square of this number.
 constexpr std::size_t kMostCellPoints = 512;
 constexpr int kMostDivisions = 12;
 constexpr double kMostArcPieces = 4.0e6;
@@ -32,14 +32,14 @@ class Tessellator {
     gluTessNormal(tess_, 0.0, 0.0, 1.0);
     gluTessCallback(tess_, GLU_TESS_VERTEX_DATA, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_vertex));
     gluTessCallback(tess_, GLU_TESS_COMBINE_DATA, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_combine));
-    // To be told of edges makes it give triangles instead of strips and fans.
+    // A callback for edges makes the tessellator emit triangles instead of strips and fans.
     gluTessCallback(tess_, GLU_TESS_EDGE_FLAG, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_edge));
   }
   ~Tessellator() { gluDeleteTess(tess_); }
   Tessellator(const Tessellator&) = delete;
   Tessellator& operator=(const Tessellator&) = delete;
 
-  /// Corners of triangles, three by three.
+  /// Vertices of triangles, three per triangle.
   const std::vector<MapPoint>& triangles(const Rings& rings) {
     corners_.clear();
     points_.clear();
@@ -71,7 +71,7 @@ class Tessellator {
   static void on_edge(GLboolean) {}
 
   GLUtesselator* tess_;
-  std::deque<Point> points_;  // their addresses stay
+  std::deque<Point> points_;  // a deque, because addresses must stay valid
   std::vector<MapPoint> corners_;
 };
 
@@ -137,7 +137,7 @@ class AreaFiller {
     fill_block(clipped(all, axis, at, 1.0), upper);
   }
 
-  /// Rings that run along the block's border alone cover all of it or nothing; `full` says what they add up to.
+  /// Removes rings that only follow the block's border. `full` tells if together they cover the block.
   static Rings without_whole_turns(const Rings& rings, const MapRect& rect, bool& full) {
     const double whole = (rect.east_deg - rect.west_deg) * (rect.north_deg - rect.south_deg);
     Rings open;
@@ -243,7 +243,7 @@ std::vector<MapPoint> on_map(const std::vector<Geodetic>& ring) {
   return positions;
 }
 
-/// The rings on the map; empty if one of them cannot be an area's, or is too long.
+/// Returns the rings on the map; empty if one is invalid or too long.
 Rings rings_on_map(const PolygonObject& polygon) {
   Rings rings;
   double arc_pieces = 0.0;
@@ -251,7 +251,7 @@ Rings rings_on_map(const PolygonObject& polygon) {
     if (ring.size() < 3) continue;
     const std::vector<MapPoint> positions = on_map(ring);
     arc_pieces += pieces_of(positions);
-    if (!(arc_pieces <= kMostArcPieces)) return {};  // nor what is not finite
+    if (!(arc_pieces <= kMostArcPieces)) return {};  // also refuses values that are not finite
     auto parts = rings_of(positions);
     if (!parts) return {};
     for (MapRing& part : *parts) rings.push_back(std::move(part));
@@ -259,7 +259,7 @@ Rings rings_on_map(const PolygonObject& polygon) {
   return rings;
 }
 
-/// ±180° and the poles are grid lines: the number is even.
+/// Number of grid cells per half turn. Even, so that ±180° and the poles are grid lines.
 int cells_of_half_turn(const Rings& rings) {
   double extent = 0.0;
   for (const MapRing& ring : rings) {

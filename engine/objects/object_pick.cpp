@@ -10,9 +10,9 @@
 namespace terrella {
 namespace {
 
-// Objects on the ground are drawn a little towards the eye: so much nearer the ground does not hide them.
+// Objects on the ground are drawn this fraction of the distance towards the eye, so the ground does not hide them.
 constexpr double kGroundShare = 1e-3;
-// What lies no further apart than this counts as equally far.
+// Distances that differ by at most this fraction count as equal.
 constexpr double kSameDistance = 0.01;
 constexpr double kMostPickPieces = 2048.0;
 
@@ -30,7 +30,7 @@ class ObjectPicker {
   [[nodiscard]] const std::optional<PickedObject>& best() const { return best_; }
 
  private:
-  // What comes later goes over what is as far.
+  // At equal distance, a later object wins.
   void take(ObjectKind kind, std::size_t index, const glm::dvec3& at_m) {
     const double distance = glm::length(at_m - view_.eye.xyz_m);
     if (best_ && distance > best_->distance_m * (1.0 + kSameDistance)) return;
@@ -38,7 +38,7 @@ class ObjectPicker {
     best_ = PickedObject{kind, index, distance};
   }
 
-  // Beyond the point of the line of sight that is nearest to the centre lies the far side.
+  // The far side begins beyond the point of the line of sight that is nearest to the centre.
   [[nodiscard]] bool hidden(const glm::dvec3& at_m) const {
     if (!options_.through_ground) return hidden_by_ground(view_, ground_, Ecef{at_m});
     const glm::dvec3 way = at_m - view_.eye.xyz_m;
@@ -87,7 +87,7 @@ class ObjectPicker {
     }
   }
 
-  // The fill lies at one height: the ray meets the body raised by it.
+  // The fill lies at one height, so the ray is intersected with the body raised by that height.
   void polygon(const PolygonObject& polygon, std::size_t index) {
     if (polygon.stroke.alpha > 0) {
       for (const auto& ring : polygon.rings) {
@@ -106,7 +106,7 @@ class ObjectPicker {
     if (inside(polygon, {place.lon.deg(), place.lat.deg()})) take(ObjectKind::polygon, index, at_m);
   }
 
-  // Even-odd, in the plane where rings_of() cuts them.
+  // Even-odd test in the plane in which rings_of() cuts the rings.
   static bool inside(const PolygonObject& polygon, const MapPoint& p) {
     bool in = false;
     for (const auto& ring : polygon.rings) {

@@ -10,30 +10,30 @@
 
 namespace terrella {
 
-/// Which list of an ObjectScene.
+/// The list of an ObjectScene that holds the object.
 enum class ObjectKind { point, line, polygon, mesh };
 
 struct PickedObject {
   ObjectKind kind = ObjectKind::point;
-  std::size_t index = 0;    ///< in its list
-  double distance_m = 0.0;  ///< from the eye
+  std::size_t index = 0;    ///< index in that list
+  double distance_m = 0.0;  ///< distance from the eye
 };
 
-/// Objects that the ground does not hide from the eye.
+/// Options of a pick. By default, objects that the ground hides are not picked.
 struct PickOptions {
-  bool through_ground = false;  ///< a translucent surface hides only what lies on the globe's far side
-  double slack_px = 2.0;        ///< added to markers and lines: they are thin
+  bool through_ground = false;  ///< true: a translucent surface hides only objects on the globe's far side
+  double slack_px = 2.0;        ///< widens markers and lines, which are thin
 };
 
-/// The object under a pixel (as in geo/coordinates.h): the nearest to the eye; of those that lie as far from it,
-/// points before lines before areas, and the later before the earlier. Markers and lines by their size on the screen,
-/// spheres and areas by their shape, meshes by the sphere that holds them. Takes time with all objects of the scene,
-/// about a microsecond for each corner. thread: as Ground's
+/// Returns the object under a pixel (as in geo/coordinates.h) that is nearest to the eye. At equal distance, points win
+/// over lines and lines over areas, and a later object over an earlier one. Markers and lines are tested by their size
+/// on the screen, spheres and areas by their shape, meshes by their bounding sphere. Takes about 1 µs per vertex of all
+/// objects in the scene. thread: main if the ground has heights, else thread: any
 [[nodiscard]] std::optional<PickedObject> pick_object(const View& view, const Ground& ground, const ObjectScene& scene,
                                                       glm::dvec2 pixel_px, const PickOptions& options = {});
 
-/// Whether the ground stands between the eye and a place, or the globe itself. A thousandth of the distance is not
-/// told from the ground.
+/// True if the ground, or the globe itself, lies between the eye and a place. A place less than 0.1 % of its distance
+/// behind the ground counts as visible.
 [[nodiscard]] bool hidden_by_ground(const View& view, const Ground& ground, const Ecef& place);
 
 }  // namespace terrella

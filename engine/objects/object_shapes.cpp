@@ -11,13 +11,13 @@ namespace {
 
 using glm::dvec3;
 
-/// Geodesics on one ellipsoid. The exact form, because the series loses digits on flat bodies like Saturn.
+/// Geodesics on one ellipsoid. Uses the exact form, because the series loses digits on flat bodies such as Saturn.
 class GeodesicWays {
  public:
   explicit GeodesicWays(const Ellipsoid& ellipsoid)
       : ellipsoid_(ellipsoid), geodesics_(ellipsoid.a_m(), ellipsoid.f()) {}
 
-  /// The places at 1/n, 2/n … of the way, the last not included.
+  /// Appends the places at 1/n, 2/n … of the way, without the last.
   void between(const Geodetic& a, const Geodetic& b, int n, double lift_m, std::vector<dvec3>& out) const {
     const auto way = geodesics_.InverseLine(latitude_deg(a), a.lon.deg(), latitude_deg(b), b.lon.deg());
     for (int k = 1; k < n; ++k) {
@@ -31,7 +31,7 @@ class GeodesicWays {
   }
 
  private:
-  // A pole that was turned to radians and back may lie beyond it.
+  // Rounding to radians and back may put a latitude beyond the pole.
   static double latitude_deg(const Geodetic& p) { return std::clamp(p.lat.deg(), -90.0, 90.0); }
 
   const Ellipsoid& ellipsoid_;
@@ -43,7 +43,7 @@ Angle between(const Geodetic& a, const Geodetic& b) {
   return Angle::radians(std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q)));
 }
 
-/// 1 for what is not finite.
+/// Number of pieces; 1 if the way is not finite.
 int pieces(Angle way, Angle step) {
   constexpr double kMost = 1.0e6;
   const double pieces = std::ceil(way / step);
@@ -56,7 +56,7 @@ dvec3 lifted(const Geodetic& place, const Ellipsoid& ellipsoid, double lift_m) {
   return ellipsoid.to_ecef(higher).xyz_m;
 }
 
-/// The places at 1/n, 2/n … of the great circle of normals, the last not included. Antipodes have none.
+/// Appends the places at 1/n, 2/n … of the great circle of normals, without the last. None for antipodes.
 void along_great_circle(const Geodetic& a, const Geodetic& b, int n, const Ellipsoid& ellipsoid, double lift_m,
                         std::vector<dvec3>& out) {
   const dvec3 p = Ellipsoid::normal(a.lat, a.lon).xyz, q = Ellipsoid::normal(b.lat, b.lon).xyz;
@@ -74,7 +74,7 @@ void along_great_circle(const Geodetic& a, const Geodetic& b, int n, const Ellip
 }  // namespace
 
 double sag_m(const Ellipsoid& ellipsoid, Angle step) {
-  const double radius_m = ellipsoid.a_m() / (1.0 - ellipsoid.f());  // the flattest place, a pole
+  const double radius_m = ellipsoid.a_m() / (1.0 - ellipsoid.f());  // largest radius of curvature, at a pole
   return radius_m * (1.0 - std::cos(0.5 * step.rad()));
 }
 

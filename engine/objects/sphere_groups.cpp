@@ -17,9 +17,9 @@ namespace {
 using glm::vec3;
 
 constexpr unsigned kCurveBits = 30;
-constexpr float kAround_px = 2.0F;  // the smallest sphere's radius, and its edge (object_sphere_seen.glsl)
+constexpr float kAround_px = 2.0F;  // the smallest sphere's radius plus its edge (object_sphere_seen.glsl)
 
-/// The ten low bits of a number, two apart.
+/// Spreads the ten low bits of a number to every third bit.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 16U) & 0x030000FFU;
   bits = (bits | bits << 8U) & 0x0300F00FU;
@@ -27,7 +27,7 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits | bits << 2U) & 0x09249249U;
 }
 
-/// Where a place comes on a curve through a cube around the planet's centre (Morton's order), half as wide as
+/// Returns the position of a place on a Morton curve through a cube around the planet's centre, half as wide as
 /// `reach_m`.
 std::uint32_t place_on_curve(const vec3& place_m, float reach_m) {
   const vec3 cell = (place_m / reach_m + 1.0F) * 511.0F;
@@ -35,7 +35,7 @@ std::uint32_t place_on_curve(const vec3& place_m, float reach_m) {
          spread(static_cast<std::uint32_t>(cell.z)) << 2U;
 }
 
-/// Sorts spheres along the curve; returns where on it each then is.
+/// Sorts spheres along the curve and returns the position of each on the curve.
 std::vector<std::uint32_t> sort_along_curve(std::span<DotInstance> spheres) {
   float reach_m = 1.0F;
   for (const DotInstance& d : spheres) reach_m = std::max(reach_m, glm::length(d.high_m));
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> sort_along_curve(std::span<DotInstance> spheres) {
   return places;
 }
 
-/// As is_hidden() of object_common.glsl.
+/// The same as is_hidden() of object_common.glsl.
 bool is_hidden(const vec3& center, float away, float radius_m, const SphereSight& sight) {
   const float within = 0.999F * sight.hiding_radius_m - radius_m;
   if (within <= 0.0F) return false;
@@ -56,7 +56,7 @@ bool is_hidden(const vec3& center, float away, float radius_m, const SphereSight
   return passes > 0.0F && passes < away && glm::length(glm::cross(eye, center)) / away < within;
 }
 
-/// Planes through the eye that bound the picture, their normals inwards, unit, Earth-fixed.
+/// Planes through the eye that bound the picture. Normals point inwards, unit, Earth-fixed.
 std::array<vec3, 4> sides(const SphereSight& sight) {
   const glm::mat3 ecef_from_plane = glm::transpose(sight.view_from_ecef);
   const auto plane = [&ecef_from_plane](float x, float y) {
@@ -96,8 +96,8 @@ void SphereGroups::add_groups(Run run, bool opaque) {
   }
 }
 
-// What follows each other on the curve may lie far apart, but not what is in one cube. Those that hold too many are cut
-// into eight.
+// Neighbours on the curve may be far apart, but the spheres of one cube are not. Cubes with too many spheres are
+// divided into eight.
 void SphereGroups::add_cubes(Run run, const std::vector<std::uint32_t>& places, std::size_t zeroth, unsigned bits) {
   if (run.count <= kMostInGroup || bits == 0) return add_groups(run, true);
   const auto begin = places.begin() + std::ptrdiff_t(run.first - zeroth), end = begin + std::ptrdiff_t(run.count);
@@ -140,7 +140,7 @@ SphereGroups::Look SphereGroups::look_of(const Group& group, const SphereSight& 
   }
   const float nearest_m = ahead - reach_m;
   if (!whole || !group.opaque || nearest_m <= 0.0F) return Look::triangles;
-  // Outwards in the picture a sphere is drawn longer by as much as its distance is more than what lies ahead.
+  // Towards the picture's edge a sphere is drawn longer, by the ratio of its distance to its depth ahead of the eye.
   const float widest_px = sight.focal_px * group.largest_m * (away + reach_m) / (nearest_m * nearest_m);
   return widest_px <= sight.largest_point_px ? Look::points : Look::triangles;
 }

@@ -11,24 +11,25 @@
 
 namespace terrella {
 
-/// What spheres are looked at from, as shaders/frame.glsl has it.
+/// The view of spheres, in the terms of shaders/frame.glsl.
 struct SphereSight {
-  glm::mat3 view_from_ecef;  ///< sheared in an off-axis picture
+  glm::mat3 view_from_ecef;  ///< contains the shear of an off-axis picture
   glm::vec3 eye_high_m, eye_low_m;
   glm::vec2 clip_scale;
-  float focal_px = 0.0F;          ///< pixels that a metre covers at a metre's distance
-  float hiding_radius_m = 0.0F;   ///< of a sphere around the planet's centre that hides what is behind it; 0: none
-  float largest_point_px = 0.0F;  ///< radius of the widest spheres that may be points; 0: none may
+  float focal_px = 0.0F;  ///< pixels per metre at a distance of one metre
+  /// Radius of a sphere around the planet's centre that hides the objects behind it; 0: none.
+  float hiding_radius_m = 0.0F;
+  float largest_point_px = 0.0F;  ///< radius of the largest spheres that may be drawn as points; 0: none may
 };
 
-/// Spheres in groups of neighbours, with a ball around each group: what cannot be seen is left out group by group.
-/// Opaque spheres are sorted into cubes of space. Translucent ones keep the scene's order, in which they blend.
-/// Pure values; thread: any
+/// Spheres in groups of neighbours, each with a bounding ball. Invisible groups are culled as a whole. Opaque spheres
+/// are grouped by cubes of space. Translucent spheres keep the scene's order, in which they are blended. Pure values.
+/// thread: any
 class SphereGroups {
  public:
   static constexpr std::size_t kMostInGroup = 64;
 
-  /// Spheres of items() that follow each other.
+  /// A run of consecutive spheres in items().
   using Run = Batch<DotInstance>::Range;
   struct Seen {
     std::vector<Run> triangles;  ///< drawn as triangles around their outlines
@@ -38,15 +39,15 @@ class SphereGroups {
   SphereGroups() = default;
   explicit SphereGroups(const Batch<DotInstance>& spheres);
   [[nodiscard]] const std::vector<DotInstance>& items() const { return items_; }
-  /// Of a range of the batch, what may be seen: all that is, and some that is not.
+  /// Returns the possibly visible spheres of a range of the batch: all visible ones, and some that are not.
   [[nodiscard]] Seen seen(Run range, const SphereSight& sight) const;
 
  private:
   struct Group {
     Run run;
     bool opaque;
-    glm::vec3 high_m, low_m;  ///< the ball's centre
-    float radius_m;           ///< of the ball
+    glm::vec3 high_m, low_m;  ///< centre of the ball
+    float radius_m;           ///< radius of the ball
     float largest_m;          ///< radius of the largest sphere
   };
   enum class Look { hidden, triangles, points };

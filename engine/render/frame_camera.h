@@ -5,8 +5,8 @@
 
 namespace terrella {
 
-/// The frame's block with what it has of an eye: its place, its axes, the picture's shape and the depths between which
-/// it draws, metres; the rest is zero. thread: any
+/// Returns the frame block with the fields of one eye: its place, its axes, the shape of the picture and the depth
+/// range, metres. All other fields are zero. thread: any
 [[nodiscard]] FrameBlock frame_of_camera(const View& view, double near_m, double far_m);
 
 }  // namespace terrella

@@ -19,8 +19,8 @@ double days_since_j2000(UtcTime time) {
   return duration<double, days::period>(time - j2000).count();
 }
 
-// ERFA knows the leap seconds. It has none before 1960 and after its last one: up to 2050 that may be 20 s, in which
-// the Moon moves 0.003°.
+// ERFA applies leap seconds from 1960 to the last one in its table. Up to 2050 the missing ones may add up to 20 s, in
+// which the Moon moves 0.003°.
 double tt_days(double utc_days) {
   double tai_high = 0.0, tai_low = 0.0, tt_high = 0.0, tt_low = 0.0;
   eraUtctai(ERFA_DJ00, utc_days, &tai_high, &tai_low);
@@ -40,9 +40,9 @@ struct SunPlace {
   double distance_m;
 };
 
-// The Earth's motion shifts the Sun forward by velocity / c, 20"; what this leaves out of relativity is 0.001".
+// The Earth's motion shifts the Sun forward by velocity / c, 20". The neglected terms of relativity are 0.001".
 SunPlace sun_place(double tt_days) {
-  double heliocentric[2][3], barycentric[2][3];  // the Earth's place and velocity, in au and days
+  double heliocentric[2][3], barycentric[2][3];  // place and velocity of the Earth, in au and days
   eraEpv00(ERFA_DJ00, tt_days, heliocentric, barycentric);
   const glm::dvec3 to_sun_au = -glm::make_vec3(heliocentric[0]);
   const glm::dvec3 velocity_c = glm::make_vec3(barycentric[1]) * (ERFA_AULT / ERFA_DAYSEC);

@@ -11,12 +11,12 @@ namespace terrella {
 namespace {
 
 constexpr int kSkySamples = 18;
-// Light of the whole sky against the Sun's; blue, as the air scatters it.
+// Light of the whole sky relative to the Sun's; blue, because the air scatters blue most.
 constexpr glm::dvec3 kSkylight(0.2, 0.28, 0.42);
-// The Sun's radius as seen from a planet: it sets little by little.
+// Angular radius of the Sun, over which a sunset is spread.
 constexpr double kSunSize_rad = 0.00465;
 
-/// The air over a planet of radius 1: heights and depths in radii.
+/// The air over a planet of radius 1. Heights and depths are in radii.
 class Air {
  public:
   Air(const Atmosphere& air, double radius_m)
@@ -35,17 +35,17 @@ class Air {
   [[nodiscard]] const glm::dvec3& gas_scatter() const { return gas_scatter_; }
   [[nodiscard]] const glm::dvec3& dust_scatter() const { return dust_scatter_; }
 
-  // Of densities times lengths in radii.
+  // Extinction for densities times lengths, in radii.
   [[nodiscard]] glm::dvec3 extinction(double gas, double dust) const {
     return gas * gas_scatter_ + dust * dust_extinct_;
   }
 
-  // Sunlight that reaches a point from where the Sun has this cosine to the zenith.
+  // Sunlight that reaches a point at which the Sun has this cosine to the zenith.
   [[nodiscard]] glm::dvec3 sunlight(double radius, double cosine) const {
     const double lowest = radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     double shown = 1.0;
     if (cosine < 0.0) {
-      // The ray's lowest point against the ground, in Sun's radii as seen from the point.
+      // Height of the ray's lowest point over the ground, in radii of the Sun as seen from the point.
       const double size = kSunSize_rad * std::max(-cosine * radius, 0.01);
       shown = std::clamp(0.5 + 0.5 * (lowest - 1.0) / size, 0.0, 1.0);
       if (shown == 0.0) return glm::dvec3(0.0);
@@ -56,8 +56,9 @@ class Air {
     return shown * glm::exp(-depth);
   }
 
-  // Light that air has scattered before, from all sides: no model of it, but what keeps the zenith blue at sunset and
-  // the twilight soft. As if from a Sun that stands higher, and with a border that goes some way into the night.
+  // Light that the air has scattered more than once, from all sides. This is not a model, only an approximation that
+  // keeps the zenith blue at sunset and the twilight soft. It acts like a Sun that stands higher, with a border some
+  // way into the night.
   [[nodiscard]] glm::dvec3 skylight(double radius, double cosine) const {
     const double t = std::clamp((cosine + 0.2) / 0.35, 0.0, 1.0);
     if (t == 0.0) return glm::dvec3(0.0);
@@ -66,7 +67,7 @@ class Air {
   }
 
  private:
-  // Density times length along the ray to infinity, in densities at the ground times scale heights.
+  // Density times length along the ray to infinity, in units of ground density times scale height.
   [[nodiscard]] static double chapman(double scale, double radius, double cosine, double lowest) {
     const double c = std::sqrt(radius / scale);
     const double here = std::exp((1.0 - radius) / scale);
@@ -75,7 +76,7 @@ class Air {
     return std::max(0.0, down - here * c / (1.0 - c * cosine));
   }
 
-  // Times that the layer straight up is crossed.
+  // Length of the path through the ozone layer, relative to the vertical path.
   [[nodiscard]] double ozone_path(double radius, double cosine, double lowest) const {
     const double q = lowest / ozone_radius_;
     if (q >= 1.0) return 0.0;
@@ -88,11 +89,11 @@ class Air {
   double gas_scale_, dust_scale_, ozone_radius_, top_;
 };
 
-/// A ray in the plane of eye and planet's centre: the eye at (0, radius).
+/// A ray in the plane of the eye and the planet's centre; the eye is at (0, radius).
 struct SkyRay {
-  double sine, cosine;  ///< of the angle from the zenith
-  double begin, end;    ///< of the air along it
-  double middle;        ///< where it is densest
+  double sine, cosine;  ///< sine and cosine of the angle from the zenith
+  double begin, end;    ///< range in which the ray is in the air
+  double middle;        ///< point at which the air is densest
 };
 
 SkyRay ray_of_row(const Air& air, double eye_radius, bool outside, double dip, double part) {
@@ -120,11 +121,11 @@ struct AirSample {
   glm::dvec3 place;
   double radius;
   double gas, dust;  ///< density times length
-  glm::dvec3 seen;   ///< part of the light from there that reaches the eye
+  glm::dvec3 seen;   ///< fraction of the piece's light that reaches the eye
 };
 
-/// The samples of a ray, and the depth of all of it. They lie closest where the air is densest, their lengths growing
-/// as the square either way.
+/// The samples of a ray, and its total depth. Samples are closest where the air is densest. Their lengths grow with the
+/// square of the distance in both directions.
 struct RaySamples {
   std::array<AirSample, kSkySamples> samples;
   glm::dvec3 depth{0.0};
@@ -171,7 +172,7 @@ Scattered gather(const Air& air, const RaySamples& ray, const glm::dvec3& sun) {
 
 std::optional<Atmosphere> atmosphere_of(const Body& body) {
   if (body.name == "earth" || body.name == "sphere") {
-    // Rayleigh: Bruneton and Neyret (2008); dust of a clear day; ozone of 300 Dobson units.
+    // Rayleigh coefficients: Bruneton and Neyret (2008). Dust of a clear day. Ozone of 300 Dobson units.
     return Atmosphere{.gas_scatter_per_m = {5.8e-6, 13.5e-6, 33.1e-6},
                       .gas_scale_m = 8000.0,
                       .dust_scatter_per_m = glm::dvec3(3.0e-6),
@@ -184,7 +185,7 @@ std::optional<Atmosphere> atmosphere_of(const Body& body) {
                       .exposure = 11.0};
   }
   if (body.name == "mars") {
-    // Dust of optical depth 0.5 that swallows blue light and scatters it more sharply forward than the rest.
+    // Dust of optical depth 0.5, which absorbs blue light and scatters it more sharply forward than red and green.
     return Atmosphere{.gas_scatter_per_m = {0.08e-6, 0.2e-6, 0.5e-6},
                       .gas_scale_m = 11000.0,
                       .dust_scatter_per_m = {40e-6, 31e-6, 20e-6},

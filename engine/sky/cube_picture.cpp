@@ -27,7 +27,7 @@ glm::dvec3 face_direction(int face, double s, double t) {
   }
 }
 
-// Columns go round, rows end at the poles.
+// Columns wrap around, rows end at the poles.
 double map_value(const GreyPicture& map, const glm::dvec3& d) {
   const double lon = std::atan2(d.y, d.x), lat = std::atan2(d.z, std::hypot(d.x, d.y));
   const double x = (lon / (2.0 * std::numbers::pi) + 0.5) * map.width_px - 0.5;

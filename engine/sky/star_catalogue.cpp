@@ -26,7 +26,7 @@ constexpr std::array<StarColumn, 4> kStarColumns = {
     {{"ra_deg", -360.0, 360.0}, {"dec_deg", -90.0, 90.0}, {"vmag", -30.0, 30.0}, {"bv", -2.0, 10.0}}};
 enum { ra, dec, vmag, bv_index };
 
-using StarPlaces = std::array<std::size_t, kStarColumns.size()>;  ///< of the columns, in a line
+using StarPlaces = std::array<std::size_t, kStarColumns.size()>;  ///< index of each column in a line
 
 std::string_view next_line(std::string_view& rest) {
   const std::size_t end = rest.find('\n');

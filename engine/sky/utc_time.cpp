@@ -13,7 +13,7 @@
 namespace terrella {
 namespace {
 
-// The forms that are read: '0' stands for a digit. std::get_time alone would take "2026-6-1" and "+026-06-01" as well.
+// The accepted forms; '0' stands for a digit. std::get_time alone would also accept "2026-6-1" and "+026-06-01".
 constexpr std::string_view kDay = "0000-00-00";
 constexpr std::string_view kMinute = "0000-00-00T00:00";
 constexpr std::string_view kSecond = "0000-00-00T00:00:00";
@@ -48,7 +48,7 @@ std::optional<UtcTime> instant(const std::tm& fields, double fraction_s) {
          milliseconds{static_cast<int>(std::floor(fraction_s * 1000.0))};
 }
 
-// What stands behind the seconds: a fraction, ".25", or nothing.
+// Reads the text after the seconds: a fraction such as ".25", or nothing.
 std::optional<double> fraction(std::string_view text) {
   if (text.empty()) return 0.0;
   if (text.size() < 2 || text.find_first_not_of("0123456789", 1) != std::string_view::npos) return std::nullopt;

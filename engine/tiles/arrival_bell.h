@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Wakes one waiting thread when any of several loaders has finished a tile.
+/// Wakes one waiting thread when any of several loaders finishes a tile.
 class ArrivalBell {
  public:
   void ring() {  ///< thread: any
@@ -16,7 +16,7 @@ class ArrivalBell {
     }
     rang_.notify_one();
   }
-  /// Waits until somebody has rung since the last wait, or until the deadline. thread: one
+  /// Waits for a ring since the last wait, or until the deadline. thread: any, but one waiter at a time
   void wait_until(std::chrono::steady_clock::time_point deadline) {
     std::unique_lock lock(mutex_);
     rang_.wait_until(lock, deadline, [this] { return rung_; });

@@ -10,7 +10,7 @@
 namespace terrella {
 namespace {
 
-/// Tiles of the coarsest level that are looked at to find one that is there.
+/// Number of tiles of the coarsest level that are tried to find an existing one.
 constexpr std::int64_t kMaxLookedAt = 64;
 
 std::string text_of(const GeoRect& rect) {
@@ -23,7 +23,7 @@ bool holds(const GeoRect& outer, const GeoRect& inner, double slack_deg) {
     return false;
   }
   if (width_deg(outer) >= 360.0 - slack_deg) return true;
-  // Counted from a little west of the outer one's border, so that a border shared is not a turn away.
+  // Counts from a little west of the outer border, so that a shared border does not count as a full turn.
   const double from = degrees_east(inner.west.deg(), outer.west.deg() - slack_deg);
   return from + width_deg(inner) <= width_deg(outer) + 2.0 * slack_deg;
 }

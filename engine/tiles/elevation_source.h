@@ -8,19 +8,19 @@
 
 namespace terrella {
 
-/// A tile set of heights, known to be one: what open_tile_set() gives for what `terrella cut --elevation` writes and
-/// for tiled gridded coverages of other programs. Values are shared by those who read. thread: any
+/// A tile set that is known to contain heights. open_tile_set() opens both the files of `terrella cut --elevation` and
+/// the tiled gridded coverages of other programs. Copies share the tiles. thread: any
 class ElevationSource {
  public:
-  /// `name` (a path) begins the error. Refused: tiles that are pictures; bounds that do not hold `covered`, the whole
-  /// planet by default, half a pixel of the finest level aside; a first tile at hand that is of another kind than the
-  /// set says, or of another size. Reads that one tile.
+  /// Checks and wraps a tile set. Errors begin with `name`, a path. Refuses tiles that are pictures. Refuses bounds
+  /// that do not contain `covered` (by default the whole planet) to within half a pixel of the finest level. Reads the
+  /// first local tile and refuses a kind or size that differs from the set's description.
   [[nodiscard]] static Result<ElevationSource> open(std::shared_ptr<TileSource> tiles, const std::string& name,
                                                     const GeoRect& covered = GeoRect{});
 
   [[nodiscard]] const TileGrid& grid() const { return tiles_->info().grid; }
   [[nodiscard]] const std::shared_ptr<TileSource>& tiles() const { return tiles_; }
-  /// A tile that is at hand. Absences as TileSource::read() tells them; broken if it cannot be decoded.
+  /// Reads and decodes a local tile. Fails as TileSource::read() does, or with `broken` if the tile cannot be decoded.
   [[nodiscard]] Result<HeightTile, TileFailure> read(const TileId& id) const;
   [[nodiscard]] Result<HeightTile, TileFailure> decode(const TileId& id, const EncodedTile& tile) const;
 

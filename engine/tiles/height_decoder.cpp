@@ -18,14 +18,15 @@ namespace {
 
 TileFailure broken(const std::string& why) { return {Absence::broken, why}; }
 
-/// metres = number · scale + offset, tile and set in one.
+/// metres = number · scale + offset, with the factors of tile and set combined.
 struct Metres {
   double scale;
   double offset;
   std::optional<double> nodata;
 };
 
-/// A nodata of floats is written with more digits than a float holds, and one beyond all floats says nothing.
+/// The nodata of float tiles may be written with more digits than a float holds. A value beyond the range of floats
+/// means nothing.
 std::optional<double> nodata_of(const ElevationInfo& info) {
   if (!info.floats || !info.nodata) return info.nodata;
   if (std::abs(*info.nodata) > static_cast<double>(std::numeric_limits<float>::max())) return {};

@@ -5,9 +5,9 @@
 
 namespace terrella {
 
-/// Gives heights that are unknown (0 in `known`) what lies around them, so that a hole in the data is neither a pit nor
-/// a spike: the mean of the neighbours, pixel by pixel inwards, and falling evenly to 0, the level that heights count
-/// from, over min(64, a quarter of the side) pixels. Both arrays are side_px · side_px, row-major. thread: any
+/// Fills unknown heights (0 in `known`) from the heights around them, so that a hole in the data makes neither a pit
+/// nor a spike. Works inwards pixel by pixel: each gets the mean of its known neighbours. The values fall evenly to 0,
+/// the data's zero level, over min(64, side / 4) pixels. Both arrays are side_px · side_px, row-major. thread: any
 void fill_gaps(std::vector<float>& heights_m, std::vector<std::uint8_t> known, int side_px);
 
 }  // namespace terrella

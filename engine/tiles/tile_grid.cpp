@@ -12,18 +12,18 @@
 namespace terrella {
 namespace {
 
-/// A strip narrower than this part of a tile of the finest level (at most 1/250 of a pixel) is rounding, not imagery:
-/// without this, 360° / span = 2.0000000001 would ask for a third column that no server has.
+/// A strip narrower than this part of a tile of the finest level (at most 1/250 of a pixel) is rounding, not imagery.
+/// Without this limit, 360° / span = 2.0000000001 would require a third column that no server has.
 constexpr double kSliverTiles = 1.0e-6;
-/// What rounding of angles to and from radians may leave of 360°, with a margin; 0.1 µm on Earth.
+/// Error of 360° by converting angles to and from radians, with a margin; 0.1 µm on Earth.
 constexpr double kAngleNoiseDeg = 1.0e-12;
 
-/// Slivers are judged at the finest level for all levels alike, so that a tile that exists has a parent that exists.
+/// Slivers are measured at the finest level for all levels, so that the parent of every existing tile exists.
 int finest_level(const TileGrid& grid, int level) { return std::max(level, grid.max_level); }
 
-/// Tiles of a level that reach over an extent.
+/// Returns the number of a level's tiles that cover an extent.
 std::int64_t tiles_over(double extent_deg, const TileGrid& grid, int level) {
-  constexpr double most = 0x1p53;  // beyond it doubles no longer count one by one
+  constexpr double most = 0x1p53;  // above this, doubles do not represent every integer
   const int finest = finest_level(grid, level);
   const double tiles = std::min(extent_deg / tile_span_deg(grid, finest), most);
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * tiles;
@@ -31,15 +31,15 @@ std::int64_t tiles_over(double extent_deg, const TileGrid& grid, int level) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(std::ldexp(whole_finest, level - finest))));
 }
 
-/// At its edge nearest to the equator a squeezed row's texels are at most this long along the parallel, of their length
-/// along the meridian. At 1 the third row from a pole has 32 tiles, with a fifth more it does with 16.
+/// Longest texel of a squeezed row along the parallel, at the edge nearest to the equator, relative to its length along
+/// the meridian. With 1 the third row from a pole would have 32 tiles; with 1.2 it has 16.
 constexpr double kWidestTexel = 1.2;
 
 struct Interval {
   double from, to;
 };
 
-/// True if a tile's side overlaps the data's by a sliver or more. Data without extent (a point) touches the tiles
+/// True if a tile's side overlaps the data's by at least a sliver. Data without extent (a point) touches the tiles
 /// around it.
 bool touches(const Interval& tile, const Interval& data, double sliver_deg) {
   const double overlap = std::min(tile.to, data.to) - std::max(tile.from, data.from);
@@ -53,8 +53,9 @@ bool touches_longitudes(const Interval& tile, const GeoRect& bounds, double sliv
   return std::ranges::any_of(turns, [&](double turn) { return touches(tile, {west + turn, east + turn}, sliver_deg); });
 }
 
-/// Polar to equatorial component of the direction that the grid's rows count: the normal, or the radius vector of the
-/// surface point, for which tan(planetocentric) = (1 - e²) tan(planetographic).
+/// Ratio of the polar to the equatorial component of the direction that the grid's rows count, relative to the
+/// normal's. That direction is the normal, or the radius vector of the surface point, for which tan(planetocentric) =
+/// (1 - e²) tan(planetographic).
 double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
   return grid.latitude == LatitudeKind::centric ? ellipsoid.one_minus_e2() : 1.0;
 }
@@ -99,7 +100,7 @@ int squeeze_of_row(const TileGrid& grid, int level, std::int64_t y) {
   const double north = 90.0 - static_cast<double>(y) * span;
   const double to_equator = std::min(north < 0.0 ? -north : std::max(0.0, north - span), 90.0);
   const double narrowing = std::cos(Angle::degrees(to_equator).rad());
-  // Eight tiles go round a pole; the strip that a last row may have beyond them is no reason for fewer.
+  // A row has at least eight tiles round a pole; a remaining strip beyond them does not reduce that number.
   const double most = std::max(1.0, static_cast<double>(columns(grid, level)) / 8.0);
   return static_cast<int>(std::floor(std::log2(std::min(most, kWidestTexel / std::max(narrowing, 1e-12)))));
 }
@@ -123,7 +124,7 @@ bool exists(const TileGrid& grid, const TileId& id) {
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
   const RowLatitudes data = row_bounds(grid);
   const Interval data_rows{data.south_deg, data.north_deg};
-  // What reaches over 180° is padding, not the planet's west once more.
+  // The part beyond 180° is padding; it does not repeat the planet's west.
   const Interval on_planet{tile.west_deg, std::min(tile.east_deg, 180.0)};
   return touches({tile.south_deg, tile.north_deg}, data_rows, sliver_deg) &&
          touches_longitudes(on_planet, grid.bounds, sliver_deg);

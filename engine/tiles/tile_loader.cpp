@@ -21,7 +21,7 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
     if (!made) return made.error();
     return as_texture(*made, tile_px, options);
   }
-  // A tile of another size is refused in any case: a small one after decoding, by name of both sizes, a vast one
+  // A tile of another size is always refused: a small one after decoding, with both sizes in the error, a huge one
   // before.
   DecodeLimits limits;
   limits.max_side_px = std::max(tile_px, 1024);

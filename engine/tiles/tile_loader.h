@@ -20,7 +20,7 @@ class ArrivalBell;
 template <class Decoded>
 class TileScheduler;
 
-/// One finished request: the decoded tile, or why there is none.
+/// One finished request: the decoded tile, or the reason why it failed.
 template <class Decoded>
 struct Loaded {
   TileId id;
@@ -29,45 +29,45 @@ struct Loaded {
 
 struct LoaderOptions {
   int workers = 2;                              ///< threads that read and decode, [1, 64]
-  std::size_t max_finished_bytes = 64UL << 20;  ///< decoded tiles waiting to be polled; workers pause over it
+  std::size_t max_finished_bytes = 64UL << 20;  ///< decoded tiles that wait to be polled; over this, workers pause
   int gutter = 4;                               ///< texels of border on each side of mip 0 (TileTexels)
-  int mips = 3;                                 ///< mip levels with the finest, [1, kMaxMips]
-  std::shared_ptr<ArrivalBell> bell = {};       ///< rung when a tile is finished; may be none
+  int mips = 3;                                 ///< mip levels including the finest, [1, kMaxMips]
+  std::shared_ptr<ArrivalBell> bell = {};       ///< rung when a tile is finished; may be empty
 };
 
 struct LoaderCounts {
-  std::size_t waiting = 0;   ///< asked for, not started
-  std::size_t running = 0;   ///< in a worker's hands, or arrived and waiting for one
-  std::size_t fetching = 0;  ///< asked of the network
+  std::size_t waiting = 0;   ///< requested, not started
+  std::size_t running = 0;   ///< in a worker, or arrived and waiting for a worker
+  std::size_t fetching = 0;  ///< requested from the network
   std::size_t finished = 0;  ///< waiting to be polled
-  std::size_t read = 0;      ///< tiles read since the start
-  std::size_t lacked = 0;    ///< of those, without pixels
+  std::size_t read = 0;      ///< tiles finished since the start
+  std::size_t lacked = 0;    ///< of those, tiles that failed
 };
 
-/// Reads, fetches and decodes tiles. Workers read and decode; what the source has to fetch waits with the network, not
-/// in a worker. Two calls form the border: request() and poll(). A tile is in one state at a time:
-///   waiting   it is wanted, and no worker has looked for it yet;
-///   running   a worker reads it from the source, or decodes it;
-///   fetching  the source does not have it here, and the network has been asked;
-///   arrived   the network has answered, and no worker has decoded it yet;
-///   finished  its texels, or the reason why there are none, wait to be polled.
-/// From waiting, fetching and arrived it is dropped when it is no longer wanted.
-/// A kind of tile is what `Decoded` is: TileLoader is for imagery, HeightLoader for heights.
+/// Reads, fetches and decodes tiles. Workers read and decode. A tile that the source has to fetch waits in the network,
+/// not in a worker. The caller uses two calls: request() and poll(). A tile is in one state at a time:
+///   waiting   the tile is wanted, and no worker has looked for it yet;
+///   running   a worker reads the tile from the source, or decodes it;
+///   fetching  the source does not have the tile locally and has asked the network;
+///   arrived   the network has answered, and no worker has decoded the tile yet;
+///   finished  the decoded tile, or the reason why it failed, waits to be polled.
+/// A tile that is no longer wanted is dropped from waiting, fetching and arrived.
+/// `Decoded` is the kind of tile: TileLoader loads imagery, HeightLoader heights.
 template <class Decoded>
 class Loader {
  public:
-  ~Loader();  ///< joins the workers; what was not started is dropped
+  ~Loader();  ///< joins the workers and drops waiting tiles
   Loader(Loader&&) = default;
   Loader& operator=(Loader&&) = delete;
 
-  /// The whole list of what is wanted now. Replaces the list of the last call: what is no longer in it and has not
-  /// started is cancelled; what is running or finished is not started twice; priority is read when a worker
-  /// becomes free. A finished tile that was polled and is requested again is read again. thread: main
+  /// Sets the whole list of wanted tiles and replaces the previous list. Cancels tiles that are no longer listed and
+  /// have not started. Never starts a running or finished tile twice. Workers use the newest priorities. A tile that
+  /// was polled and is requested again is read again. thread: main
   void request(std::span<const TileRequest> wanted);
-  /// Finished tiles, at most `max_bytes` decoded but at least one if there is one. thread: main
+  /// Returns finished tiles: at most `max_bytes` decoded, but at least one tile if any is finished. thread: main
   [[nodiscard]] std::vector<Loaded<Decoded>> poll(std::size_t max_bytes);
-  /// Waits until something is finished, nothing is under way, or the deadline; true if something is finished. thread:
-  /// main
+  /// Waits until a tile is finished, nothing is in flight, or the deadline has passed. True if a tile is finished.
+  /// thread: main
   bool wait(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts counts() const;  ///< thread: main
 
@@ -79,7 +79,7 @@ class Loader {
 };
 extern template class Loader<TileTexels>;
 
-/// Loads imagery: texels ready for upload, premultiplied.
+/// Loads imagery: premultiplied texels, ready for upload.
 class TileLoader : public Loader<TileTexels> {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});

@@ -27,15 +27,15 @@
 
 namespace terrella {
 
-/// What is behind a Loader. `Decoded` has a size_bytes(). start_scheduler() makes it: an answer of the network may come
-/// after its owner is gone.
+/// Implementation of Loader. `Decoded` has a size_bytes(). Made by start_scheduler() as a shared object, because an
+/// answer of the network may arrive after the owner is gone.
 template <class Decoded>
 class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>> {
  public:
   using Decode = std::function<Result<Decoded, TileFailure>(const TileId& id, const EncodedTile& tile)>;
   using Finished = Loaded<Decoded>;
 
-  /// `decode` runs in several workers at once; what it throws makes the tile a failed one.
+  /// `decode` runs in several workers at once. If it throws, the tile fails.
   TileScheduler(std::shared_ptr<TileSource> source, Decode decode, std::size_t max_finished_bytes,
                 std::shared_ptr<ArrivalBell> bell)
       : source_(std::move(source)),
@@ -50,11 +50,11 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
         workers_.emplace_back([this] { work(); });
       } catch (const std::system_error&) {
         if (workers_.empty()) throw;
-        return;  // the system has no more threads: fewer will do
+        return;  // the system has no more threads; work with fewer
       }
     }
   }
-  void stop();  ///< joins the workers; what was not started is dropped
+  void stop();  ///< joins the workers and drops waiting tiles
   void request(std::span<const TileRequest> wanted);
   [[nodiscard]] std::vector<Finished> poll(std::size_t max_bytes);
   bool wait(std::chrono::steady_clock::time_point deadline);
@@ -72,7 +72,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   // thread: main
   [[nodiscard]] static Wishes best_wishes(std::span<const TileRequest> wanted);
   [[nodiscard]] bool under_way(const TileId& id) const;
-  /// What a finished tile counts against the bound. A failure counts a little, so that they are bounded too.
+  /// Bytes that a finished tile counts against the bound. A failure counts a little, so that failures are bounded too.
   [[nodiscard]] static std::size_t weight_bytes(const Finished& finished) {
     constexpr std::size_t kFailureBytes = 1024;
     return finished.tile ? size_bytes(*finished.tile) : kFailureBytes;
@@ -99,13 +99,13 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   const Decode decode_;
   RemoteTiles* const remote_ = source_->remote();
   const std::size_t max_finished_bytes_;
-  const std::shared_ptr<ArrivalBell> bell_;  ///< may be none
+  const std::shared_ptr<ArrivalBell> bell_;  ///< may be empty
 
-  mutable std::mutex mutex_;  ///< guards all below but `workers_`
+  mutable std::mutex mutex_;  ///< guards all members below except `workers_`
   std::condition_variable work_changed_;
   std::condition_variable finished_changed_;
   bool stopping_ = false;
-  std::vector<TileRequest> waiting_;  ///< ascending priority: the next one is the last
+  std::vector<TileRequest> waiting_;  ///< ascending priority: the next tile is the last element
   TileIdSet running_;
   TileIdSet fetching_;
   std::deque<Arrived> arrived_;
@@ -136,7 +136,7 @@ void TileScheduler<Decoded>::stop() {
 
 template <class Decoded>
 typename TileScheduler<Decoded>::Wishes TileScheduler<Decoded>::best_wishes(std::span<const TileRequest> wanted) {
-  // A NaN would break the order of the list: it comes last.
+  // A NaN would break the order of the list, so a NaN counts as the lowest priority.
   const auto rank = [](double priority) {
     return priority == priority ? priority : -std::numeric_limits<double>::infinity();
   };
@@ -155,7 +155,7 @@ void TileScheduler<Decoded>::request(std::span<const TileRequest> wanted) {
   std::vector<TileRequest> wishes;
   wishes.reserve(best.size());
   for (const auto& [id, priority] : best) wishes.push_back({id, priority});
-  // The identity settles ties, so that the order of reading does not hang on a hash.
+  // Ties are sorted by id, so that the reading order does not depend on a hash.
   std::sort(wishes.begin(), wishes.end(), [](const TileRequest& a, const TileRequest& b) {
     return a.priority != b.priority ? a.priority < b.priority : a.id > b.id;
   });
@@ -172,7 +172,7 @@ void TileScheduler<Decoded>::request(std::span<const TileRequest> wanted) {
     std::erase_if(wishes, [&](const TileRequest& wish) { return under_way(wish.id); });
     waiting_.swap(wishes);
   }
-  // Without the lock: the network's thread may be about to take it.
+  // Called without the lock, because the network thread may be waiting for the lock.
   for (const TileId& id : dropped) remote_->cancel(id);
   for (const TileRequest& wish : moved) remote_->set_priority(wish.id, wish.priority);
   work_changed_.notify_all();
@@ -232,7 +232,7 @@ void TileScheduler<Decoded>::work() {
   while (true) {
     work_changed_.wait(lock, [this] { return stopping_ || may_start(); });
     if (stopping_) return;
-    // What has come first: it holds memory, and the screen waits for it.
+    // Arrived tiles come first: they hold memory, and the screen waits for them.
     if (!arrived_.empty()) {
       const Arrived tile = std::move(arrived_.front());
       arrived_.pop_front();
@@ -247,7 +247,7 @@ void TileScheduler<Decoded>::work() {
   }
 }
 
-/// Reads a tile; what the source does not have here is asked of the network.
+/// Reads a tile, and asks the network for the tile if the source does not have it locally.
 template <class Decoded>
 void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish) {
   lock.unlock();
@@ -259,7 +259,7 @@ void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const 
   if (stopping_) return;
   fetching_.insert(wish.id);
   lock.unlock();
-  // The answer may come after this loader is gone.
+  // The answer may arrive after this loader is gone.
   remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id](Encoded answer) {
     if (const auto self = loader.lock()) self->arrive(id, std::move(answer));
   });
@@ -290,7 +290,7 @@ void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Ar
   if (bell_) bell_->ring();
 }
 
-/// What leaves a thread as an exception ends the program; memory that ran out for one tile is no reason for that.
+/// An exception that leaves a thread ends the program. Running out of memory for one tile must not do that.
 template <class Decoded>
 Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile) const {
   if (!tile.encoded) return tile.encoded.error();

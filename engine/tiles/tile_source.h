@@ -15,74 +15,75 @@
 
 namespace terrella {
 
-/// What the numbers of tiles of heights mean.
+/// The meaning of the numbers in tiles of heights.
 struct ElevationInfo {
   double scale = 1.0;                 ///< metres = number · scale + offset; not 0
   double offset = 0.0;                ///< metres
-  std::optional<double> nodata = {};  ///< the number that says that there is no height; of whole ones in [0, 65535]
-  bool floats = false;                ///< tiles are TIFFs of 32-bit floats; else gray PNGs of 16 bits
+  std::optional<double> nodata = {};  ///< number that means "no height"; for integer tiles in [0, 65535]
+  bool floats = false;                ///< true: tiles are TIFFs of 32-bit floats; false: gray PNGs of 16 bits
   bool operator==(const ElevationInfo&) const = default;
 };
 
-/// What a tile set says of itself; `cut` writes it, `info` prints it.
+/// The description that a tile set contains. `cut` writes it, `info` prints it.
 struct TileSetInfo {
   std::string name;
   std::string attribution;
-  std::string body;  ///< preset name or "A,F"; empty: not said
+  std::string body;  ///< preset name or "A,F"; empty: unknown
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
-  std::optional<ElevationInfo> elevation = {};  ///< the tiles are heights; none: pictures
-  std::optional<TileGrid> made_of = {};         ///< the tiles are made of those of this grid (streaming/mercator)
+  std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
+  /// The grid of the tiles from which this set's tiles are made (streaming/mercator).
+  std::optional<TileGrid> made_of = {};
 };
 
-/// Why a tile is not there (engine/DESIGN.md, 11). Each kind has its own lifetime.
+/// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.
 enum class Absence {
-  absent,  ///< the source does not have it (404, 204, no row, outside the bounds): for good, ancestors stand in
-  blank,   ///< it is there and says "nothing here"
-  broken,  ///< it is there and cannot be decoded
-  failed,  ///< it could not be asked for now; may be asked again
-  remote,  ///< not here, but TileSource::remote() can fetch it; never the end of a tile's life
+  /// The source does not have the tile (404, 204, no row, outside the bounds); permanent, ancestors are drawn instead.
+  absent,
+  blank,   ///< the tile exists and is empty
+  broken,  ///< the tile exists and cannot be decoded
+  failed,  ///< the tile could not be had for now; may be retried
+  /// The tile is not local, but TileSource::remote() can fetch it; an intermediate result, never a tile's final state.
+  remote,
 };
 struct TileFailure {
   Absence kind = Absence::failed;
   std::string why;
 };
 
-/// The bytes of one tile as stored, or what makes it.
+/// The bytes of one tile as stored, or a function that makes its picture.
 struct EncodedTile {
   std::vector<std::byte> bytes;
-  /// Of heights: what is decoded counts as decoded · scale + offset among the set's numbers (ElevationInfo).
+  /// For heights: decoded · scale + offset is the number in the terms of the set (ElevationInfo).
   double number_scale = 1.0;
   double number_offset = 0.0;
-  /// Of a tile that is made of others: its picture, and `bytes` are empty. Takes milliseconds. thread: worker
+  /// For a tile that is made of others: makes its picture, and `bytes` is empty. Takes milliseconds. thread: worker
   std::function<Result<Image, TileFailure>()> make_picture = {};
 };
 
-/// The far side of a source behind a network: what read() does not have here is fetched without blocking.
-/// thread: any for every call
+/// The network side of a source: fetches tiles that read() does not have locally, without blocking. thread: any
 class RemoteTiles {
  public:
   using Done = std::function<void(Result<EncodedTile, TileFailure>)>;
   virtual ~RemoteTiles() = default;
-  /// Asks for one tile that is not under way already. `done` is called once, on the network's thread, and must be
-  /// quick; never after cancel() has returned, unless it runs at that moment.
+  /// Requests one tile that is not already in flight. `done` is called once, on the network thread, and must be quick.
+  /// After cancel() has returned, `done` is not called any more; a call in progress may still finish.
   virtual void fetch(const TileId& id, double priority, Done done) = 0;
   virtual void set_priority(const TileId& id, double priority) = 0;  ///< larger first
   virtual void cancel(const TileId& id) = 0;
 };
 
-/// A set of tiles that can be read one by one.
-/// thread: info() any; read() worker, several at once.
+/// A set of tiles, read one by one. info() is thread: any; read() is thread: worker, several at once.
 class TileSource {
  public:
   virtual ~TileSource() = default;
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
-  /// Reads one tile. Outside the grid, the levels or the bounds: absent.
+  /// Reads one tile; absent outside the grid, the levels or the bounds.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
-  /// Nothing for a source that has all of its tiles at hand; else where to fetch what read() answers `remote` for.
-  /// Lives as long as the source.
+  /// Returns the object that fetches tiles for which read() returns `remote`; null for a source whose tiles are all
+  /// local. Lives as long as the source.
   [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }
-  /// Tiles that are there at a level, if that can be counted without asking for each. May take long. thread: worker
+  /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);
     return std::nullopt;

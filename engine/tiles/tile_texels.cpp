@@ -10,10 +10,11 @@ namespace {
 
 constexpr std::size_t kChannels = 4;
 
-/// Sums of 4^k texels a channel, of an opaque tile. Sixteen bits hold 4^4 texels of 255, which is why kMaxMips is 5.
+/// Sums of 4^k texels per channel, for an opaque tile. Sixteen bits hold the sum of 4^4 texels of 255, which is why
+/// kMaxMips is 5.
 using Sums = std::vector<std::uint16_t>;
 static_assert((1U << (2 * (kMaxMips - 1))) * 255U <= 0xFFFFU);
-/// The same of a tile with transparency: colour times alpha, and alpha.
+/// The same for a tile with transparency: colour times alpha, and alpha.
 using WeighedSums = std::vector<std::uint32_t>;
 static_assert((1ULL << (2 * (kMaxMips - 1))) * 255U * 255U * 2U <= 0xFFFFFFFFU);
 
@@ -55,7 +56,7 @@ void fill_side(std::uint8_t* first, const std::uint8_t* texel, std::size_t count
   for (std::size_t i = 0; i < count; ++i) std::memcpy(first + i * kChannels, texel, kChannels);
 }
 
-/// Lays rows of `side` texels, made by write_row(row, target), into a square with a border of clamped texels.
+/// Writes rows of `side` texels, made by write_row(row, target), into a square with a border of clamped texels.
 template <class WriteRow>
 std::vector<std::uint8_t> with_border(std::size_t side, std::size_t border, const WriteRow& write_row) {
   const std::size_t row_bytes = (side + 2 * border) * kChannels;

@@ -9,8 +9,8 @@
 namespace terrella {
 namespace {
 
-constexpr double kLowestFlight_m = 0.1;  // heights are interpolated by their logarithm
-constexpr double kClimb = 0.4;           // of the way's length
+constexpr double kLowestFlight_m = 0.1;  // floor of the heights, which are interpolated by their logarithm
+constexpr double kClimb = 0.4;           // climb as a fraction of the length of the way
 
 double log_height(double height_m) { return std::log(std::max(height_m, kLowestFlight_m)); }
 

@@ -10,21 +10,21 @@
 
 namespace terrella {
 
-/// Heights over an ellipsoid as they are drawn: exaggerated, from the tiles that are loaded at the call. Relief
-/// implements this interface. thread: main
+/// Heights over an ellipsoid as they are drawn: exaggerated, from the tiles that are loaded at the time of the call.
+/// Relief implements this interface. thread: main
 class GroundHeights {
  public:
   virtual ~GroundHeights() = default;
   /// Height over the ellipsoid, metres.
   [[nodiscard]] virtual double height_m(Angle lat, Angle lon) const = 0;
-  /// Distance along a ray to the ground, metres, as Ground::intersect_m() promises.
+  /// Distance along a ray to the ground, metres. Ground::intersect_m() states the contract.
   [[nodiscard]] virtual std::optional<double> intersect_m(const Ecef& origin, const EcefDir& direction,
                                                           double radians_per_px) const = 0;
 };
 
-/// The surface of a body as it is drawn: an ellipsoid, raised by heights if there are any. ECEF metres, double. A value
-/// that shares the heights: it stays valid when the globe changes or drops its elevation, and then keeps the heights
-/// that it had. thread: main with heights, any without
+/// The drawn surface of a body: an ellipsoid, raised by heights if there are any. ECEF metres, double. This value
+/// shares the heights: it stays valid when the globe changes or drops its elevation, and then keeps the heights that it
+/// had. thread: main with heights, thread: any without
 class Ground {
  public:
   Ground(const Ellipsoid& ellipsoid, std::shared_ptr<const GroundHeights> heights = {})
@@ -32,18 +32,19 @@ class Ground {
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] bool has_relief() const { return heights_ != nullptr; }
-  /// Over the ellipsoid, metres; 0 without relief.
+  /// Height of the ground over the ellipsoid, metres; 0 without relief.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const;
-  /// Of the eye over the ground under it, metres; negative under the ground.
+  /// Height of a place over the ground under it, metres; negative under the ground.
   [[nodiscard]] double height_over_m(const Geodetic& place) const {
     return place.height_m - height_m(place.lat, place.lon);
   }
 
-  /// Distance along a ray from `origin` to where it first goes through the ground, from either side, metres; nothing if
-  /// it does not. Without relief Ellipsoid::intersect_m(). With it the ray is followed through the heights between
-  /// which all ground lies, in steps of half a height's spacing or of `radians_per_px` of the distance, whichever is
-  /// longer, and the step that goes through is halved until it is right to 1 part in 10^12 or a tenth of a millimetre.
-  /// Ground that is thinner along the ray than a step may be missed.
+  /// Returns the distance along a ray from `origin` to its first crossing of the ground, from either side, metres;
+  /// nothing if the ray misses. Without relief this is Ellipsoid::intersect_m().
+  ///
+  /// With relief, the ray is followed between the lowest and the highest ground. A step is half the spacing of the
+  /// heights, or `radians_per_px` of the distance, whichever is longer. The step that crosses the ground is halved
+  /// until the error is 1 part in 10^12 or 0.1 mm. Ground that is thinner along the ray than one step may be missed.
   [[nodiscard]] std::optional<double> intersect_m(const Ecef& origin, const EcefDir& direction,
                                                   double radians_per_px = 1e-3) const;
 
@@ -52,14 +53,14 @@ class Ground {
   std::shared_ptr<const GroundHeights> heights_;
 };
 
-/// The place that a pixel shows (frame and centres as in geo/coordinates.h): latitude and longitude and the height at
-/// which the line of sight goes through the ground, metres over the ellipsoid, as far as Ground::intersect_m()
-/// promises. Nothing beside the globe. By the heights themselves, not by what was drawn: right to a tenth of a pixel at
-/// any distance, also at poles, on ±180° and where the ground is grazed. thread: as Ground's
+/// Returns the place that a pixel shows, in the pixel frame of geo/coordinates.h: latitude, longitude, and the height
+/// over the ellipsoid at which the line of sight crosses the ground, metres. Nothing if the pixel shows no ground. The
+/// result uses the heights, not the drawn picture. It is accurate to 0.1 px at any distance, also at poles, on ±180°
+/// and at grazing incidence, with the limits of Ground::intersect_m(). thread: main with heights, thread: any without
 [[nodiscard]] std::optional<Geodetic> pick(const View& view, const Ground& ground, glm::dvec2 pixel_px);
-/// The way back: the pixel position of the ground at a place, whether something stands before it or not; nothing if it
-/// is at or behind the eye's plane. Where pick() finds a place, its pixel: the two differ by under 0.1 px, cliffs
-/// between tiles of different levels aside.
+/// Returns the pixel position of the ground at a place, even if something hides the place; nothing if it is at or
+/// behind the eye's plane. For a place from pick(), the result is within 0.1 px of the picked pixel, except at cliffs
+/// between tiles of different levels. thread: main with heights, thread: any without
 [[nodiscard]] std::optional<glm::dvec2> project(const View& view, const Ground& ground, Angle lat, Angle lon);
 
 }  // namespace terrella

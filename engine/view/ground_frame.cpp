@@ -15,7 +15,7 @@ EastNorth east_north(const glm::dvec3& normal) {
 
 GroundFrame ground_frame(const Camera& camera) {
   const glm::dvec3 up = Ellipsoid::normal(camera.eye.lat, camera.eye.lon).xyz;
-  // From the longitude itself, not from `up`: at a pole the longitude says what the heading counts from.
+  // East follows from the longitude, not from `up`: at a pole the longitude defines the zero of the heading.
   const double lon = camera.eye.lon.rad();
   const glm::dvec3 east(-std::sin(lon), std::cos(lon), 0.0);
   const glm::dvec3 north = glm::cross(up, east);

@@ -9,13 +9,13 @@
 namespace terrella {
 namespace {
 
-constexpr Seconds kLongestStep(0.25);  // a slower frame, or a clock that jumps, counts as this
-constexpr Seconds kFlickMemory(0.1);   // a pointer that rested as long before its release does not flick
-constexpr Seconds kFlickBase(0.15);    // what its speed is taken over
+constexpr Seconds kLongestStep(0.25);  // longest time that one call passes, after a slow frame or a jump of the clock
+constexpr Seconds kFlickMemory(0.1);   // a pointer that rests this long before its release does not flick
+constexpr Seconds kFlickBase(0.15);    // time over which the speed of a flick is measured
 constexpr Seconds kShortestFlick(0.03);
-constexpr Seconds kLatestFlick(0.5);  // told later than that, a flick and a rest are the same
+constexpr Seconds kLatestFlick(0.5);  // with a later event, a flick cannot be told from a rest
 constexpr double kSlowestFlick_px_s = 60.0;
-constexpr double kClickSlack_px = 6.0;  // a hand that clicks slips as far
+constexpr double kClickSlack_px = 6.0;  // movement of the hand that still counts as a click
 constexpr double kFastestFlick_px_s = 6000.0;
 constexpr double kGlideStops_px_s = 4.0;
 constexpr Seconds kGlideDecay(0.3);
@@ -23,12 +23,12 @@ constexpr Seconds kZoomDecay(0.07);
 constexpr Seconds kPanDecay(0.08);
 constexpr Seconds kNorthTime(0.6);
 constexpr double kPanRest_px = 0.05;
-constexpr double kZoomRest = 1e-4;    // of the height
-constexpr double kWheelFactor = 0.8;  // height per step
+constexpr double kZoomRest = 1e-4;    // a zoom ends this close to its target, as a fraction of the height
+constexpr double kWheelFactor = 0.8;  // factor of the height per wheel step
 constexpr double kKeyFactor = 0.65;
-constexpr double kLeastPinch = 0.1;  // of one event; fingers that come closer are a device's mistake
-constexpr double kPanShare = 0.12;   // of the picture's shorter side per key press
-constexpr double kFlyFactor = 0.4;   // of the height, for a double click
+constexpr double kLeastPinch = 0.1;  // smallest factor of one pinch event; a smaller one is a device's error
+constexpr double kPanShare = 0.12;   // fraction of the picture's shorter side per key press
+constexpr double kFlyFactor = 0.4;   // factor of the height for a double click
 constexpr double kTurnPerWidth_deg = 270.0;
 constexpr double kTiltPerHeight_deg = 120.0;
 constexpr double kLowestDepression_deg = 2.0;
@@ -190,7 +190,7 @@ void Navigator::advance(Seconds now) {
   stay_over_ground();
 }
 
-// --- what the events are made of
+//  --- helpers of the events
 
 Seconds Navigator::pass(Seconds now) {
   const Seconds passed = clock_ ? std::clamp(Seconds(now - *clock_), Seconds(0.0), kLongestStep) : Seconds(0.0);
@@ -207,8 +207,8 @@ void Navigator::pin_to(const Ecef& point, glm::dvec2 at_px, HeadingRule rule) {
 }
 
 void Navigator::pin_drag(const Drag& drag) {
-  // A carried heading depends on the way; taken from the start each time, a drag out and back ends where it began. A
-  // kept heading has two solutions near a pole, and going on from the last one stays on its branch.
+  // A carried heading depends on the way. Starting from the drag's first camera each time, a drag out and back ends
+  // where it began. A kept heading has two solutions near a pole. Continuing from the last camera stays on one branch.
   const Camera& from = drag.rule == HeadingRule::carry ? drag.start : camera_;
   camera_ = pin(from, body(), viewport_, drag.held, drag.trail.back().at_px, drag.rule);
 }
@@ -217,7 +217,7 @@ glm::dvec2 Navigator::flick_px_s(const Drag& drag, Seconds now, Seconds late) {
   const Sample& last = drag.trail.back();
   const bool rested = last.when > now || now - last.when > kFlickMemory || late > kLatestFlick;
   if (rested || glm::distance(last.at_px, drag.from_px) <= kClickSlack_px) return glm::dvec2(0.0);
-  // Over the whole trail, not between its samples: a slow frame delivers many moves at one time.
+  // Measured over the whole trail, not between its samples: a slow frame delivers many moves at one time.
   const Sample& first = drag.trail.front();
   const Seconds took = std::max({Seconds(now - first.when), kShortestFlick, late});
   return limited((last.at_px - first.at_px) / took.count(), kFastestFlick_px_s);
@@ -232,7 +232,7 @@ void Navigator::set_height(double height_m) {
   const double highest_m = height_range(body()).highest_m, lowest = lowest_m(camera_.eye);
   const double clamped_m = height_m > lowest ? std::min(height_m, highest_m) : lowest;
   if (clamped_m > camera_.eye.height_m) {
-    // Going out, a tilted eye looks down more and more, or it would lose the globe.
+    // While zooming out, a tilted eye looks further down, so that the globe stays in view.
     camera_.pitch = std::min(camera_.pitch, highest_pitch(body(), clamped_m, camera_.fov_y));
   }
   camera_.eye.height_m = clamped_m;
@@ -270,7 +270,7 @@ void Navigator::go_whole_globe() {
 void Navigator::turn_to(const Turn& turn, glm::dvec2 at_px) {
   const glm::dvec2 moved = (at_px - turn.from_px) / glm::dvec2(viewport_.width_px, viewport_.height_px);
   const Angle turned = Angle::degrees(kTurnPerWidth_deg * moved.x);
-  const Angle tilted = Angle::degrees(kTiltPerHeight_deg * moved.y);  // down: towards looking straight down
+  const Angle tilted = Angle::degrees(kTiltPerHeight_deg * moved.y);  // moving down tilts towards looking straight down
   if (!turn.orbit) {
     const Angle highest = highest_pitch(body(), turn.start.eye.height_m, turn.start.fov_y);
     camera_.pitch = std::clamp(turn.start.pitch - tilted, Angle::degrees(-90.0), std::max(highest, turn.start.pitch));
@@ -292,8 +292,7 @@ double Navigator::lowest_m(const Geodetic& place) const {
   return ground_.height_m(place.lat, place.lon) + height_range(body()).lowest_m;
 }
 
-// What the eye comes nearer to or goes away from: the point under the cursor if the eye is higher, else the ground
-// below.
+// Returns the height that zooming approaches: the point under the cursor if the eye is higher, else the ground below.
 double Navigator::base_m(const Grab& held) const {
   if (!ground_.has_relief()) return 0.0;
   const double point_m = body().to_geodetic(held.point).height_m;
@@ -301,7 +300,7 @@ double Navigator::base_m(const Grab& held) const {
   return ground_.height_m(camera_.eye.lat, camera_.eye.lon);
 }
 
-// Under the ground the eye comes nearer to it from below.
+// Returns the new height over the target. Under the ground the eye approaches the ground from below.
 double Navigator::nearer_m(double over_m, double factor) const {
   const HeightRange range = height_range(body());
   return deepest_m_ && over_m < 0.0 ? -range.clamp(-over_m * factor) : range.clamp(over_m * factor);
@@ -313,7 +312,7 @@ void Navigator::stay_over_ground() {
   if (camera_.eye.height_m < lowest) camera_.eye.height_m = lowest;
 }
 
-// Tilted as little more as keeps the eye over the ground, so that what it turns around stays where it is.
+// Tilts the orbit by the least amount that keeps the eye over the ground. The pivot stays in place.
 Orbit Navigator::over_ground(Orbit orbit, Angle fov_y) const {
   if (deepest_m_ || !ground_.has_relief()) return orbit;
   const auto free = [&](Angle depression) {
@@ -356,7 +355,7 @@ Navigator::Motion Navigator::go_on(Zoom zoom, Seconds passed) {
   const double left = std::pow(ratio, decay(passed, kZoomDecay));
   const bool done = std::abs(std::log(left)) < kZoomRest;
   set_height(zoom.base_m + (done ? zoom.target_m : zoom.target_m * left));
-  // Going out, the globe can shrink away from under the cursor; from there on it keeps its place.
+  // While zooming out, the globe can shrink away from the cursor. From then on its place in the picture is kept.
   zoom.holds = zoom.holds && grab_at(zoom.at_px).on_surface;
   if (zoom.holds) pin_to(zoom.held, zoom.at_px, zoom.rule);
   if (done) return Rest{};

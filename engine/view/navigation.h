@@ -18,50 +18,50 @@ enum class NavigationKey { pan_left, pan_right, pan_up, pan_down, zoom_in, zoom_
 
 /// Turns pointer, wheel and key events into a camera.
 ///
-/// Left drag holds the grabbed surface point under the cursor, and a flick glides on and stops; the wheel zooms and
-/// keeps the point under the cursor; right drag, or left with Ctrl, tilts (up: towards the horizon) and turns around
-/// the point at the picture's centre; a double click flies to a point. A new gesture ends what moved before.
+/// Left drag keeps the grabbed surface point under the cursor. A flick glides on and stops. The wheel zooms and keeps
+/// the point under the cursor. Right drag, or left drag with Ctrl, tilts (up: towards the horizon) and turns around the
+/// point at the picture's centre. A double click flies to a point. A new gesture ends the motion before it.
 ///
-/// What is grabbed, zoomed to and turned around is the ground as it is drawn, mountains included, and the eye stays
-/// over it: where it would not, it is raised to 1 m over it, at the latest by advance(), and never lowered for it. With
-/// set_deepest() it may go under the ground.
+/// The user grabs, zooms to and turns around the ground as it is drawn, mountains included. The eye stays at least 1 m
+/// over the ground. If it would be lower, it is raised, at the latest by advance(); it is never lowered. After
+/// set_deepest() the eye may go under the ground.
 ///
-/// Pure state: times come from the caller, any origin, and only their differences count, each clamped to [0 s, 0.25 s];
-/// so a clock that jumps, either way, moves nothing far. Positions are pixels of the viewport, centres at halves, and
-/// may lie outside it. Events with a value that is not finite are ignored. thread: any, one at a time
+/// The class holds pure state. The caller supplies times of any origin. Only their differences count, each clamped to
+/// [0 s, 0.25 s], so a clock that jumps moves nothing far. Positions are pixels of the viewport, centres at halves, and
+/// may lie outside it. Events with a value that is not finite are ignored. thread: any, but one call at a time
 class Navigator {
  public:
   Navigator(const Camera& camera, const Ground& ground, Viewport viewport);
 
   void set_viewport(Viewport viewport);   ///< sides below 1 count as 1
   void set_camera(const Camera& camera);  ///< stops every motion
-  void set_ground(const Ground& ground);  ///< goes on with the motion over another ground
-  /// How deep under the ellipsoid the eye may go, a negative height in metres; none: it stays over the ground.
+  void set_ground(const Ground& ground);  ///< continues the motion over another ground
+  /// Sets the lowest height of the eye over the ellipsoid, metres, negative; none: the eye stays over the ground.
   void set_deepest(std::optional<double> deepest_m) { deepest_m_ = deepest_m; }
 
   void pointer_down(PointerButton button, bool ctrl, glm::dvec2 at_px, Seconds now);
   void pointer_move(glm::dvec2 at_px, Seconds now);
-  /// `late`: how long before `now` this and what was told just before may have happened, after a slow frame for
-  /// example. What cannot be told from a rest does not flick, and no flick is faster than all that was told over that
-  /// time.
+  /// Ends a drag. `late` is how long before `now` this event and the events just before it may have happened, for
+  /// example after a slow frame. A movement that could also be a rest does not flick. The speed of a flick is averaged
+  /// over at least `late`.
   void pointer_up(PointerButton button, Seconds now, Seconds late = Seconds(0.0));
   void double_click(glm::dvec2 at_px, Seconds now);
-  void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< steps: positive towards the ground
-  /// Fingers on a touch pad or screen: the point under `at_px`, between them, stays there and comes nearer by `factor`,
-  /// over 1 as they move apart. At once, without a glide; nothing while a button is held.
+  void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< positive steps zoom towards the ground
+  /// Zooms by two fingers on a touch pad or screen. The point under `at_px`, between the fingers, stays there and comes
+  /// nearer by `factor`, which is over 1 as the fingers move apart. Takes effect at once, without a glide. Ignored
+  /// while a button is held.
   void pinch(glm::dvec2 at_px, double factor, Seconds now);
   void key(NavigationKey key, Seconds now);
-  /// Flies there over the globe's curve, higher on the way if it is long (view/flight.h). A camera with a value that
-  /// is not finite is ignored.
+  /// Starts a flight to `camera` (view/flight.h). A camera with a value that is not finite is ignored.
   void fly_to(const Camera& camera, Seconds now);
-  /// Lets time pass: flights, glides and zooms go on. Call it once a frame while animating().
+  /// Advances flights, glides and zooms to `now`. Call this once per frame while animating().
   void advance(Seconds now);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] Viewport viewport() const { return viewport_; }
-  /// Something moves by itself: frames are needed.
+  /// True while something moves by itself and frames are needed.
   [[nodiscard]] bool animating() const;
-  /// Nothing moves and no button is held.
+  /// True if nothing moves and no button is held.
   [[nodiscard]] bool at_rest() const { return std::holds_alternative<Rest>(motion_); }
 
  private:
@@ -75,10 +75,10 @@ class Navigator {
     Ecef held;
     HeadingRule rule;
     glm::dvec2 from_px;
-    std::vector<Sample> trail;  ///< where the pointer was in the last moments; never empty
+    std::vector<Sample> trail;  ///< recent positions of the pointer; never empty
   };
   struct Turn {
-    std::optional<Orbit> orbit;  ///< none where the picture's centre shows the sky: the eye turns in its place
+    std::optional<Orbit> orbit;  ///< none if the picture's centre shows the sky: the eye then turns in its place
     Camera start;
     glm::dvec2 from_px;
   };
@@ -88,14 +88,14 @@ class Navigator {
   };
   struct Zoom {
     Ecef held;
-    bool holds;  ///< there is a point under the cursor to keep there
+    bool holds;  ///< true if there is a point to keep under the cursor
     HeadingRule rule;
     glm::dvec2 at_px;
-    double base_m;    ///< height of what is zoomed to
-    double target_m;  ///< over that; negative under it
+    double base_m;    ///< height of the ground that is zoomed to
+    double target_m;  ///< target height of the eye over `base_m`; negative under it
   };
   struct Pan {
-    glm::dvec2 left_px;  ///< what is still to move
+    glm::dvec2 left_px;  ///< distance still to move
   };
   struct Fly {
     Flight flight;

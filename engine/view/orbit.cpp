@@ -9,9 +9,10 @@
 namespace terrella {
 namespace {
 
-constexpr double kVertical = 1e-7;  // sine below which a line of sight has no azimuth worth reading (0.6 m on Earth)
+// sine of the angle to the vertical below which a line of sight has no usable azimuth (0.6 m on Earth)
+constexpr double kVertical = 1e-7;
 
-/// Azimuth of a direction at a place; `fallback` gives it where the direction is vertical.
+/// Returns the azimuth of a direction at a place. `fallback` gives the azimuth if the direction is vertical.
 double azimuth_rad(const glm::dvec3& direction, const EastNorth& axes, const glm::dvec3& fallback) {
   const glm::dvec2 flat(glm::dot(direction, axes.north), glm::dot(direction, axes.east));
   if (glm::length(flat) > kVertical) return std::atan2(flat.y, flat.x);
@@ -37,7 +38,7 @@ Camera orbit_camera(const Orbit& orbit, const Ellipsoid& ellipsoid, Angle fov_y)
   camera.fov_y = fov_y;
   camera.eye = ellipsoid.to_geodetic(Ecef{orbit.pivot.xyz_m - forward * orbit.distance_m});
   const glm::dvec3 up = Ellipsoid::normal(camera.eye.lat, camera.eye.lon).xyz;
-  // Straight down the top of the picture is the heading; it is the azimuth's direction in the limit.
+  // Looking straight down, the top of the picture is the heading, which is the limit of the azimuth.
   camera.heading = Angle::radians(azimuth_rad(forward, east_north(up), flat));
   camera.pitch = Angle::radians(std::atan2(glm::dot(forward, up), glm::length(forward - up * glm::dot(forward, up))));
   return camera;

@@ -4,18 +4,19 @@
 
 namespace terrella {
 
-/// An eye that looks at a fixed point and is tilted and turned around it.
+/// An eye that looks at a fixed point, and can be tilted and turned around that point. The functions of this header are
+/// pure. thread: any
 struct Orbit {
   Ecef pivot;         ///< on the surface, seen at the picture's centre
-  Angle azimuth;      ///< of the line of sight at the pivot, clockwise from north
-  Angle depression;   ///< of the line of sight at the pivot, below its horizontal: 90° looks straight down
+  Angle azimuth;      ///< direction of the line of sight at the pivot, clockwise from north
+  Angle depression;   ///< angle of the line of sight below the pivot's horizontal: 90° looks straight down
   double distance_m;  ///< from the eye to the pivot
 };
 
-/// The orbit that a camera is on which looks at `pivot` (a point under the centre of its picture).
+/// Returns the orbit of a camera that looks at `pivot`, a point under the centre of its picture.
 [[nodiscard]] Orbit orbit_around(const Camera& camera, const Ellipsoid& ellipsoid, const Ecef& pivot);
 
-/// The camera of an orbit: looks at the pivot exactly, without roll against the eye's own vertical.
+/// Returns the camera of an orbit. The camera looks exactly at the pivot, without roll against the eye's own vertical.
 [[nodiscard]] Camera orbit_camera(const Orbit& orbit, const Ellipsoid& ellipsoid, Angle fov_y);
 
 }  // namespace terrella

@@ -24,7 +24,7 @@ EyePair stereo_eyes(const View& view, const Ground& ground, const StereoLook& lo
       ground.intersect_m(view.eye, EcefDir{view.forward}, 1.0 / view.pixels_per_radian());
   pair.convergence_m = std::max(kLeastConvergence_m, ahead_m.value_or(over_m));
   double natural_m = kSeparationPerDistance * pair.convergence_m;
-  // No eye goes into the mountain beside it.
+  // Prevents an eye from entering the mountain beside it.
   if (ground.has_relief()) natural_m = std::min(natural_m, over_m);
   pair.separation_m = look.eye_separation_m.value_or(natural_m);
   const double half_m = 0.5 * pair.separation_m;
@@ -32,7 +32,7 @@ EyePair stereo_eyes(const View& view, const Ground& ground, const StereoLook& lo
   pair.right = eye_beside(view, half_m, pair.convergence_m);
   pair.both = view;
   pair.both.eye_spread_m = half_m;
-  // Either picture reaches further to one side by its shear.
+  // The shear extends each picture to one side.
   const double slope_per_px = 2.0 * view.tan_half_fov_y / view.viewport.height_px;
   pair.both.viewport.width_px +=
       2 * static_cast<int>(std::ceil(std::min(1.0e4, half_m / pair.convergence_m / slope_per_px)));

@@ -13,9 +13,10 @@ namespace terrella {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPoleShare = 0.35;       // of the angle to the horizon; nearer to a pole the heading is carried
-constexpr double kFarthest_rad = 2.6;     // short of the antipode, where the direction past the limb has no meaning
-constexpr int kIterations = 24;           // each shrinks the error by the flattening or better
+// nearer to a pole than this fraction of the angle to the horizon, the heading is carried
+constexpr double kPoleShare = 0.35;
+constexpr double kFarthest_rad = 2.6;     // short of the antipode, at which the direction past the limb is undefined
+constexpr int kIterations = 24;           // each iteration shrinks the error at least by the flattening
 constexpr double kConverged_rad = 1e-14;  // 0.1 µm on Earth
 
 glm::dquat shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
@@ -25,8 +26,8 @@ glm::dquat shortest_turn(const glm::dvec3& from, const glm::dvec3& to) {
   return glm::angleAxis(std::atan2(sine, glm::dot(from, to)), axis / sine);
 }
 
-/// Where the ray passes the body: in coordinates in which the ellipsoid is the unit sphere, so that the point joins
-/// the limb without a step whatever the flattening.
+/// Returns the point at which the ray passes the body, computed in scaled space, so that the point joins the limb
+/// without a step whatever the flattening.
 glm::dvec3 past_the_limb(const View& view, const Ellipsoid& ellipsoid, const glm::dvec3& ray) {
   const glm::dvec3 axes = semi_axes_m(ellipsoid);
   const glm::dvec3 eye = view.eye.xyz_m / axes;
@@ -45,10 +46,10 @@ glm::dvec3 past_the_limb(const View& view, const Ellipsoid& ellipsoid, const glm
   return (out * std::cos(turn) + sideways / sideways_length * std::sin(turn)) * axes;
 }
 
-/// The turn about the held point's direction that brings the frame's heading back to `heading`: it makes `east`, the
-/// direction that is east if the heading is right, square to the body's axis. z·east(φ) = c + a cos φ + b sin φ. Where
-/// no turn does (the point is nearer to the axis than the picture lets it), the one that comes closest; the two cases
-/// meet.
+/// Returns the turn about the held point's direction that restores the frame's heading to `heading`. It makes `east`,
+/// the direction that is east if the heading is right, perpendicular to the body's axis. z·east(φ) = c + a cos φ + b
+/// sin φ. If no turn does that (the point is nearer to the axis than the picture allows), the result is the turn that
+/// comes closest. The two cases meet continuously.
 glm::dquat heading_turn(const GroundFrame& frame, Angle heading, const glm::dvec3& held) {
   const glm::dvec3 right = glm::cross(frame.ahead, frame.up);
   const glm::dvec3 east = frame.ahead * std::sin(heading.rad()) + right * std::cos(heading.rad());
@@ -64,13 +65,13 @@ glm::dquat heading_turn(const GroundFrame& frame, Angle heading, const glm::dvec
   return glm::angleAxis(std::abs(one) < std::abs(other) ? one : other, held);
 }
 
-/// The middle of the sphere that fits the ellipsoid at the eye's foot: turning about it moves the eye along the
+/// Centre of the sphere that fits the ellipsoid at the eye's foot. A rotation about this centre moves the eye along the
 /// surface.
 glm::dvec3 turning_centre(const Ellipsoid& ellipsoid, const glm::dvec3& up) {
   return ellipsoid.position(EcefDir{up}).xyz_m - up * ellipsoid.prime_vertical_radius_m(up.z);
 }
 
-/// The body, as much larger as the point lies over it.
+/// The body, enlarged so that its surface contains the point.
 Ellipsoid ellipsoid_through(const Ellipsoid& body, const Ecef& point) {
   constexpr double kOnSurface = 1e-12;
   const double scale = glm::length(point.xyz_m / glm::dvec3(body.a_m(), body.a_m(), body.b_m()));

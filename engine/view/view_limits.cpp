@@ -8,8 +8,9 @@ namespace {
 
 constexpr double kLowest_m = 1.0;
 constexpr double kHighest_radii = 50.0;
-constexpr double kSkyShare = 0.45;    // of the field of view that may lie over the horizon above the picture's centre
-constexpr double kGlobeShare = 0.85;  // of the picture's shorter side
+// fraction of the field of view that may show sky above the horizon, over the picture's centre
+constexpr double kSkyShare = 0.45;
+constexpr double kGlobeShare = 0.85;  // fraction of the picture's shorter side
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Areas: triangles on the ground, lit as the ground is; a little farther than their outlines.
+// Areas: triangles on the ground, lit like the ground, and slightly farther than their outlines.
 layout(location = 0) in vec3 position_high_ecef;
 layout(location = 1) in vec3 position_low_ecef;
 layout(location = 2) in vec4 color;

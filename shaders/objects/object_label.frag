@@ -4,7 +4,7 @@ flat in vec4 text_color;
 flat in float pull;
 layout(location = 0) out vec4 color_srgb;
 
-const float kHalo = 0.7;                     // how dark
+const float kHalo = 0.7;                     // darkness of the halo
 
 void main() {
   vec2 part = texelFetch(atlas, ivec2(texel), 0).rg;

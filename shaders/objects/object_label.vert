@@ -1,7 +1,7 @@
-// One character of a text an instance: a square of the atlas beside the text's place, on whole pixels.
+// One character of a text per instance: a square of the atlas beside the text's place, on whole pixels.
 layout(location = 0) in vec3 place_high_ecef;
 layout(location = 1) in vec3 place_low_ecef;
-layout(location = 2) in vec2 offset_px;      // of the lower left corner
+layout(location = 2) in vec2 offset_px;      // offset of the lower left corner
 layout(location = 3) in vec4 atlas_px;       // upper left corner, width and height
 layout(location = 4) in vec4 color;
 
@@ -9,7 +9,7 @@ out vec2 texel;
 flat out vec4 text_color;
 flat out float pull;
 
-const float kReach_px = 40.0;                // as far over the ground as markers are drawn nearer, for a text's height
+const float kReach_px = 40.0;                // labels are pulled towards the eye like markers, for the height of a text
 
 void main() {
   text_color = color;

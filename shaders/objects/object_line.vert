@@ -1,5 +1,5 @@
-// One piece of a line an instance: four corners around the way from `here` to `next`, mitred with the pieces before and
-// after, which are read from the same list of vertices, one further on each.
+// One piece of a line per instance: four corners around the way from `here` to `next`, mitred with the pieces before
+// and after. All four points come from one list of vertices, each input one vertex further on.
 layout(location = 0) in vec3 before_high_ecef;
 layout(location = 1) in vec3 before_low_ecef;
 layout(location = 2) in vec3 here_high_ecef;
@@ -11,16 +11,17 @@ layout(location = 7) in vec3 after_low_ecef;
 layout(location = 8) in float width;         // pixels; 0: no piece begins here
 layout(location = 9) in vec4 color;
 
-out float across_w;                          // pixels from the middle, times w: so it comes out linear on the screen
+// Pixels from the middle, times w, so that the value is linear on the screen.
+out float across_w;
 flat out float half_width_px;
 flat out vec4 line_color;
 flat out float pull;
 
-const float kMostMitre = 2.0;                // of half the width
+const float kMostMitre = 2.0;                // factor of half the width
 
-// Where the way from p to q comes before the eye's plane, so that both ends have a place on the screen.
+// Point at which the way from p to q gets in front of the eye's plane, so that both ends have a place on the screen.
 vec3 before_eye(vec3 p, vec3 q) {
-  float least = clip_scale.z;   // what lies before the near plane is not drawn
+  float least = clip_scale.z;   // parts before the near plane are not drawn
   if (-p.z >= least || q.z >= p.z) return p;
   return mix(p, q, clamp((-least - p.z) / (q.z - p.z), 0.0, 1.0));
 }
@@ -32,13 +33,14 @@ vec2 unit_or(vec2 v, vec2 otherwise) {
   return l > 1e-3 ? v / l : otherwise;
 }
 
-// A line is as wide on the level that it lies on: with the depth of its middle all along, ground that rises towards the
-// eye would hide one of its halves. How many times as far as `p` that level is, `off` from it on the plane at distance 1.
+// Factor of p's distance at which the local horizontal level through p lies, `off` from p on the plane at distance 1.
+// Across its width a line keeps its level. If it had the depth of its middle everywhere, ground that rises towards the
+// eye would hide one half.
 float flat_depth(vec3 p, vec2 off) {
-  vec3 up = mat3(view_from_ecef) * eye_high_ecef.xyz + p;  // from the planet's centre
+  vec3 up = mat3(view_from_ecef) * eye_high_ecef.xyz + p;  // direction from the planet's centre
   vec3 ray = vec3(p.xy / -p.z + off, -1.0);
   float along = dot(up, ray);
-  const float most = 1.05;  // seen along the level the width is all that there is
+  const float most = 1.05;  // limit for levels seen edge-on
   return along < 0.0 ? clamp(dot(up, p) / (-p.z * along), 1.0 / most, most) : 1.0;
 }
 
@@ -49,7 +51,7 @@ void main() {
   pull = 1.0 - depth_bias;
   across_w = 0.0;
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  float least = clip_scale.z;   // what lies before the near plane is not drawn
+  float least = clip_scale.z;   // parts before the near plane are not drawn
   if (width <= 0.0 || (-here.z < least && -next.z < least)) return;
   vec3 a = before_eye(here, next), b = before_eye(next, here);
   vec3 before = before_eye(view_of(before_high_ecef, before_low_ecef), here);
@@ -58,7 +60,7 @@ void main() {
   vec2 a_px = screen_px(a), b_px = screen_px(b);
   vec2 way = unit_or(b_px - a_px, vec2(1.0, 0.0));
   vec2 other = at_b ? unit_or(screen_px(after) - b_px, way) : unit_or(a_px - screen_px(before), way);
-  // An end that was moved to the eye's plane is nobody's corner.
+  // An end that was moved to the eye's plane is not a real corner.
   if (at_b ? (-next.z < least || -after.z < least) : (-here.z < least || -before.z < least)) other = way;
   vec2 mitre = unit_or(way + other, way);
   float reach = min(1.0 / max(dot(mitre, way), 1e-3), kMostMitre);

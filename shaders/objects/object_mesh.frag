@@ -1,7 +1,7 @@
-// Lit as spheres are; both sides of a triangle are drawn.
+// Lit like spheres; both sides of a triangle are drawn.
 layout(binding = 0) uniform sampler2D base;
 layout(location = 3) uniform vec4 part_color_linear;
-layout(location = 4) uniform vec2 alpha;     // less is not drawn; 1: blended
+layout(location = 4) uniform vec2 alpha;     // smaller alpha is not drawn; 1: blended
 in vec3 normal_ecef;
 in vec3 way_ecef;
 in vec2 uv;

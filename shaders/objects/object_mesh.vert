@@ -1,16 +1,16 @@
-// A model's corner; one place where the model stands an instance.
+// A vertex of a model; one place of the model per instance.
 layout(location = 0) in vec3 position_model; // metres
 layout(location = 1) in vec3 normal_model;
 layout(location = 2) in vec2 uv_in;
 layout(location = 3) in vec4 color_in;       // linear
 layout(location = 4) in vec3 place_high_ecef;
 layout(location = 5) in vec3 place_low_ecef;
-layout(location = 6) in vec3 left_ecef;      // the model's x, y and z there
+layout(location = 6) in vec3 left_ecef;      // the model's x, y and z axes at its place
 layout(location = 7) in vec3 up_ecef;
 layout(location = 8) in vec3 forward_ecef;
 
 out vec3 normal_ecef;
-out vec3 way_ecef;                           // from the eye
+out vec3 way_ecef;                           // from the eye to the vertex
 out vec2 uv;
 out vec4 color_linear;
 flat out float pull;

@@ -1,4 +1,4 @@
-// One sphere an instance: a triangle around its outline.
+// One sphere per instance: a triangle around its outline.
 out vec2 disc;                               // in the outline's plane; its radius is 1
 
 void main() {

@@ -1,9 +1,10 @@
-// One small sphere a point: a square around its outline, which is an ellipse in the picture.
+// One small sphere per point: a square around its outline, which is an ellipse in the picture.
 flat out mat2 disc_from_px;
-flat out vec3 disc_w;                        // distance before the eye's plane: per unit of the disc's axes, and at its centre
+// Distance in front of the eye's plane: per unit of the disc's axes, and at its centre.
+flat out vec3 disc_w;
 flat out float size_px;
 
-// How the picture's pixels move with the disc's axis at its centre.
+// Change of the pixel position along the disc's axis, at its centre.
 vec2 px_of(vec3 axis_view, vec3 center_view) {
   float w = -center_view.z;
   return 0.5 * viewport_px * clip_scale.xy * (axis_view.xy * w + center_view.xy * axis_view.z) / (w * w);

@@ -1,19 +1,19 @@
-// A sphere as the eye sees it: its outline is a circle in the plane where the cone of sight touches the sphere.
-// Earth-fixed axes, not the view's: those of an off-axis picture are not at right angles.
+// A sphere as the eye sees it. Its outline is a circle in the plane where the cone of sight touches the sphere. Axes
+// are Earth-fixed, because the view's axes are not at right angles in an off-axis picture.
 layout(location = 0) in vec3 center_high_ecef;
 layout(location = 1) in vec3 center_low_ecef;
 layout(location = 2) in float radius;        // metres
 layout(location = 3) in vec4 color;
 
 flat out vec2 shape;                         // radius over distance; the outline's radius in pixels
-flat out vec3 sun_disc;                      // in the disc's axes, z to the eye
+flat out vec3 sun_disc;                      // in the disc's axes, z towards the eye
 flat out vec4 sphere_color;
 
-const float kSmallest_px = 0.75;             // a smaller one is drawn as if it had this radius
-const float kEdge_px = 0.6;                  // how far coverage reaches outside of the outline
+const float kSmallest_px = 0.75;             // a smaller sphere is drawn as if it had this radius
+const float kEdge_px = 0.6;                  // coverage extends this far outside the outline
 
 struct Outline {
-  vec3 center, side, up;                     // from the eye, metres; the disc's axes as long as its radius
+  vec3 center, side, up;                     // from the eye, metres; the disc's axes have the length of its radius
 };
 
 // False if the eye is inside the sphere or cannot see it.
@@ -38,7 +38,7 @@ bool see_sphere(out Outline outline) {
   return true;
 }
 
-// Never cut at near and far: the fragment says its depth.
+// Never clipped at near and far: the fragment writes its own depth.
 vec4 flat_clip(vec3 position_view) {
   float w = -position_view.z;
   return vec4(position_view.xy * clip_scale.xy, 0.5 * w, w);

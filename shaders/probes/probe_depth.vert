@@ -1,5 +1,5 @@
-// A surface that leans over the whole picture: what the depth check tells from another.
-layout(location = 0) uniform float distance_m;   // in the picture's middle
+// An inclined surface over the whole picture. The depth test of the stability check compares it with others.
+layout(location = 0) uniform float distance_m;   // at the picture's centre
 
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);

@@ -1,6 +1,6 @@
-// The functions of functions.glsl for a row of arguments, to be compared with double.
+// The functions of functions.glsl for a row of arguments, for comparison with double.
 layout(binding = 0) uniform sampler2D arguments;   // y and x of atan; of asin; of sine and cosine
-layout(binding = 1) uniform sampler2D radicands;   // of inversesqrt; two of a length
+layout(binding = 1) uniform sampler2D radicands;   // argument of inversesqrt; two components of a length
 layout(location = 0) out vec4 angles;              // atan, asin, sine, cosine
 layout(location = 1) out vec4 roots;               // inversesqrt, length
 

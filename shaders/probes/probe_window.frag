@@ -1,5 +1,5 @@
-// The window point of each pixel by both ways that patches are textured, to be compared with double. The patch's number,
-// from 1, stands in place of its first cell.
+// The window point of each pixel by both texturing methods of patches, for comparison with double. The first cell holds
+// the patch's number, counted from 1.
 layout(location = 1) out uint patch_number;
 
 void main() {

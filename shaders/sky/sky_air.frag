@@ -1,4 +1,4 @@
-// The air's light; what lies behind shines through by the second output.
+// The air's light. The second output is the part of the background that shines through.
 in vec3 light_srgb;
 in vec3 through_srgb;
 layout(location = 0, index = 0) out vec4 color_srgb;

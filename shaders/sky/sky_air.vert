@@ -1,17 +1,20 @@
-// The air beside the globe as a mesh around the eye's vertical: strips (instances) from row to row of heights over the
-// horizon, columns all the way round. Its light is looked up for each vertex in the frame's table
-// (engine/scene/atmosphere.h); there is little of it in a fragment, of which there may be a million.
+// The air beside the globe as a mesh around the eye's vertical: one strip (instance) per pair of rows of heights over
+// the horizon, with columns all the way round. Each vertex looks up its light in the frame's table
+// (engine/sky/atmosphere.h). Fragments do little work, because there may be a million.
 layout(binding = 0) uniform sampler2DArray sky_table;      // gas, dust, transmitted
 layout(location = 0) uniform mat3 ecef_from_horizon;       // x towards the Sun's azimuth, z up
-layout(location = 1) uniform vec4 sun_and_radius;          // the Sun in those axes; distance of the eye in planet's radii
-layout(location = 2) uniform vec4 rows;                    // outside the air 1; height of the air in radii; dip; strips
+// The Sun in those axes; distance of the eye in the planet's radii.
+layout(location = 1) uniform vec4 sun_and_radius;
+// 1 if the eye is outside the air; height of the air in radii; dip; strips.
+layout(location = 2) uniform vec4 rows;
 layout(location = 3) uniform vec4 look;                    // exposure; g and its square; columns
 out vec3 light_srgb;
 out vec3 through_srgb;
 
 const float kPi = 3.14159265;
 
-// Sine and cosine from the zenith. The row before the first lies behind the globe, so that no gap shows beside it.
+// Sine and cosine of the angle from the zenith. The row before the first lies behind the globe, so that no gap appears
+// beside it.
 vec2 from_zenith(float row) {
   if (rows.x > 0.5) {
     float height = row < 0.0 ? -0.004 : row * row * rows.y;
@@ -36,7 +39,7 @@ float dust_phase(float c) {
 
 void main() {
   float row = float(gl_InstanceID + (gl_VertexID & 1) - 1) / (rows.w - 1.0);
-  float turn = 2.0 * float(gl_VertexID >> 1) / look.w - 1.0;   // -1...1 of half a turn from the Sun's azimuth
+  float turn = 2.0 * float(gl_VertexID >> 1) / look.w - 1.0;   // -1...1, in half turns from the Sun's azimuth
   vec2 zenith = from_zenith(row);
   vec3 ray = vec3(zenith.x * cos(kPi * turn), zenith.x * sin(kPi * turn), zenith.y);
   float table_row = max(0.0, row);

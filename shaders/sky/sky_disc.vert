@@ -1,6 +1,6 @@
-// A square around a heavenly body, across the line of sight, at infinity.
+// A square around the Sun or Moon, perpendicular to the line of sight, at infinity.
 layout(location = 0) uniform vec3 center_ecef;    // unit
-layout(location = 1) uniform vec3 side_ecef[2];   // as long as half the square is wide, at distance 1
+layout(location = 1) uniform vec3 side_ecef[2];   // half the square's width, at distance 1
 out vec2 on_disc;                                 // -1...1
 out vec3 direction_ecef;
 

@@ -1,5 +1,6 @@
-// The Sun's disc, darker to its rim, and what a lens makes of it.
-layout(location = 3) uniform vec2 disc_part;      // radius of the disc, and of a pixel, in the square's half width
+// The Sun's disc, darker towards its rim, with the glow that a lens adds.
+// Radius of the disc and size of a pixel, relative to half the square's width.
+layout(location = 3) uniform vec2 disc_part;
 in vec2 on_disc;
 in vec3 direction_ecef;
 layout(location = 0) out vec4 color_srgb;

@@ -1,6 +1,7 @@
-// What hides the far side, relative to the eye: a sphere around the planet's centre, or places that are so already.
+// The shapes that hide the far side, relative to the eye: a sphere around the planet's centre, or positions already
+// relative to the eye.
 layout(location = 0) in vec3 place;
-layout(location = 0) uniform vec2 scale;  // metres to 1; 1: around the planet's centre, 0: around the eye
+layout(location = 0) uniform vec2 scale;  // metres per unit; 1: relative to the planet's centre, 0: relative to the eye
 
 void main() {
   vec3 position_from_eye = (scale.x * place - scale.y * eye_high_ecef.xyz) - scale.y * eye_low_ecef.xyz;

@@ -1,4 +1,4 @@
-// Marks the rows of the right eye: the odd ones, counted from the top.
+// Marks the right eye's rows: the odd ones, counted from the top.
 layout(location = 0) uniform int height_px;
 
 void main() {

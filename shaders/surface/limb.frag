@@ -1,7 +1,8 @@
-// Antialiases the limb: a pixel that the limb crosses takes the colours just inside and just outside it, by the part of the
-// pixel that each covers.
+// Antialiases the limb. A pixel on the limb mixes the colours just inside and just outside the limb, by the area of the
+// pixel on each side.
 layout(binding = 0) uniform sampler2D frame_srgb;
-layout(location = 0) uniform int rows_apart;   // 2: the rows between are another eye's; 0: frame_srgb has the limb
+// 2: the rows between belong to the other eye; 0: frame_srgb contains the limb.
+layout(location = 0) uniform int rows_apart;
 layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
 in vec2 outward;
 in float outside_px;

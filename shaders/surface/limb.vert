@@ -1,4 +1,4 @@
-// The ribbon along the limb.
+// A ribbon along the limb.
 layout(location = 0) in vec2 position_ndc;
 layout(location = 1) in vec2 outward_px;
 layout(location = 2) in float distance_px;

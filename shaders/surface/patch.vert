@@ -1,4 +1,4 @@
-// A patch's vertex relative to the eye, and the point of the patch's tile window under it.
+// A patch's vertex relative to the eye, and its point in the patch's tile window.
 layout(location = 0) in vec3 position_high_ecef;
 layout(location = 1) in vec3 position_low_ecef;
 layout(location = 2) in vec3 direction;
@@ -8,7 +8,7 @@ layout(location = 5) in vec4 patch_frame;
 layout(location = 6) in vec4 patch_row;
 layout(location = 7) in uvec4 patch_window;
 #if defined(RELIEF)
-layout(location = 8) in vec2 slope;  // of the ground: rise a metre towards east and north
+layout(location = 8) in vec2 slope;  // slope of the ground: rise per metre towards east and north
 #endif
 
 invariant gl_Position;
@@ -20,17 +20,18 @@ flat out vec4 center_and_scale;
 flat out vec4 frame;
 flat out vec4 row;
 
-// Soft light from the sun's side; the night side keeps a quarter.
+// Soft light from the sun's side. The night side keeps a quarter.
 float light_of(vec3 normal_ecef) {
 #if defined(NIGHT_LIGHTS)
-  return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl makes day and night of it
+  return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl turns this into day and night
 #endif
   float day = smoothstep(-0.35, 0.75, dot(normal_ecef, sun_ecef.xyz));
   return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
 }
 
 void main() {
-  // Highs first: near the eye their difference is exact (Sterbenz), and shared vertices of two patches come out the same.
+  // The high parts are subtracted first. Near the eye their difference is exact (Sterbenz), so the shared vertices of
+  // two patches are equal.
   precise vec3 position_from_eye = (position_high_ecef - eye_high_ecef.xyz) + (position_low_ecef - eye_low_ecef.xyz);
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;
@@ -44,7 +45,7 @@ void main() {
 #if defined(RELIEF)
   vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
   vec3 ground = normalize(normal - slope.x * east - slope.y * cross(normal, east));
-  // Slopes towards the sun are brighter, those away from it darker, than level ground in the same light.
+  // Slopes towards the sun are brighter than level ground in the same light, slopes away from it darker.
 #if defined(NIGHT_LIGHTS)
   light += dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz);
 #else

@@ -1,5 +1,5 @@
-// Look-ups shared by all ways of texturing a patch.
-layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, finest texels only
+// Look-ups shared by all texturing methods of patches.
+layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
 layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
 in vec2 window_point;
@@ -22,14 +22,14 @@ struct Cell {
 
 vec3 slot_point(Cell cell, vec2 p) { return vec3(p * cell.scale + cell.offset, cell.layer); }
 
-// The cell under a window point. Computed from one word: a fetch of four floats costs a software rasteriser as much as
-// two bilinear taps.
+// Returns the cell under a window point. A cell is one word: a fetch of four floats costs a software rasteriser as much
+// as two bilinear taps.
 Cell cell_at(vec2 p) {
   ivec2 size = window_size();
   ivec2 c = clamp(ivec2(p), ivec2(0), size - 1);
   uint bits = texelFetch(window_cells, int(window.x) + c.y * size.x + c.x).x;
   uvec2 up = uvec2(bits >> 24, (bits >> 16) & 0xFFu);
-  uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // which of the tile's 2^up.x by 2^up.y parts
+  uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // selects one of the tile's 2^up.x by 2^up.y parts
   vec2 scale = texels.x * uintBitsToFloat((127u - up) << 23);      // 2^-up
   return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
 }
@@ -38,7 +38,7 @@ Cell cell_at(vec2 p) {
 #define FURTHER_LAYER
 #endif
 
-// The surface's first imagery is opaque; what lies over it is premultiplied by its alpha.
+// The first layer of imagery is opaque. Layers over it are premultiplied by their alpha.
 #if defined(FURTHER_LAYER)
 #define Imagery vec4
 #define IMAGERY(texel) (texel)
@@ -49,7 +49,7 @@ Cell cell_at(vec2 p) {
 
 Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
 
-// Geodetic, of any length.
+// Geodetic normal, of any length.
 vec3 ground_normal() {
   return (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
 }
@@ -57,10 +57,10 @@ vec3 ground_normal() {
 #if defined(NIGHT_LIGHTS)
 layout(binding = 6) uniform samplerCube night_lights;
 
-// Day and night as the Sun makes them, and the lights of cities. `light` is here the sine of the Sun's height.
+// Day and night by the Sun's height, and city lights. Here `light` is the sine of the Sun's height.
 vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
   if (sun_ecef.w == 0.0) return imagery_srgb;
-  // A cube looked up by direction has no seam and no pole, and takes no arc tangent.
+  // A cube map needs no arc tangent, and has no seam and no pole.
   vec3 normal = ground_normal();
   vec3 dx = dFdx(normal), dy = dFdy(normal);
   vec3 color = imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
@@ -79,7 +79,8 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
 }
 
 #if defined(SPECIAL_LAYER)
-// Civil twilight: the Sun's centre from 6 degrees under the horizon up to it (engine/scene/daylight.h).
+// Shown fraction of a layer by day or night. Civil twilight: the Sun's centre from 6 degrees under the horizon up to it
+// (engine/surface/daylight.h).
 float part_shown() {
   if (layer_look.x == 0.0) return 1.0;
   float day = smoothstep(-0.10452846, 0.0, dot(normalize(ground_normal()), sun_ecef.xyz));
@@ -87,7 +88,8 @@ float part_shown() {
 }
 #endif
 
-// As if all layers were laid over each other first, and lit then. What shows by night shines by itself.
+// The result equals blending all layers first and lighting the blend. Layers that show by night emit light and are not
+// lit.
 void finish(Imagery imagery_srgb) {
 #if defined(FURTHER_LAYER)
   float alpha = imagery_srgb.a;

@@ -1,4 +1,4 @@
-// The surface's depth alone, before a translucent surface is drawn where its depth is equal.
+// Writes the surface's depth only. A translucent surface is then drawn where its depth is equal.
 void main() {
   WRITE_DEPTH(1.0);
 }

@@ -1,5 +1,5 @@
-// Window point of a fragment from its direction, and how it changes across a pixel. All differences are taken
-// from the patch's centre, where the floats are small, so that the point is exact to the patch's own resolution.
+// Computes the window point of a fragment from its direction, and its change across a pixel. All differences are
+// relative to the patch's centre, where the floats are small, so the point is accurate to the patch's own resolution.
 
 struct WindowPoint {
   vec2 p;
@@ -9,7 +9,7 @@ struct WindowPoint {
 
 const float kDegrees = 57.29577951308232;
 
-// East, outward and polar parts of a direction relative to the centre's meridian.
+// Components of a direction to the east, outward and to the pole, in the meridian of the centre.
 vec3 in_meridian(vec3 d) {
   return vec3(frame.x * d.y - frame.y * d.x, frame.x * d.x + frame.y * d.y, d.z);
 }
@@ -20,7 +20,7 @@ WindowPoint exact_window_point() {
   float x = c + d.y, y = d.x, z = s + d.z;
   float r = LENGTH(vec2(x, y));
   float r_minus_c = (d.y * (x + c) + y * y) / (r + c);
-  float north = d.z * c - r_minus_c * s;         // of the polar angle from the centre
+  float north = d.z * c - r_minus_c * s;         // sine of the polar angle from the centre
   float along = z * s + r * c;
   float lat = ATAN(north, along);
   float lon = ATAN(y, x);

@@ -1,4 +1,4 @@
-// The surface in one colour: for what blending does to the picture under it.
+// The surface in one colour, to blend over the picture under it.
 layout(location = 0) out vec4 color_srgb;
 
 void main() {

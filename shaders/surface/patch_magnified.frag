@@ -1,4 +1,4 @@
-// Patches seen from so near that a pixel lies within one texel or two: one tap, blended in full precision.
+// Patches so near that a pixel lies within one or two texels: one tap, blended in full precision.
 layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 void main() {

@@ -1,5 +1,5 @@
-// Patches seen at a slant or squeezed towards a pole, coordinates still interpolated: the pixel's footprint is a long
-// parallelogram, integrated by up to 16 taps on a rank-1 lattice.
+// Patches seen at a slant or squeezed towards a pole, with interpolated coordinates. The pixel's footprint is a long
+// parallelogram. Up to 16 taps on a rank-1 lattice integrate it.
 void main() {
   vec2 p = window_point;
   Cell cell = cell_at(p);

@@ -1,7 +1,7 @@
-// `paper`: formulas (5) and (6) of paper 1 inside the bands v < b and v > 1 - b, interpolated coordinates elsewhere.
+// `paper`: formulas (5) and (6) of paper 1 inside the bands v < b and v > 1 - b; elsewhere interpolated coordinates.
 layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
 
-// The level of detail of a texture query on the whole picture at its finest level.
+// Returns the level of detail of a texture query on the whole picture at its finest level.
 float query_level(WindowPoint w, Cell cell) {
   float finest = cell.scale.y * texels.y * exp2(row.y);
   return 0.5 * log2(max(dot(w.dx, w.dx), dot(w.dy, w.dy)) * finest * finest);
@@ -18,7 +18,7 @@ void main() {
   float level = query_level(w, cell);
   if (north || south) {
     float v_hat = north ? 1.0 - v / b : (v - (1.0 - b)) / b;                 // (5)
-    float most = 64.0;                                                       // where (6) divides by zero
+    float most = 64.0;                                                       // limit, because (6) divides by zero
     level = min(most, max(0.0, level - 1.0) / max(paper.x * v_hat, 1e-6));  // (6)
   }
   level = clamp(level - row.y, 0.0, texels.z - 1.0);

@@ -1,5 +1,5 @@
-// Plain patches: interpolated coordinates, three taps on a rank-1 lattice over the pixel. Exact to footprints of 3
-// texels, good to 8.
+// Plain patches: interpolated coordinates, three taps per pixel on a rank-1 lattice. Exact for footprints up to 3
+// texels, accurate enough up to 12 (kPlainFootprint_texels in patch_pass.cpp).
 void main() {
   vec2 p = window_point;
   Cell cell = cell_at(p);

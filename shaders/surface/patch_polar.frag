@@ -1,9 +1,9 @@
-// Pole bands, and with `exact` every patch: exact coordinates for each fragment, and its footprint, long in longitude
-// near a pole, integrated by up to 16 taps that each find their own cell.
+// Pole bands, and with `exact` every patch: exact coordinates per fragment. Near a pole the pixel's footprint is long
+// in longitude. Up to 16 taps, each with its own cell, integrate it.
 layout(binding = 3) uniform sampler2DArray tiles_precise;
 
-// A lattice of n places in the pixel, even along either side and without a shift: i and i times this, modulo n, which
-// has no divisor in common with n from 7 on.
+// A lattice of n places in the pixel, evenly spaced along each side and without an offset: place i is (i, i times this
+// modulo n). From n = 7 on, this number and n have no common divisor.
 const int stride_of[17] = int[](1, 1, 1, 1, 1, 2, 1, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
 
 void main() {

@@ -5,7 +5,7 @@
 
 namespace terrella {
 
-/// The uniform block of shaders/frame.glsl, std140.
+/// The uniform block of shaders/frame.glsl, std140. A plain value. thread: any
 struct FrameBlock {
   glm::mat4 view_from_ecef;
   glm::vec4 eye_high_ecef;

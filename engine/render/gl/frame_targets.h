@@ -7,24 +7,23 @@
 
 namespace terrella {
 
-/// The picture that the passes draw into before it goes to the caller's framebuffer, with its depth and, where a frame
-/// needs one, its stencil. thread: main
+/// The picture into which the passes draw before it is copied to the caller's framebuffer. It has depth and, if a frame
+/// needs it, stencil. thread: main
 class FrameTargets {
  public:
-  /// Keeps what fits, makes the rest anew.
+  /// Makes the textures for this size. Keeps those that already fit.
   void fit(Viewport size, bool with_stencil);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] GLuint color() const { return color_.name(); }
   [[nodiscard]] GLuint depth() const { return depth_.name(); }
   [[nodiscard]] Viewport size() const { return size_; }
   [[nodiscard]] bool has_stencil() const { return has_stencil_; }
-  /// Room for another picture of the same size, by way of which a pass may write what it reads. What is in it is
-  /// anybody's guess.
+  /// A second picture of the same size, for passes that read and write the picture. Its content is undefined.
   struct Beside {
     GLuint framebuffer, texture;
   };
   [[nodiscard]] Beside beside();
-  /// The picture goes to a framebuffer, its lower left corner to a place there.
+  /// Copies the picture to a framebuffer, with its lower left corner at `corner_px`.
   void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:

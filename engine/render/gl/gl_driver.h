@@ -2,8 +2,7 @@
 
 namespace terrella {
 
-/// Whether the current context draws with the processor alone (llvmpipe, softpipe, swrast, SWR, SwiftShader). thread:
-/// the context's
+/// True if the current context renders on the CPU (llvmpipe, softpipe, swrast, SWR, SwiftShader). thread: main
 [[nodiscard]] bool is_software_gl();
 
 }  // namespace terrella

@@ -6,8 +6,7 @@
 
 namespace terrella::gl {
 
-/// Owns one GL object; moves, does not copy. `Traits::destroy` frees it.
-/// thread: main (of the context)
+/// Owns one GL object. Movable, not copyable. `Traits::destroy` deletes the object. thread: main
 template <class Traits>
 class Handle {
  public:
@@ -62,7 +61,7 @@ using VertexArray = Handle<VertexArrayTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using Program = Handle<ProgramTraits>;
 
-/// Finds what deletes objects while a context is current: without one it could not be found any more.
+/// Loads the delete functions while a context is current. Without a context they could not be loaded any more.
 inline void find_deletes() {
   glDeleteBuffers(0, nullptr);
   glDeleteTextures(0, nullptr);

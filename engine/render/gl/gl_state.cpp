@@ -10,14 +10,14 @@ constexpr std::array<GLenum, 4> kTextureTargets = {GL_TEXTURE_2D, GL_TEXTURE_2D_
 constexpr std::array<GLenum, 4> kTextureBindings = {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_ARRAY,
                                                     GL_TEXTURE_BINDING_BUFFER, GL_TEXTURE_BINDING_CUBE_MAP};
 
-/// What a pass sets, or counts on to be as OpenGL begins.
+/// Switches that a pass sets, or expects to have OpenGL's initial value.
 constexpr std::array<GLenum, 31> kSwitches = {
     GL_CULL_FACE,
     GL_DEPTH_TEST,
     GL_STENCIL_TEST,
     GL_PROGRAM_POINT_SIZE,
     GL_TEXTURE_CUBE_MAP_SEAMLESS,
-    GL_FRAMEBUFFER_SRGB,  // colours are sRGB already
+    GL_FRAMEBUFFER_SRGB,  // off: colours are sRGB already
     GL_RASTERIZER_DISCARD,
     GL_PRIMITIVE_RESTART,
     GL_PRIMITIVE_RESTART_FIXED_INDEX,
@@ -44,7 +44,7 @@ constexpr std::array<GLenum, 31> kSwitches = {
     GL_CLIP_DISTANCE6,
     GL_CLIP_DISTANCE7,
 };
-/// Of the compatibility profile.
+/// Switches of the compatibility profile.
 constexpr std::array<GLenum, 2> kOldSwitches = {GL_ALPHA_TEST, GL_POINT_SPRITE};
 
 constexpr std::array<GLenum, 16> kPixelStores = {
@@ -174,7 +174,7 @@ void GlState::take_fragments() {
   glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
   cull_face_ = integer(GL_CULL_FACE_MODE);
   front_face_ = integer(GL_FRONT_FACE);
-  std::array<GLint, 2> modes{};  // drivers differ in how many there are
+  std::array<GLint, 2> modes{};  // the number of modes depends on the driver
   glGetIntegerv(GL_POLYGON_MODE, modes.data());
   polygon_mode_ = modes.front();
   clip_origin_ = integer(GL_CLIP_ORIGIN);

@@ -7,9 +7,9 @@
 
 namespace terrella {
 
-/// The part of a context's state that drawing a globe changes or depends on. Taken when this is made, and set to what
-/// OpenGL begins with as far as drawing depends on it; put back at its end. Not of it: queries, transform feedback and
-/// conditional rendering under way, which drawing must not come between. thread: main (of the context)
+/// Saves the part of a context's state that drawing a globe changes or depends on. The constructor saves this state and
+/// sets OpenGL's initial values where drawing depends on them. The destructor restores the state. Not included: active
+/// queries, transform feedback and conditional rendering, which must not be active while drawing. thread: main
 class GlState {
  public:
   GlState();
@@ -18,7 +18,7 @@ class GlState {
   GlState& operator=(const GlState&) = delete;
 
  private:
-  static constexpr GLuint kUnits = 7;  ///< texture units that passes use
+  static constexpr GLuint kUnits = 7;  ///< number of texture units that passes use
   static constexpr std::size_t kTargets = 4;
   static constexpr std::size_t kStores = 16;
 
@@ -26,7 +26,7 @@ class GlState {
     GLenum name;
     bool on;
   };
-  /// Of one draw buffer.
+  /// State of one draw buffer.
   struct Blending {
     bool on;
     GLint from_rgb, to_rgb, from_alpha, to_alpha, equation_rgb, equation_alpha;
@@ -35,7 +35,7 @@ class GlState {
   struct StencilFace {
     GLint test, reference, read_mask, write_mask, fail, depth_fail, pass;
   };
-  /// Of one viewport.
+  /// State of one viewport.
   struct Window {
     std::array<GLfloat, 4> viewport;
     std::array<GLdouble, 2> depth_range;

@@ -11,7 +11,7 @@
 namespace terrella {
 
 /// An OpenGL 4.5 core context without a window, a display or a GPU: EGL, surfaceless or device platform
-/// (engine/DESIGN.md, 14). The context is current on the calling thread from creation to destruction. thread: main
+/// (engine/DESIGN.md, 14). The context is current on the calling thread during the object's whole life. thread: main
 class HeadlessContext {
  public:
   [[nodiscard]] static Result<std::unique_ptr<HeadlessContext>> create();
@@ -30,7 +30,7 @@ class OffscreenTarget {
  public:
   explicit OffscreenTarget(Viewport size);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
-  /// RGBA8, rows from the top.
+  /// Returns the picture as RGBA8, rows from the top.
   [[nodiscard]] std::vector<std::uint8_t> read() const;
 
  private:

@@ -16,13 +16,14 @@ namespace {
 constexpr int kArguments = 2048;
 constexpr double kSmallestAngle = 1e-7;
 
-/// The two rows of shaders/probes/probe_functions.frag, as floats: what is compared is what the shader was given.
+/// The two rows of shaders/probes/probe_functions.frag, as floats: results are compared for the exact arguments of the
+/// shader.
 struct Arguments {
   std::vector<glm::vec4> angles, radicands;
 };
 
-// Half of the angles evenly round the circle, half by size down to the smallest: there it is the relative error that a
-// coarse polynomial loses.
+// Half of the angles are spread evenly round the circle. The other half goes down to the smallest sizes, where a coarse
+// polynomial loses relative accuracy.
 double angle_at(int k) {
   const int pair = k / 2;
   const double part = (pair + 0.5) / (0.5 * kArguments);
@@ -34,7 +35,8 @@ Arguments make_arguments() {
   Arguments arguments;
   for (int k = 0; k < kArguments; ++k) {
     const double angle = angle_at(k), part = (k + 0.5) / kArguments;
-    const double radius = std::exp2(std::fmod(k * 0.61803398875, 1.0) - 0.5);  // neither part is always the same float
+    // Varied, so that neither component is always the same float.
+    const double radius = std::exp2(std::fmod(k * 0.61803398875, 1.0) - 0.5);
     arguments.angles.emplace_back(radius * std::sin(angle), radius * std::cos(angle), 2.0 * part - 1.0, angle);
     const double length = 2.0 * std::pow(0.5e-7, part);
     arguments.radicands.emplace_back(4.0 * std::pow(0.25e-12, part), length * std::sin(angle), length * std::cos(angle),
@@ -89,7 +91,7 @@ Values draw_row(const gl::Program& program, const Arguments& arguments) {
   return {read_row(angles_out), read_row(roots_out)};
 }
 
-// What is not a number is as wrong as can be.
+// A result that is not a number counts as an infinite error.
 void note(double& worst, double error) { worst = std::isfinite(error) ? std::max(worst, std::abs(error)) : HUGE_VAL; }
 
 FunctionErrors compare(const Arguments& arguments, const Values& values) {

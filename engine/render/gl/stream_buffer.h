@@ -7,11 +7,11 @@
 
 namespace terrella {
 
-/// A buffer that is filled each time it is used, while the ones before it may still be in use. thread: main
+/// A buffer that is refilled for each use, while earlier contents may still be in use by the GPU. thread: main
 class StreamBuffer {
  public:
   void fill(const void* data, std::size_t bytes);
-  /// The same in pieces: room for all, then each at its place.
+  /// The same in pieces: begin() reserves space for all pieces, then each is written to its place.
   void begin(std::size_t bytes);
   void put(std::size_t at, const void* data, std::size_t bytes) const;
   [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }

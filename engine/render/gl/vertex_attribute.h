@@ -6,15 +6,15 @@
 
 namespace terrella::gl {
 
-/// An input of the vertex stage: `size` floats that begin `offset` bytes into each element of the buffer at `binding`.
-/// thread: main (of the context)
+/// Declares an input of the vertex stage: `size` floats at `offset` bytes into each element of the buffer at `binding`.
+/// thread: main
 inline void float_attribute(GLuint array, GLuint index, GLuint binding, GLint size, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);
   glVertexArrayAttribFormat(array, index, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
   glVertexArrayAttribBinding(array, index, binding);
 }
 
-/// The same of a colour of four bytes, as floats from 0 to 1.
+/// Declares a colour input of four bytes, as floats from 0 to 1. thread: main
 inline void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);
   glVertexArrayAttribFormat(array, index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLuint>(offset));

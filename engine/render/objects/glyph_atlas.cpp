@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kHalo_px = 2;
 constexpr float kHaloReach_px = 2.4F;
-constexpr float kFixed = 64.0F;  // FreeType's positions
+constexpr float kFixed = 64.0F;  // FreeType's fixed-point unit: 1/64 pixel
 
-/// The strongest pixel near by, weaker the farther it is.
+/// Returns the strength of the halo: that of the strongest nearby pixel, weakened by its distance.
 std::uint8_t halo_at(const FT_Bitmap& ink, int x, int y) {
   float strongest = 0.0F;
   for (int dy = -kHalo_px; dy <= kHalo_px; ++dy) {

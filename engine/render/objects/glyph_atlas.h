@@ -13,28 +13,29 @@ struct FT_LibraryRec_;
 
 namespace terrella {
 
-/// Where a character's picture lies in the atlas, and beside the pen: pixels, its halo with it.
+/// Place of a character's picture, including its halo, in the atlas and relative to the pen, pixels.
 struct Glyph {
   short x = 0, y = 0, width = 0, height = 0;
-  short left = 0, top = 0;  ///< of its upper left corner, right of and over the pen
-  float advance = 0.0F;     ///< of the pen
+  short left = 0, top = 0;  ///< upper left corner, right of and above the pen
+  float advance = 0.0F;     ///< advance of the pen
 };
 
-/// The characters of one font at one size, drawn by FreeType into a texture when they are first asked for: how much of
-/// a pixel the character covers in red, its halo in green. thread: main (of the context)
+/// The characters of one font at one size. FreeType draws each into a texture when it is first requested: red is the
+/// covered fraction of the pixel, green the halo. thread: main
 class GlyphAtlas {
  public:
   static constexpr int kSide_px = 1024;
 
-  /// `font` is a font file's bytes (TrueType, OpenType).
+  /// `font` contains the bytes of a font file (TrueType, OpenType).
   [[nodiscard]] static Result<std::unique_ptr<GlyphAtlas>> create(std::vector<std::byte> font, int size_px);
 
-  /// The font's mark for what it lacks, where it lacks the character; one without a picture once the atlas is full.
+  /// Returns the picture of a character: the font's replacement mark if the font does not have the character, an empty
+  /// picture if the atlas is full.
   [[nodiscard]] const Glyph& glyph(char32_t character);
-  /// How much nearer to each other two characters stand, pixels, negative.
+  /// Change of the distance between two characters, pixels; negative brings them closer.
   [[nodiscard]] float kerning(char32_t left, char32_t right) const;
   [[nodiscard]] int ascent_px() const;
-  [[nodiscard]] int descent_px() const;  ///< under the pen, positive
+  [[nodiscard]] int descent_px() const;  ///< depth below the pen, positive
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
 
  private:

@@ -15,8 +15,8 @@ namespace terrella {
 namespace {
 
 constexpr int kText_px = 15;
-constexpr float kGap_px = 4.0F;     // between a marker and its text
-constexpr float kMargin_px = 2.0F;  // kept free around a text
+constexpr float kGap_px = 4.0F;     // gap between a marker and its text
+constexpr float kMargin_px = 2.0F;  // margin around a text that stays free
 constexpr GLint kLabelViewportUniform = 0;
 constexpr GLint kLabelBiasUniform = 1;
 
@@ -124,7 +124,7 @@ void LabelPass::place(const View& view, const LabelSight& sight) {
 void LabelPass::put(const Label& label, const Line& line, float right_px) {
   const SplitPosition p = split_position(label.place_m);
   auto& characters = characters_[(label.underground ? 0U : 2U) + (label.chosen ? 1U : 0U)];
-  // The middle of a small letter stands as high as the place.
+  // Centres a small letter vertically on the place.
   const float pen_y_px = -std::round(0.35F * float(kText_px));
   for (const auto& [glyph, pen_px] : line.glyphs) {
     if (glyph.width == 0) continue;

@@ -17,41 +17,42 @@
 
 namespace terrella {
 
-/// What keeps labels from being seen besides each other.
+/// Conditions, other than labels in front, under which labels are hidden.
 struct LabelSight {
-  glm::dvec3 hiding_half_axes_m{0.0};  ///< of an opaque ellipsoid; 0: none
+  glm::dvec3 hiding_half_axes_m{0.0};  ///< half axes of an opaque ellipsoid that hides labels; 0: none
   bool shown = true;
-  bool above_ground = true;         ///< whether those over the ground are seen
-  bool chosen_above_ground = true;  ///< of those, the ones with through_surface
+  bool above_ground = true;         ///< true: all labels over the ground are visible
+  bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
 
-/// Draws texts beside their places: antialiased, with a dark halo, the same size everywhere, as deep as their markers.
-/// Where two would overlap the one with less priority is left out; those that stay are chosen once for a frame, so that
-/// two eyes see the same. Left to right with kerning; no shaping. thread: main (of the context)
+/// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. Of
+/// labels that would overlap, only the one with the highest priority is drawn. The choice is made once per frame, so
+/// that both eyes show the same labels. Text runs left to right with kerning, without shaping. thread: main
 class LabelPass {
  public:
-  /// At most so many labels are looked at, those of the highest priority, and of each text so many characters.
+  /// Limits: labels looked at, highest priority first, and characters per label.
   static constexpr std::size_t kMostLabels = 100'000;
   static constexpr std::size_t kMostCharacters = 96;
 
   [[nodiscard]] static Result<std::unique_ptr<LabelPass>> create(DepthMode depth, std::vector<std::byte> font);
 
   void set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
-  /// Chooses what is shown in the frame.
+  /// Chooses the labels of the frame.
   void place(const View& view, const LabelSight& sight);
-  /// State as for ObjectPass::draw(), blending on and the depth mask off. Returns the draw calls made.
+  /// Draws with the state that ObjectPass::draw() requires, blending on and the depth mask off. Returns the number of
+  /// draw calls.
   [[nodiscard]] int draw(ObjectPart part, ObjectChoice choice, Viewport viewport, float depth_bias) const;
   [[nodiscard]] std::size_t shown() const { return shown_; }
 
  private:
   struct Character {
     glm::vec3 high_m, low_m;
-    glm::vec2 offset_px;  ///< of the picture's lower left corner from the place, y up
+    glm::vec2 offset_px;  ///< offset of the picture's lower left corner from the place, y up
     std::array<short, 4> atlas_px;
     ObjectColor color;
   };
   struct Line {
-    std::vector<std::pair<Glyph, float>> glyphs;  ///< and where their pen stands
+    std::vector<std::pair<Glyph, float>> glyphs;  ///< glyphs, each with the pen's position
     float width_px = 0.0F;
   };
   struct Label {
@@ -72,10 +73,10 @@ class LabelPass {
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::vector<Label> labels_;  ///< the one to be placed first at the front
+  std::vector<Label> labels_;  ///< in the order of placing
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;
-  std::array<std::size_t, 5> first_{};  ///< character of each of those four, and the end
+  std::array<std::size_t, 5> first_{};  ///< first character of each of those four ranges, and the end
   std::size_t shown_ = 0;
 };
 

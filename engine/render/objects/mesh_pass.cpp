@@ -37,7 +37,8 @@ gl::Buffer kept(const std::vector<T>& items) {
   return buffer;
 }
 
-/// Of a model's x (left), y (up) and z (forward) at its place, as long as a metre of the model.
+/// Returns the directions of a model's x (left), y (up) and z (forward) at its place. Each is as long as a metre of the
+/// model.
 std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
   const double sin_lat = std::sin(mesh.place.lat.rad()), cos_lat = std::cos(mesh.place.lat.rad());
   const double sin_lon = std::sin(mesh.place.lon.rad()), cos_lon = std::cos(mesh.place.lon.rad());
@@ -153,7 +154,8 @@ int MeshPass::draw(ObjectPart part, bool opaque, ObjectChoice choice, float dept
       calls += draw_parts(model, range.first, range.count, true);
       continue;
     }
-    // What faces away lies behind what faces the eye, whatever the order of triangles: right for all that is convex.
+    // Faces away from the eye are drawn before faces towards it, in any order of triangles. This is exact for convex
+    // models.
     glEnable(GL_CULL_FACE);
     for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
       glCullFace(left_out);

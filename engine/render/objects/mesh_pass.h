@@ -14,21 +14,21 @@
 
 namespace terrella {
 
-/// Draws triangle meshes: each model is kept once, and drawn once for all the places where it stands. thread: main
+/// Draws triangle meshes. Each model is stored once, and drawn once for all its places. thread: main
 class MeshPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<MeshPass>> create(DepthMode depth);
 
-  /// In place of those before. Those without a model are left out. Models that stay are not uploaded again.
+  /// Replaces all meshes. Skips meshes without a model. Does not upload again models that stay.
   void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   [[nodiscard]] bool has(ObjectPart part) const;
-  /// State as for ObjectPass::draw(), blending on and the depth mask as `opaque` has it. Returns the draw calls made:
-  /// one for each opaque material of each model, two for each translucent one: faces away from the eye, then towards
-  /// it.
+  /// Draws with the state that ObjectPass::draw() requires, blending on and the depth mask set to `opaque`. Returns the
+  /// number of draw calls. Each opaque material of a model takes one call. Each translucent one takes two: faces away
+  /// from the eye, then faces towards it.
   [[nodiscard]] int draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const;
 
  private:
-  /// Where a model stands: positions as PatchVertex has them, and the model's axes in metres.
+  /// One place of a model: its position, split as in PatchVertex, and the model's axes, metres.
   struct Stand {
     glm::vec3 high_m, low_m;
     std::array<glm::vec3, 3> ecef_from_model;
@@ -36,7 +36,7 @@ class MeshPass {
   struct Part {
     gl::VertexArray array;
     gl::Buffer vertices, indices;
-    GLuint texture = 0;  ///< of the model's, or white_
+    GLuint texture = 0;  ///< texture of the model, or white_
     GLsizei count = 0;
     glm::vec4 color_linear;
     float cutoff = 0.0F;
@@ -47,7 +47,7 @@ class MeshPass {
     std::vector<Part> parts;
     std::vector<gl::Texture> textures;
     gl::Buffer stands;
-    Batch<char> ranges;  ///< all of them opaque: a part says whether it is
+    Batch<char> ranges;  ///< sorted as if all were opaque: each part of a model states its own opacity
 
     void stand_at(const std::array<std::vector<Stand>, Batch<char>::kBuckets>& buckets);
   };

@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-// What passes of objects share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
+// Helpers shared by the passes of objects. shaders/objects/object_common.glsl declares the uniforms. thread: main
 
 inline void set_object_uniforms(const gl::Program& program, Viewport viewport, float bias, double hiding_radius_m) {
   constexpr GLint kViewport = 0, kBias = 1, kHiding = 2;
@@ -19,7 +19,8 @@ inline void set_object_uniforms(const gl::Program& program, Viewport viewport, f
   glProgramUniform1f(program.name(), kHiding, static_cast<float>(hiding_radius_m));
 }
 
-/// Takes one DotInstance for `divisor` instances, or for each vertex (0), from the buffer at binding 0.
+/// Makes a vertex array that reads one DotInstance per `divisor` instances, or per vertex if `divisor` is 0, from the
+/// buffer at binding 0.
 inline gl::VertexArray dot_array(GLuint divisor) {
   gl::VertexArray array = gl::make_vertex_array();
   gl::float_attribute(array.name(), 0, 0, 3, offsetof(DotInstance, high_m));
@@ -30,7 +31,7 @@ inline gl::VertexArray dot_array(GLuint divisor) {
   return array;
 }
 
-/// A buffer that keeps these; no buffer if there are none.
+/// Makes a buffer with these elements; no buffer if there are none.
 template <class T>
 gl::Buffer buffer_of(const std::vector<T>& items) {
   if (items.empty()) return {};
@@ -39,7 +40,7 @@ gl::Buffer buffer_of(const std::vector<T>& items) {
   return buffer;
 }
 
-/// A batch without its things, which are on the GPU.
+/// Returns a batch without its elements, which are on the GPU.
 template <class T>
 Batch<char> ranges_of(const Batch<T>& batch) {
   return {{}, batch.first};

@@ -8,8 +8,8 @@
 namespace terrella {
 namespace {
 
-// Part of its distance that what lies on the ground is drawn nearer: more than depth's own steps, and than the ground's
-// mesh lies under the ellipsoid.
+// Fraction of the distance by which objects on the ground are drawn nearer. It exceeds the steps of the depth buffer
+// and the sag of the ground's mesh under the ellipsoid.
 constexpr float kGroundBias = 1.0e-4F;
 }  // namespace
 
@@ -46,7 +46,7 @@ void ObjectPass::set_up_arrays() {
   gl::color_attribute(fill_array_.name(), 2, 0, offsetof(FillVertex, color));
   line_array_ = gl::make_vertex_array();
   const GLuint lines = line_array_.name();
-  for (GLuint k = 0; k < 4; ++k) {  // the vertex before, this one, the next and the one after that
+  for (GLuint k = 0; k < 4; ++k) {  // the previous vertex, this one, the next and the one after that
     gl::float_attribute(lines, 2 * k, k, 3, offsetof(LineVertex, high_m));
     gl::float_attribute(lines, 2 * k + 1, k, 3, offsetof(LineVertex, low_m));
     glVertexArrayBindingDivisor(lines, k, 1);
@@ -120,7 +120,7 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
   glBlendEquation(GL_FUNC_ADD);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   int calls = 0;
-  // Areas lie on the ground: everything else is over them.
+  // Areas lie on the ground, so all other objects are drawn over them.
   for (const bool opaque : {true, false}) {
     glDepthMask(opaque ? GL_TRUE : GL_FALSE);
     calls += draw_fills(part, opaque, choice);

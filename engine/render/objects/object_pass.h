@@ -14,38 +14,45 @@
 
 namespace terrella {
 
-/// Draws the objects of a scene: areas, spheres, meshes, lines, markers. Everything is drawn relative to the eye.
+/// Draws the objects of a scene: areas, spheres, meshes, lines, markers. All positions are relative to the eye.
 /// thread: main
 class ObjectPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth);
 
-  /// Uploads a scene, once; it takes the place of the one before.
+  /// Uploads a scene, which replaces the previous one.
   void set_objects(const ObjectBatches& batches);
   void set_objects(const ObjectScene& scene, const Ellipsoid& ellipsoid) {
     set_objects(make_batches(scene, ellipsoid));
   }
   [[nodiscard]] bool has(ObjectPart part) const;
 
-  /// Labels are drawn with this font, a font file's bytes; without one there are none.
+  /// Sets the font of labels, the bytes of a font file. Without a font, no labels are drawn.
   void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
-  /// In place of those before; the program for labels is made with the first.
+  /// Replaces all labels. The first call builds the program for labels.
   Status set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
-  /// In place of those before; the program for meshes is made with the first.
+  /// Replaces all meshes. The first call builds the program for meshes.
   Status set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
-  /// Chooses the labels of a frame; none until it is called.
+  /// Chooses the labels of a frame. Before the first call, no labels are drawn.
   void place_labels(const View& view, const LabelSight& sight) {
     if (labels_) labels_->place(view, sight);
   }
 
-  /// Draws one part into the framebuffer that is bound. The caller has set the viewport (its size is `viewport`), the
-  /// frame's uniform block (binding 0; `frame` is what it holds), depth test and comparison, and stencil, all of which
-  /// are left as they are; the depth test must be on. Opaque objects write depth, translucent ones come after them and
-  /// do not; whatever lies over or on the ground is drawn a little towards the eye, what lies under it is not. Leaves
-  /// blending and face culling off and the depth mask on. Returns the draw calls made: at most one for each of areas,
-  /// lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw(). Where the caller
-  /// knows of an opaque sphere around the planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and
-  /// markers in and behind it are not even begun: on software GL they would cost as much as those in sight.
+  /// Draws one part of the scene into the bound framebuffer.
+  ///
+  /// The caller sets the viewport (its size is `viewport`), the frame's uniform block (binding 0; `frame` is its
+  /// content), depth test and comparison, and stencil. This function does not change them. The depth test must be on.
+  /// Afterwards blending and face culling are off, and the depth mask is on.
+  ///
+  /// Opaque objects write depth. Translucent objects follow and do not. Objects over or on the ground are drawn a
+  /// little nearer to the eye; objects under the ground are not.
+  ///
+  /// `hiding_radius_m` is the radius of an opaque sphere around the planet's centre that does not contain the eye.
+  /// Spheres and markers in or behind this sphere are skipped, because on software GL they would cost as much as
+  /// visible ones.
+  ///
+  /// Returns the number of draw calls: at most one for each of areas, lines and markers, opaque and translucent, and
+  /// those of SpherePass::draw() and MeshPass::draw().
   int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
            double hiding_radius_m = 0.0);
 
@@ -57,7 +64,7 @@ class ObjectPass {
   [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
   [[nodiscard]] int draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const;
 
-  /// A batch without its things, which are on the GPU.
+  /// A batch without its elements, which are on the GPU.
   using Ranges = Batch<char>;
   gl::Program fill_, line_, marker_;
   gl::VertexArray fill_array_, line_array_, marker_array_;

@@ -10,11 +10,11 @@
 namespace terrella {
 namespace {
 
-// Wider ones are triangles: the outline of a point is an ellipse, which is exact for small spheres alone.
+// Larger spheres are triangles: the outline of a point is an ellipse, which is exact only for small spheres.
 constexpr float kLargestPoint_px = 4.0F;
-constexpr float kEdge_px = 1.0F;  // as object_sphere_seen.glsl has it, and room for rounding
+constexpr float kEdge_px = 1.0F;  // kEdge_px of object_sphere_seen.glsl, with room for rounding
 
-/// As OpenGL takes it.
+/// OpenGL's indirect draw command.
 struct SphereCommand {
   GLuint vertices, instances, first_vertex, first_instance;
 };

@@ -12,16 +12,16 @@
 
 namespace terrella {
 
-/// Draws spheres: groups of them that the picture cannot show are left out, small ones are points, all others triangles
-/// around their outlines. Both look the same. thread: main
+/// Draws spheres. Groups outside the picture are culled. Small spheres are points, all others are triangles around
+/// their outlines. Both look the same. thread: main
 class SpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<SpherePass>> create(DepthMode depth);
 
-  /// In place of those before.
+  /// Replaces all spheres.
   void set_spheres(const Batch<DotInstance>& spheres);
-  /// As ObjectPass::draw(), with blending and depth mask set. Returns the draw calls made: at most one for triangles
-  /// and one for points.
+  /// Draws as ObjectPass::draw() does; the caller also sets blending and the depth mask. Returns the number of draw
+  /// calls: at most one for triangles and one for points.
   int draw(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame, Viewport viewport, float bias,
            double hiding_radius_m);
   [[nodiscard]] const Batch<char>& ranges() const { return ranges_; }

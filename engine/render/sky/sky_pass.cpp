@@ -15,23 +15,24 @@
 namespace terrella {
 namespace {
 
-// The Sun's glow reaches this many radii of its disc.
+// Radius of the Sun's glow, in radii of its disc.
 constexpr double kGlow_radii = 10.0;
-// A disc is drawn no smaller than this, so that it does not flicker.
+// Smallest radius of a drawn disc, so that it does not flicker.
 constexpr double kSmallestDisc_px = 1.0;
-// The table is made anew when the eye's height has changed by this part, or the Sun by this much of its cosine.
+// The table is rebuilt when the eye's height has changed by this fraction, or the cosine of the Sun's zenith angle by
+// this amount.
 constexpr double kHeightStep = 0.003;
 constexpr double kSunStep = 0.0005;
 
-// The body made a sphere of radius 1: places, and directions.
+// Scales places and directions so that the body is a sphere of radius 1.
 glm::dvec3 scaled(const Ellipsoid& e, const glm::dvec3& p) { return p / semi_axes_m(e); }
 
-/// Rows and columns of shaders/sky/sky_air.vert.
+/// Rows and columns of the mesh in shaders/sky/sky_air.vert.
 struct AirMesh {
   int rows, columns;
 };
-// From outside the air is a thin ring: its chords must not leave it by more than a hundredth of its height, 512 do.
-// From inside it is a dome, whose brightest part around the Sun wants steps of a few degrees.
+// From outside, the air is a thin ring. Its chords must stay within 1 % of its height, for which 512 columns suffice.
+// From inside, the air is a dome. Its brightest part, around the Sun, needs steps of a few degrees.
 constexpr AirMesh kRing{20, 512};
 constexpr AirMesh kDome{40, 120};
 
@@ -39,7 +40,7 @@ glm::dvec3 scaled_direction(const Ellipsoid& e, const glm::dvec3& d) {
   return glm::normalize(glm::dvec3(d.x, d.y, d.z * e.a_m() / e.b_m()));
 }
 
-// x towards the Sun's azimuth, z up.
+// Axes of the horizon: x towards the Sun's azimuth, z up.
 glm::dmat3 horizon_axes(const glm::dvec3& up, const glm::dvec3& sun) {
   glm::dvec3 x = sun - glm::dot(sun, up) * up;
   if (glm::dot(x, x) < 1e-12) x = glm::cross(up, std::abs(up.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));
@@ -130,7 +131,7 @@ int SkyPass::draw_stars(const View& view, const SkyInput& input) const {
   return 1;
 }
 
-// `square`: its half width in radii of the disc.
+// `square` is the half width of the square in radii of the disc.
 void SkyPass::place_disc(const View& view, const Disc& disc, double square) const {
   const glm::dvec3 other = std::abs(disc.center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(other, disc.center));
@@ -161,7 +162,7 @@ int SkyPass::draw_moon(const View& view, const SkyInput& input) const {
   const Disc disc{from_eye / distance_m,
                   std::max(std::asin(kMoonRadius_m / distance_m), kSmallestDisc_px * pixel_rad(view))};
   glUseProgram(moon_program_.name());
-  // Room for the antialiased rim.
+  // Adds room for the antialiased rim.
   place_disc(view, disc, 1.0 + pixel_rad(view) / disc.radius_rad);
   const glm::dvec3 other = std::abs(disc.center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(other, disc.center));
@@ -174,7 +175,8 @@ int SkyPass::draw_moon(const View& view, const SkyInput& input) const {
 }
 
 void SkyPass::update_table(double eye_radius, double sun_cos) {
-  const double scale = air_->top_m / body_.ellipsoid.a_m() * 0.05;  // a tenth of the air's height is always near
+  // Added to the eye's height, so that small changes near the ground do not rebuild the table.
+  const double scale = air_->top_m / body_.ellipsoid.a_m() * 0.05;
   const double height_change = std::abs(eye_radius - table_key_.eye_radius) / (std::abs(eye_radius - 1.0) + scale);
   const bool crossed = (eye_radius > 1.0 + air_->top_m / body_.ellipsoid.a_m()) != table_.outside;
   if (!crossed && height_change < kHeightStep && std::abs(sun_cos - table_key_.sun_cos) < kSunStep) return;

@@ -14,35 +14,35 @@
 
 namespace terrella {
 
-/// What is in the sky of one frame.
+/// The sky of one frame.
 struct SkyInput {
-  Almanac almanac;  ///< Earth's; other bodies borrow its Sun and its turning
+  Almanac almanac;  ///< Earth's almanac; other bodies use the same Sun and rotation
   bool stars = true;
   bool sun = true;
-  bool moon = true;        ///< drawn for the body "earth" alone
+  bool moon = true;        ///< drawn only for the body "earth"
   bool atmosphere = true;  ///< false while the eye is under the ground
 };
 
-/// Stars, Sun, Moon and atmosphere, in that order, all at infinity: no near and no far plane, no depth read or written.
-/// They are drawn wherever the stencil lets them; what is before the globe the caller must have masked out.
-/// thread: main (of the context)
+/// Draws stars, Sun, Moon and atmosphere, in that order, all at infinity: without near and far plane, and without
+/// reading or writing depth. The stencil test decides where the sky is drawn. The caller must have masked out
+/// everything in front of the sky. thread: main
 class SkyPass {
  public:
-  /// `stars` may be empty; a body without an atmosphere gets no program for one.
+  /// `stars` may be empty. A body without an atmosphere needs no program for it.
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
-  /// Draws into the framebuffer and viewport that are bound. The frame's uniform block must be bound and of this view;
-  /// depth test off, face culling off, stencil test as wanted. Returns the draw calls made. Leaves blending off;
-  /// changes program, vertex array, blend function and texture unit 0.
+  /// Draws into the bound framebuffer and viewport. The caller binds the frame's uniform block for this view, switches
+  /// depth test and face culling off, and sets the stencil test. Afterwards blending is off, and program, vertex array,
+  /// blend function and texture unit 0 are changed. Returns the number of draw calls.
   int draw(const View& view, const SkyInput& input);
 
  private:
-  /// What the table was made for: it is kept while that hardly changes.
+  /// The input of the sky table. The table is kept while this hardly changes.
   struct TableKey {
     double eye_radius = 0.0;
     double sun_cos = 2.0;
   };
-  /// A body's disc in the sky: where, and how large.
+  /// Place and size of a body's disc in the sky.
   struct Disc {
     glm::dvec3 center;
     double radius_rad;

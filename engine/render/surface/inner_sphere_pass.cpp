@@ -13,7 +13,8 @@
 namespace terrella {
 namespace {
 
-// Quads from pole to pole, and twice as many around: the mesh sags by 1/1900 of the radius, 3 km on Earth.
+// Rows of quads from pole to pole; there are twice as many around. The mesh sags by 1/1900 of the radius, 3 km on
+// Earth.
 constexpr int kRows = 48;
 
 }  // namespace

@@ -10,16 +10,16 @@
 
 namespace terrella {
 
-/// What hides the far side under a translucent surface, in the background's colour: a sphere (paper 2, 2.1), and beside
-/// it the curtain of surface/far_side_curtain.h. The caller has bound the
-/// framebuffer and the frame's uniform block and set depth and stencil. thread: main
+/// Draws the shapes that hide the far side under a translucent surface, in the background's colour: the inner sphere
+/// (paper 2, 2.1), and beside it the curtain of surface/far_side_curtain.h. The caller binds the framebuffer and the
+/// frame's uniform block, and sets depth and stencil. thread: main
 class InnerSpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InnerSpherePass>> create(DepthMode depth);
 
-  /// Returns the draw calls made.
+  /// Draws the sphere. Returns the number of draw calls.
   int draw(double radius_m) const;
-  int draw_curtain(const std::vector<glm::vec3>& strip) const;  ///< no faces may be culled
+  int draw_curtain(const std::vector<glm::vec3>& strip) const;  ///< face culling must be off
 
  private:
   InnerSpherePass() = default;

@@ -7,12 +7,12 @@
 
 namespace terrella {
 
-/// Marks the rows of the right eye in the stencil buffer (stencil_bits.h), for interlaced stereo. thread: main
+/// Marks the right eye's rows in the stencil buffer (stencil_bits.h), for interlaced stereo. thread: main
 class InterlacePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InterlacePass>> create();
 
-  /// Into the framebuffer that is bound; the stencil test and its masks are changed. Returns the draw calls made.
+  /// Draws into the bound framebuffer. Changes the stencil test and its masks. Returns the number of draw calls.
   int draw(int height_px) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace terrella {
 namespace {
-// Half a pixel of coverage either way, and the mesh's own error.
+// Half a pixel of coverage to either side, plus the error of the mesh.
 constexpr double kHalfWidth_px = 1.0;
 }  // namespace
 

@@ -9,11 +9,13 @@
 
 namespace terrella {
 
-/// The frame without the limb's antialiasing, and which part of it is the view's.
+/// The finished picture without antialiasing of the limb, and the part of it that belongs to the view.
 struct LimbPicture {
   GLuint texture = 0;
-  int left_px = 0;     ///< of the view's part, which is as large as the view and begins at the texture's lowest row
-  int rows_apart = 1;  ///< 2: only every other row is of this view; 0: the limb is in it already
+  /// Left column of the view's part. The part is as large as the view and starts at the texture's lowest row.
+  int left_px = 0;
+  /// 2: only every other row belongs to this view; 0: the picture already contains the limb.
+  int rows_apart = 1;
 };
 
 /// Antialiases the globe's limb in a finished picture; shaders/surface/limb.frag. thread: main
@@ -21,11 +23,11 @@ class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
 
-  /// Blends the limb into the framebuffer that is bound, without a depth test. Returns the draw calls made: 0 where no
-  /// limb is in view, else 1.
+  /// Blends the limb into the bound framebuffer, without a depth test. Returns the number of draw calls: 0 if no limb
+  /// is in view, else 1.
   int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture);
-  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
-  /// is read must not be written. Returns 0 or 2.
+  /// The same if the bound framebuffer contains the picture itself. Draws by way of a second picture of the same size,
+  /// because a texture must not be read and written at once. Returns 0 or 2.
   int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
                     const FrameTargets::Beside& beside, GLuint framebuffer);
 

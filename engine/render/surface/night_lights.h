@@ -8,16 +8,16 @@
 
 namespace terrella {
 
-/// The lights of cities as a cube map, for programs built with NIGHT_LIGHTS (shaders/surface/patch_common.glsl). 2 MB
-/// on the GPU for a map 2048 pixels wide. thread: main (of the context)
+/// City lights as a cube map, for programs built with NIGHT_LIGHTS (shaders/surface/patch_common.glsl). Takes 2 MB on
+/// the GPU for a map 2048 pixels wide. thread: main
 class NightLights {
  public:
-  static constexpr GLuint kUnit = 6;  ///< the texture unit that the shaders look at
+  static constexpr GLuint kUnit = 6;  ///< the texture unit that the shaders read
 
-  /// Fails if the map is empty, its values do not fill it, or it is too large.
+  /// Fails if the map is empty, if its number of values does not match its size, or if it is too large.
   [[nodiscard]] static Result<NightLights> create(const GreyPicture& map);
 
-  /// Binds texture and sampling to kUnit, and turns on filtering across the faces' borders.
+  /// Binds texture and sampler to kUnit, and enables filtering across the borders of the faces.
   void bind() const;
 
  private:

@@ -10,16 +10,16 @@
 
 namespace terrella {
 
-/// Antialiases the outline of the ground against what has no depth, where it is not the limb's curve: of mountains. By
-/// the picture alone: shaders/surface/outline.frag. thread: main
+/// Antialiases the outline of the ground, mountains for example, against pixels without depth where LimbPass does not.
+/// Uses only the picture: shaders/surface/outline.frag. thread: main
 class OutlinePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<OutlinePass>> create();
 
-  /// Blends the outline into the framebuffer that is bound, without a depth test; `no_depth` is the depth of nothing.
-  /// Returns the draw calls made.
+  /// Blends the outline into the bound framebuffer, without a depth test. `no_depth` is the depth of empty pixels.
+  /// Returns the number of draw calls.
   int draw(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth) const;
-  /// The same where the framebuffer that is bound is the picture's own, as LimbPass::draw_in_place().
+  /// The same if the bound framebuffer contains the picture itself, as LimbPass::draw_in_place().
   int draw_in_place(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth,
                     const FrameTargets::Beside& beside, GLuint framebuffer) const;
 

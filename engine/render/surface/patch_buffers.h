@@ -9,21 +9,21 @@
 
 namespace terrella {
 
-/// The vertices of recently drawn patches in one GPU buffer of equal places, and the index lists that all share.
-/// thread: main
+/// The vertices of recently drawn patches in one GPU buffer with places of equal size, and the index lists that all
+/// share. thread: main
 class PatchBuffers {
  public:
   explicit PatchBuffers(PatchTree& tree);
 
-  /// The patch's place (vertices from place · vertices_per_patch()), filled if it was not there or its heights have
-  /// changed; the place of the patch drawn longest ago gives way. Places asked for in one frame stay: the buffer grows
-  /// where one frame needs more.
+  /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there or if
+  /// its heights have changed, in place of the patch drawn longest ago. Places used in the current frame are kept: the
+  /// buffer grows if one frame needs more.
   [[nodiscard]] int place_of(const PatchNode& node, std::uint64_t frame);
 
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
   [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
-  [[nodiscard]] GLuint slope_buffer() const { return slopes_.name(); }  ///< two floats a vertex; with relief only
+  [[nodiscard]] GLuint slope_buffer() const { return slopes_.name(); }  ///< two floats per vertex; only with relief
   [[nodiscard]] GLuint index_buffer() const { return index_buffer_.name(); }
 
  private:

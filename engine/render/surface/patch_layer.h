@@ -7,15 +7,15 @@
 
 namespace terrella {
 
-/// What the patches of one image layer are drawn from, on the GPU. PatchPass makes and fills it, once a frame.
+/// The GPU data from which the patches of one image layer are drawn. PatchPass makes it, and fills it once per frame.
 /// thread: main
 struct PatchLayer {
-  /// What draws patches, in that order.
+  /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, oblique, polar, paper, kPrograms };
 
-  std::unique_ptr<PatchBuffers> vertices;  ///< none: those of the first layer serve
+  std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the first layer
   gl::Buffer draws, commands, cells;
-  gl::Buffer frame_block;  ///< of a further layer
+  gl::Buffer frame_block;  ///< used for layers over the first
   gl::Texture cells_texture;
   int first_command[kPrograms + 1] = {};
   long triangles = 0;

@@ -12,7 +12,7 @@
 namespace terrella {
 namespace {
 
-/// glMultiDrawElementsIndirect's record.
+/// The record that glMultiDrawElementsIndirect reads.
 struct DrawCommand {
   GLuint count;
   GLuint instances;
@@ -21,9 +21,10 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Three taps over the pixel serve footprints of up to this many texels well enough (shaders/surface/patch_plain.frag).
+// Largest footprint, in texels, for which three taps per pixel are accurate enough (shaders/surface/patch_plain.frag).
 constexpr double kPlainFootprint_texels = 12.0;
-// Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
+// With a footprint under this many texels, a pixel lies within one bilinear cell, and one tap at full precision
+// suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 constexpr std::string_view kFirstLayer = "FIRST_LAYER";
 
@@ -45,7 +46,7 @@ void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
 
 Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, bool has_relief) {
   std::unique_ptr<PatchPass> pass(new PatchPass(options, has_relief));
-  if (!options.functions && options.texturing != Texturing::vertex) {  // where coordinates are not interpolated
+  if (!options.functions && options.texturing != Texturing::vertex) {  // only if coordinates are computed per fragment
     const Result<ShaderFunctions> chosen = choose_shader_functions();
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
@@ -119,8 +120,8 @@ void PatchPass::set_up_vertex_array() {
 
 void PatchPass::set_up_samplers() {
   bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE);
-  // No look-up leaves the slot, so the wrap mode changes no texel; but Mesa's software rasteriser blends texels with
-  // eight bits for the common modes and in float for this one.
+  // No look-up leaves the slot, so the wrap mode changes no texel. But Mesa's software rasteriser blends texels with
+  // eight bits for the common modes, and in float for this one.
   precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
   mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
 }

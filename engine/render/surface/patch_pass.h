@@ -19,14 +19,14 @@
 
 namespace terrella {
 
-/// What fixes the programs; another choice is another renderer.
+/// Options that determine the programs. Changing them needs a new renderer.
 struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
   double paper_a = 4.0;
   double paper_band = 0.05;
-  bool night_lights = false;                      ///< the surface by day and night; the caller binds NightLights
-  std::optional<ShaderFunctions> functions = {};  ///< none: the driver's, if they are good enough
+  bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
+  std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
 
 struct FrameCounts {
@@ -34,30 +34,30 @@ struct FrameCounts {
   long triangles = 0;
 };
 
-/// Draws the surface's patches, layer by layer. Owns their programs. The caller has bound the framebuffer and the
-/// frame's uniform block and has set depth, stencil, blending and which faces are culled. thread: main (of the context)
+/// Draws the surface's patches, layer by layer, and owns their programs. The caller binds the framebuffer and the
+/// frame's uniform block, and sets depth, stencil, blending and face culling. thread: main
 class PatchPass {
  public:
-  /// `has_relief`: patches have slopes.
+  /// `has_relief` means that patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Makes the programs of layers over the first, once; before any is drawn. Special ones show on one side of the
-  /// terminator, or take alpha from brightness: FrameBlock::layer_look.
+  /// Builds the programs of layers over the first, once, before any of these layers is drawn. Special layers show on
+  /// one side of the terminator, or take alpha from brightness: FrameBlock::layer_look.
   Status prepare_further(bool special);
 
-  /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one; `vertices` are the layer's own or those
-  /// of the patches' surface.
+  /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
+  /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// Program by program; opaque.
+  /// Draws a layer opaquely, program by program.
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
             FrameCounts& counts) const;
-  /// The same premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
+  /// The same, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
   void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
                     FrameCounts& counts) const;
-  /// Depth alone, in one call; the depths are the bits that draw() makes.
+  /// Draws depth only, in one call. The depths equal those of draw() to the bit.
   void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
-  /// The same in opaque black. After prepare_further().
+  /// The same in opaque black. Requires prepare_further().
   void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
 
  private:

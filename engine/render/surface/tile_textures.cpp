@@ -11,7 +11,7 @@ namespace {
 constexpr int kFirstSlots = 128;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
-/// Texels around the planet in the tiles of a level and squeeze, if that is a whole number.
+/// Returns the number of texels around the planet in the tiles of a level and squeeze, if that number is whole.
 std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
   const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
   const double whole = std::round(exact);
@@ -19,7 +19,8 @@ std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int s
   return static_cast<std::int64_t>(whole);
 }
 
-/// The tile beside another of the same squeeze, over ±180° too; nothing where columns do not close.
+/// Returns the neighbour of a tile in a row of the same squeeze, also across ±180°; nothing if the columns do not close
+/// there.
 std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int dy) {
   TileId other{id.level, id.x + dx, id.y + dy, id.squeeze};
   const std::int64_t across = squeezed_columns(grid, id.level, id.squeeze);
@@ -64,7 +65,7 @@ void TileTextures::set_budget(std::size_t bytes) {
   if (slots_ > most_slots_) shrink();
 }
 
-// The tiles of the coarsest level come first, then those drawn last.
+// Keeps the tiles of the coarsest level first, then the most recently drawn.
 void TileTextures::shrink() {
   std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
   for (auto& [id, entry] : residency_.entries()) {
@@ -169,7 +170,7 @@ void TileTextures::join_gutters(const TileId& id) {
   }
 }
 
-// With the neighbours of a row that is squeezed as much.
+// Joins gutters with the neighbours in a row of the same squeeze.
 void TileTextures::join_row(const TileId& id, int dy) {
   for (int dx = -1; dx <= 1; ++dx) {
     if (dx == 0 && dy == 0) continue;
@@ -180,7 +181,7 @@ void TileTextures::join_row(const TileId& id, int dy) {
   }
 }
 
-// A wide tile and one of the two narrower ones that lie along its side `dy`.
+// Joins gutters of a wide tile and one of the two narrower tiles along its side `dy`.
 void TileTextures::join_squeezed(const TileId& wide, const TileId& narrow, int dy) {
   if (!is_resident(wide) || !is_resident(narrow)) return;
   const int half = static_cast<int>(narrow.x & 1);
@@ -188,8 +189,8 @@ void TileTextures::join_squeezed(const TileId& wide, const TileId& narrow, int d
   stretch_gutter(narrow, wide, -dy, half);
 }
 
-// Fills the gutter on side `dy` from a tile twice or half as wide: bilinear filtering takes the mean of two texels that
-// become one, and draws the line between two that become four.
+// Fills the gutter on side `dy` from a tile twice or half as wide. Bilinear filtering averages two texels into one, or
+// interpolates two texels into four.
 void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy, int half) {
   if (!stretch_from_) {
     stretch_from_ = gl::make_framebuffer();
@@ -212,10 +213,10 @@ void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy
   }
 }
 
-// Copies the strip of `from` that lies next to `into` on side (dx, dy) into that side's gutter, on every mip.
+// Copies the strip of `from` beside `into` on side (dx, dy) into that side's gutter, on every mip.
 void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, int dy) {
   const int to_layer = residency_.entry(into).slot, from_layer = residency_.entry(from).slot;
-  // Where the last column reaches over +180° its own texels end before its edge.
+  // If the last column extends over +180°, its own texels end before its edge.
   int end_px = grid_.tile_px;
   const std::int64_t across = squeezed_columns(grid_, into.level, into.squeeze);
   if (dx < 0 && into.x == 0) {

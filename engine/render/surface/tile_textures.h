@@ -11,38 +11,38 @@
 
 namespace terrella {
 
-/// Where texels lie in a texture slot: tile_px of them behind a gutter, slot_px a side.
+/// The layout of a texture slot: tile_px texels per side inside a gutter, slot_px per side in total.
 struct SlotLayout {
   int tile_px = 256;
   int gutter_px = 8;
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
-  /// What a tile fills of a slot's mip: less than all where halves of the gutter are not whole.
+  /// Texels per side that a tile fills in a slot's mip: less than the mip's size if the gutter does not halve evenly.
   [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
-/// Texture slots for tiles: one array texture that grows up to a budget, least recently drawn first out. Slot 0 is a
-/// plain colour or transparent, for where there is no imagery. A slot's gutter holds the neighbours' texels as they
-/// come, so that filtering at a tile's border sees what lies beyond it. thread: main
+/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. Slot
+/// 0 is a plain colour or transparent, for places without imagery. A slot's gutter receives the texels of neighbouring
+/// tiles as they arrive, so that filtering continues across a tile's border. thread: main
 class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
 
-  /// What slot 0 is; the plain colour at first.
+  /// The content of slot 0; at first the plain colour.
   enum class Empty { plain_colour, transparent };
   void set_empty(Empty empty);
-  /// From now on; what was drawn longest ago gives way at once where there is less room.
+  /// Sets the budget and evicts the tiles drawn longest ago if there is less room.
   void set_budget(std::size_t bytes);
 
-  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels a side, RGBA8 (engine/tiles/tile_texels.h). The
-  /// tile drawn longest ago gives way if the budget is used up; tiles of the coarsest level and of `frame` never do.
-  /// False: no room.
+  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels per side, RGBA8 (tiles/tile_texels.h). If the
+  /// budget is used up, evicts the tile drawn longest ago, but never a tile of the coarsest level or of `frame`. False
+  /// if there is no room.
   bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
 
   [[nodiscard]] TileResidency& residency() { return residency_; }
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   [[nodiscard]] int mips() const { return mips_; }
-  [[nodiscard]] int capacity() const { return most_slots_; }  ///< tiles that the budget has room for
+  [[nodiscard]] int capacity() const { return most_slots_; }  ///< number of tiles that fit in the budget
   [[nodiscard]] std::size_t slot_bytes() const;
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
 
@@ -68,7 +68,7 @@ class TileTextures {
   Empty empty_ = Empty::plain_colour;
   std::vector<int> free_;
   gl::Texture texture_;
-  gl::Framebuffer stretch_from_, stretch_into_;  ///< there once rows of different squeeze met
+  gl::Framebuffer stretch_from_, stretch_into_;  ///< made when rows of different squeeze first meet
   TileResidency residency_;
 };
 
