@@ -12,46 +12,48 @@
 
 namespace terrella {
 
-/// Parts of a picture in order, rows from the north-west.
+/// Arrangement of the parts of one picture. Parts are given in rows from the north-west.
 struct MosaicGrid {
   int columns = 1;
   int rows = 1;
 };
 
-/// Heights instead of colours. For pictures of whole numbers `scale` and `offset` say what a number means (metres =
-/// number · scale + offset; default: metres) and tiles keep the numbers. 32-bit floats are metres, and the two say how
-/// tiles keep them; default: so that 65535 numbers span all heights.
+/// Makes the cut treat the picture as heights instead of colours.
+/// Pictures of whole numbers: `scale` and `offset` give their meaning, metres = number · scale + offset (default:
+/// metres). Tiles keep the numbers.
+/// 32-bit floats are metres: `scale` and `offset` define how tiles store them. By default 65535 numbers span all
+/// heights.
 struct CutElevation {
   std::optional<double> scale = {};
   std::optional<double> offset = {};
-  std::optional<double> nodata = {};  ///< the value in the picture that says that there is no height; NaN always does
+  std::optional<double> nodata = {};  ///< picture value that means "no height"; NaN always does
 };
 
-/// One of `count` machines that cut the same picture.
+/// One of `count` machines that cut the same picture together.
 struct CutShard {
-  int index = 1;  ///< from 1
+  int index = 1;  ///< starts at 1
   int count = 1;
 };
 
 struct CutOptions {
-  std::vector<std::filesystem::path> images{};  ///< several are the parts of one picture (streaming/cut/README.md)
-  std::filesystem::path output{};               ///< *.gpkg: a GeoPackage; else a directory
+  std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;
   std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency, else JPEG
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
-  /// Default: what the picture says of itself (streaming/georeference), else the whole planet, and then it must be 2:1.
-  /// East < west crosses ±180°.
+  /// Default: the place stated by the picture itself (streaming/georeference). Without one the picture is the whole
+  /// planet and must be 2:1. East < west crosses ±180°.
   std::optional<GeoRect> bounds{};
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
   std::string name{}, attribution{}, body{};
-  int jobs = 0;                        ///< encoders; 0: as many as cores
-  std::optional<CutShard> shard = {};  ///< cut that part alone, into OUTPUT.shard-I-of-N
-  bool join = false;                   ///< make the output of the shards that lie beside it
-  bool force = false;                  ///< replaces a tile set that was cut from other pictures, too
-  /// Called from the calling thread with rows done and rows in all; false asks to stop.
+  int jobs = 0;                        ///< number of encoder threads; 0: one for each core
+  std::optional<CutShard> shard = {};  ///< cuts only this part, into OUTPUT.shard-I-of-N
+  bool join = false;                   ///< builds the output from the finished shards beside it
+  bool force = false;                  ///< also replaces a tile set that was cut from other pictures
+  /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
 };
 
@@ -61,19 +63,20 @@ struct CutSummary {
   std::int64_t bytes = 0;
 };
 
-/// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory
-/// does not grow with its height), the source's own pixels at the finest level (root span = tile_px · pixel size ·
-/// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
-/// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
-/// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
-/// same; the result is the same bytes.
+/// Cuts a picture into a tile set in one streaming pass over its rows. With `shard`, cuts only a part of it. Memory
+/// does not grow with the height of the picture.
+/// The finest level keeps the source's own pixels: root span = tile_px · pixel size · 2^L. Coarser levels are averaged
+/// with weights that are right on the sphere (cos of latitude; wrap at ±180°).
+/// The output gets its name only when it is complete. It replaces nothing but an earlier output of cut()
+/// (streaming/cut/README.md, "Replacing an output").
+/// A cut resumes after a killed run if options and pictures are the same. The result has the same bytes.
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
-/// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output.
+/// Reports the errors that cut() would report before it reads a pixel. Looks at the pictures only, not at the output.
 [[nodiscard]] Status check_pictures(const CutOptions& options);
 
-/// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
-/// change.
+/// Returns the GeoPackage for an image file in the cache directory. Cuts the image the first time, and later finds the
+/// result by path, size and time of change.
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

@@ -12,20 +12,20 @@ namespace terrella {
 enum class FileProblem { missing, too_large, unreadable };
 struct FileError {
   FileProblem problem = FileProblem::unreadable;
-  std::string message;  ///< names the path
+  std::string message;  ///< includes the path
 };
 
-/// The bytes of a regular file, at most `max_bytes`; a larger one is refused before it is read. thread: any
+/// Reads a regular file of at most `max_bytes`. Refuses a larger file before reading it. thread: any
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
 
-/// The first bytes of a regular file, at most `max_bytes`. thread: any
+/// Reads at most the first `max_bytes` of a regular file. thread: any
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
 
-/// Why a write failed with this errno, and what to do: "No space left on device; make room, …". thread: any
+/// Explains why a write failed with this errno, and gives a cure: "No space left on device; make room, …". thread: any
 [[nodiscard]] std::string why_not_written(int error_number);
-/// The first part of it. Names the limit on the size of files that is in force if that is the reason. thread: any
+/// The reason alone, without the cure. Names the limit on file size if that limit caused the failure. thread: any
 [[nodiscard]] std::string write_failure(int error_number);
 
 }  // namespace terrella

@@ -9,24 +9,26 @@
 
 namespace terrella {
 
-/// Builds a JSON document from nlohmann's parser, in time that grows with the text alone. The parser's own callbacks
-/// look through a whole array after each of its objects, which takes the square of their number.
+/// Builds a JSON document from the events of nlohmann's parser, in time linear in the length of the text. nlohmann's
+/// own callback parser scans a whole array after each of its objects, which takes quadratic time.
 /// Use: `nlohmann::json::sax_parse(text, &builder)`. thread: one
 class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   enum class Problem { none, syntax, number, too_deep, too_much };
   struct Limits {
-    std::size_t depth = 0;   ///< containers around a value
-    std::size_t pieces = 0;  ///< values, keys, begins and ends of containers, since the last value that was not kept
+    std::size_t depth = 0;  ///< nesting: number of containers around a value
+    /// values, keys, and begins and ends of containers, counted since the last value that was dropped
+    std::size_t pieces = 0;
   };
-  /// Asked for each complete value with at most two containers around it: keep it? `member`: of the document.
+  /// Called for each complete value with at most two containers around it. Returns true to keep the value. `member` is
+  /// the current key of the document's outermost object.
   using Keep = std::function<bool(std::size_t depth, const std::string& member, nlohmann::json& value)>;
 
   explicit JsonBuilder(Limits limits, Keep keep = {}) : limits_(limits), keep_(std::move(keep)) {}
 
-  /// The document; whole if sax_parse() returned true.
+  /// The document. It is complete if sax_parse() returned true.
   [[nodiscard]] nlohmann::json& document() { return document_; }
-  /// Why sax_parse() returned false: no JSON at byte(), a number that does not fit, or a limit.
+  /// The reason why sax_parse() returned false: a syntax error at byte(), a number out of range, or a limit.
   [[nodiscard]] Problem problem() const { return problem_; }
   [[nodiscard]] std::size_t byte() const { return byte_; }
 
@@ -55,10 +57,10 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   Limits limits_;
   Keep keep_;
   nlohmann::json document_;
-  std::vector<nlohmann::json*> open_;  ///< containers, the outermost first
-  std::string key_;                    ///< of the value that follows
-  std::string member_;                 ///< the last key of the outermost object
-  std::vector<std::string> keys_;      ///< of the open containers in theirs
+  std::vector<nlohmann::json*> open_;  ///< open containers, outermost first
+  std::string key_;                    ///< key of the value that follows
+  std::string member_;                 ///< last key of the outermost object
+  std::vector<std::string> keys_;      ///< keys of the open containers in their parents
   std::size_t pieces_ = 0;
   Problem problem_ = Problem::none;
   std::size_t byte_ = 0;

@@ -16,12 +16,12 @@ namespace terrella {
 
 inline constexpr std::size_t kMaxJsonTextBytes = 16384;
 
-/// Parses text that must hold one JSON object of at most `max_bytes`. The error begins with `where`. thread: any
+/// Parses text that must hold one JSON object of at most `max_bytes`. Error messages begin with `where`. thread: any
 [[nodiscard]] Result<nlohmann::json> parse_json_object(std::string_view text, std::size_t max_bytes,
                                                        const std::string& where);
 
-/// Reads the fields of one JSON object; the first one that is wrong is kept as the error, which names `where` and the
-/// field. A field that is null is one that is not there. Both arguments must outlive it. thread: one
+/// Reads the fields of one JSON object. Keeps the first error, which names `where` and the field. Treats a null field
+/// as missing. Both constructor arguments must outlive this object. thread: one
 class JsonFields {
  public:
   JsonFields(const nlohmann::json& object, const std::string& where) : object_(object), where_(where) {}
@@ -29,17 +29,17 @@ class JsonFields {
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   [[nodiscard]] bool has(const char* field) const;
-  std::string text(const char* field);  ///< empty if it is not there
-  /// `otherwise` stands for a field that is not there; none: it must be.
+  std::string text(const char* field);  ///< empty if the field is missing
+  /// Returns `otherwise` if the field is missing. Without `otherwise` the field is required.
   int integer(const char* field, std::optional<int> otherwise);
-  double number(const char* field);  ///< must be there
-  /// One of a few words, as its place among them.
+  double number(const char* field);  ///< required
+  /// Reads one of a few words and returns its index among them.
   int choice(const char* field, std::span<const char* const> words, std::optional<int> otherwise);
-  /// One of two words, as 0 or 1.
+  /// Reads one of two words, as 0 or 1.
   int choice(const char* field, const char* first, const char* second, std::optional<int> otherwise);
-  GeoRect bounds(const char* field);                       ///< degrees; the planet if it is not there
-  std::vector<std::string> texts(const char* field);       ///< empty if it is not there
-  void refuse_others(std::span<const char* const> known);  ///< any field that is not among these is wrong
+  GeoRect bounds(const char* field);                       ///< degrees; the whole planet if the field is missing
+  std::vector<std::string> texts(const char* field);       ///< empty if the field is missing
+  void refuse_others(std::span<const char* const> known);  ///< reports an error for any other field
 
   template <class T>
   T fail(const char* field, const std::string& what) {

@@ -6,14 +6,14 @@
 
 namespace terrella {
 
-/// Text as one word for a shell, in quotes if it needs them. thread: any
+/// Returns the text as one shell word, quoted if necessary. thread: any
 [[nodiscard]] std::string shell_word(const std::string& text);
 
-/// How many first bytes convert_hint() looks at.
+/// Number of leading bytes that convert_hint() examines.
 inline constexpr std::size_t kFormatHeadBytes = 512;
 
-/// What to do with a file that is no picture that is read here, by its first bytes: "it is JPEG 2000; make a picture of
-/// it that is read: gdal_translate -of COG …", or "" for bytes of no raster format that GDAL reads and we do not.
+/// Advice for a picture file in an unsupported format, found by its first bytes: "it is JPEG 2000; make a picture of it
+/// that is read: gdal_translate -of COG …". Empty if the bytes belong to no raster format that only GDAL reads.
 /// thread: any
 [[nodiscard]] std::string convert_hint(const std::filesystem::path& path, std::string_view head);
 

@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// What descriptions of tile sets call the projections, in the order of the enumeration.
+/// Names of the projections in descriptions of tile sets, in the order of the enumeration.
 inline constexpr std::array kProjectionNames = {"equirectangular", "equal-area", "web-mercator"};
 
 [[nodiscard]] inline const char* projection_name(Projection projection) {

@@ -12,30 +12,30 @@
 
 namespace terrella {
 
-/// A record as the file has it.
+/// A record as stored in the file.
 struct FoundRecord {
   CacheRecord record;
-  std::optional<std::int64_t> row;   ///< of a tile
-  std::optional<std::int64_t> used;  ///< none: pinned tile or absence
+  std::optional<std::int64_t> row;   ///< id of the tile's row
+  std::optional<std::int64_t> used;  ///< time of last use; none: a pinned tile or an absence
 };
 
-/// Looks tiles up, each reader on a connection of its own. thread: any, several at once
+/// Looks tiles up. Each lookup in progress has its own connection. thread: any, several at once
 class CacheReaders {
  public:
   explicit CacheReaders(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Without `bytes` the record's bytes stay empty.
+  /// If `bytes` is false, the record's bytes stay empty.
   [[nodiscard]] Result<std::optional<FoundRecord>> find(const TileId& id, bool bytes);
-  /// Records without bytes of the rows [first_y, last_y] of a column, from the north.
+  /// Returns the records of the rows [first_y, last_y] of a column, from the north, without tile bytes.
   [[nodiscard]] Result<std::vector<std::pair<std::int64_t, FoundRecord>>> find_column(int level, std::int64_t x,
                                                                                       std::int64_t first_y,
                                                                                       std::int64_t last_y);
-  void close();  ///< ends idle connections
+  void close();  ///< closes idle connections
 
  private:
   struct Connection {
     SqliteReader reader;
-    SqliteQuery whole;  ///< with the tile's bytes
+    SqliteQuery whole;  ///< returns the tile's bytes too
     SqliteQuery brief;
     SqliteQuery column;
   };

@@ -12,27 +12,28 @@
 
 namespace terrella {
 
-/// What a cache holds. thread: any
+/// Summary of a cache's content. thread: any
 struct CacheReport {
   TileSetInfo info;
   std::string source_key;
   std::int64_t tiles = 0;
   std::int64_t expired_tiles = 0;
-  std::int64_t pinned_tiles = 0;                   ///< of the coarsest level, or preloaded: never evicted
-  std::uint64_t used_bytes = 0;                    ///< of the file, without pages that are free
-  std::array<std::int64_t, 4> absences{};          ///< by Absence
-  std::array<std::int64_t, 4> expired_absences{};  ///< of them
-  /// Of verify_cache(): what is wrong with the database, in SQLite's words; empty: it is sound.
+  std::int64_t pinned_tiles = 0;                   ///< tiles of the coarsest level and preloaded tiles; never evicted
+  std::uint64_t used_bytes = 0;                    ///< size of the file without free pages
+  std::array<std::int64_t, 4> absences{};          ///< number of each kind of Absence
+  std::array<std::int64_t, 4> expired_absences{};  ///< the expired part of `absences`
+  /// Set by verify_cache(): faults of the database, in SQLite's words. An empty list means a sound database.
   std::optional<std::vector<std::string>> problems;
 };
 
-/// True if the file says that it is a cache.
+/// True if the file declares itself a cache.
 [[nodiscard]] bool is_cache(const std::filesystem::path& path);
 
-/// Counts what is in a cache, which may be in use. Nothing is written. The error names the path.
+/// Counts the content of a cache, which may be in use. Writes nothing. The error contains the path.
 [[nodiscard]] Result<CacheReport> read_cache_report(const std::filesystem::path& path, std::int64_t now_unix_s);
 
-/// The same, and reads every page of the database (PRAGMA integrity_check): seconds for each gigabyte.
+/// Like read_cache_report(), but also reads every page of the database (PRAGMA integrity_check). Takes seconds per
+/// gigabyte.
 [[nodiscard]] Result<CacheReport> verify_cache(const std::filesystem::path& path, std::int64_t now_unix_s);
 
 }  // namespace terrella

@@ -9,31 +9,32 @@
 
 namespace terrella {
 
-/// The statements that change a cache's rows. Transactions are the caller's. thread: the connection's
+/// Prepared statements that change the rows of a cache. The caller begins and ends transactions.
+/// thread: the connection's
 class CacheRows {
  public:
-  /// Tiles of `root_level` are pinned: they get no last use, so that they are never evicted.
+  /// Tiles of `root_level` are pinned: they have no last use and are never evicted.
   [[nodiscard]] static WriteResult<CacheRows> prepare(SqliteWriter& database, int root_level);
 
-  /// Puts a record in the place of what was known of the tile; but an absence never takes the place of a tile: then it
-  /// only says when the tile expires (`failed` not even that). A tile that was pinned stays pinned.
+  /// Replaces the record of a tile. An absence never replaces a stored tile: the tile then takes the absence's expiry
+  /// (`failed` changes nothing). A pinned tile stays pinned.
   [[nodiscard]] WriteStatus put(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s);
   [[nodiscard]] WriteStatus renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires);
-  /// Pins or releases the tiles of a run. Returns how many changed.
+  /// Pins or releases the tiles of a run. Returns the number of changed tiles.
   [[nodiscard]] WriteResult<std::int64_t> pin(const TileId& first, const PinRun& run);
-  /// The size of a tile that is there, else 0.
+  /// Size of a stored tile; 0 if there is none.
   [[nodiscard]] WriteResult<std::int64_t> tile_bytes(const TileId& id);
-  /// `row` is the tile's id in the table; a later use that is there stays.
+  /// `row` is the tile's id in the table. A later use that is already stored is kept.
   [[nodiscard]] WriteStatus note_use(std::int64_t row, std::int64_t used_unix_s);
-  /// Deletes up to `most` tiles that are not pinned and were used longest ago, and absences that are as old. Returns
-  /// how many rows.
+  /// Deletes up to `most` unpinned tiles, least recently used first, and absences of the same age. Returns the number
+  /// of deleted rows.
   [[nodiscard]] WriteResult<std::int64_t> evict(int most);
 
-  /// What is known of a place: when it was stored.
+  /// Storage times of a place.
   struct Known {
     std::optional<std::int64_t> tile_stored;
     std::optional<std::int64_t> absence_stored;
-    bool failed = false;  ///< the absence is of that kind
+    bool failed = false;  ///< the absence is of kind `failed`
   };
   [[nodiscard]] WriteResult<Known> known(const TileId& id);
 
@@ -69,11 +70,11 @@ class CacheRows {
     kTileBytes,
     kCount
   };
-  [[nodiscard]] WriteResult<std::int64_t> number(Which which);  ///< the first column of the first row, else 0
+  [[nodiscard]] WriteResult<std::int64_t> number(Which which);  ///< first column of the first row; 0 without a row
 
   SqliteWriter* database_;
   int root_level_;
-  std::vector<SqliteStatement> statements_;  ///< by Which
+  std::vector<SqliteStatement> statements_;  ///< indexed by Which
 };
 
 }  // namespace terrella

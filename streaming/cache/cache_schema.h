@@ -10,40 +10,42 @@
 
 namespace terrella {
 
-/// The side tables of a cache; columns in README.md.
-inline constexpr const char* kCacheTable = "terrella_cache";                   ///< key, value: 'version', 'source'
-inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";        ///< one row for each tile, by its id
-inline constexpr const char* kCacheAbsencesTable = "terrella_cache_absences";  ///< places without a tile, and why
+/// Names of the side tables of a cache; README.md describes the columns.
+inline constexpr const char* kCacheTable = "terrella_cache";  ///< key, value: 'version', 'source'
+/// one row for each tile, keyed by the tile's id
+inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";
+/// places without a tile, and the reason
+inline constexpr const char* kCacheAbsencesTable = "terrella_cache_absences";
 inline constexpr int kCacheVersion = 1;
 inline constexpr std::int64_t kCachePageBytes = 4096;
 
-/// How an absence is named in the file; never change one.
+/// Name of an absence in the file. Never change a name.
 [[nodiscard]] const char* absence_name(Absence kind);
-/// An unknown name is `failed`: it is asked for again.
+/// Returns `failed` for an unknown name; the tile is then requested again.
 [[nodiscard]] Absence absence_named(const std::string& name);
 
-/// Fills an empty database: a GeoPackage and the side tables.
+/// Makes an empty database a GeoPackage with the side tables.
 [[nodiscard]] WriteStatus write_cache_schema(SqliteWriter& database, const TileSetInfo& info,
                                              const std::string& source_key);
 
-/// Makes the file, whole from the first moment that it has its name: no other process sees half of it. A file that has
+/// Creates the file. The file is complete when it gets its name, so no other process sees half of it. A file that has
 /// the name by then is left alone.
 [[nodiscard]] Status create_cache_file(const std::filesystem::path& path, const TileSetInfo& info,
                                        const std::string& source_key);
 
-/// True if the grid has every level that `wanted` has.
+/// True if the grid has every level of `wanted`.
 [[nodiscard]] bool has_levels_of(const TileGrid& grid, const TileGrid& wanted);
 
-/// Adds to a cache the levels of `grid` that it does not have: the rows of its tile matrices, and its own description.
+/// Adds the missing levels of `grid` to a cache: rows of tile matrices, and the cache's own description.
 [[nodiscard]] WriteStatus extend_levels(SqliteWriter& database, const TileGrid& grid);
 
-/// What a database is to us.
+/// Kind of an existing database file.
 enum class FileKind {
   cache,
-  tile_set,  ///< a GeoPackage of somebody's
+  tile_set,  ///< a GeoPackage of another program
   other,     ///< another SQLite database
   newer,     ///< a cache of a later version
-  tampered,  ///< says that it is a cache, and its tables are not those of one
+  tampered,  ///< declares itself a cache, but has other tables
 };
 [[nodiscard]] WriteResult<FileKind> kind_of(SqliteWriter& database);
 

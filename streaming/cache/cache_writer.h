@@ -11,18 +11,20 @@
 
 namespace terrella {
 
-/// Writes batches into a cache, keeps its size and its log within limits. thread: one at a time; the counts any
+/// Writes batches into a cache and keeps the file and its log within their limits.
+/// thread: one at a time; the counts any
 class CacheWriter {
  public:
   [[nodiscard]] static WriteResult<std::unique_ptr<CacheWriter>> make(SqliteWriter database, std::filesystem::path path,
                                                                       int root_level, std::uint64_t max_bytes);
 
-  /// One transaction; on failure nothing of the batch is written. `no_room`, of the batch's size: set for tiles that
-  /// are not written because the limit is reached and nothing is left that may be evicted.
+  /// Writes a batch in one transaction; after an error nothing of the batch is written. `no_room` has one entry for
+  /// each change. An entry is set if its tile was not written because the limit is reached and nothing may be evicted.
   [[nodiscard]] Status write(const CacheBatch& batch, std::vector<bool>& no_room);
-  /// After some idle time: gives space back and empties the log.
+  /// Gives free space back and empties the log. Called after some idle time.
   void tidy();
-  /// Leaves one plain file behind if nobody else has it open: no log, readable where nothing can be written.
+  /// Leaves one plain file without a log if no other connection has it open. The file can then be read from read-only
+  /// media.
   void close();
 
   [[nodiscard]] const CacheBudget& budget() const { return budget_; }
@@ -36,15 +38,15 @@ class CacheWriter {
       : database_(std::move(database)), path_(std::move(path)) {}
   [[nodiscard]] WriteStatus write_rows(const CacheBatch& batch, std::int64_t now_unix_s, std::vector<bool>& no_room);
   [[nodiscard]] WriteStatus write_row(const CacheChange& change, std::int64_t now_unix_s);
-  /// Evicts until so many pages fit; false: they do not, and nothing is left that may be evicted.
+  /// Evicts tiles until this many pages fit. Returns false if they do not fit and nothing more may be evicted.
   [[nodiscard]] WriteResult<bool> make_room(std::int64_t needed_pages);
-  /// Pages by which the file would be over its limit with so many more.
+  /// Number of pages over the limit after `needed_pages` more.
   [[nodiscard]] WriteResult<std::int64_t> pages_too_many(std::int64_t needed_pages);
-  /// A tile that is there gives its place to the new one.
+  /// True if the tile of the change fits under the limit; the tile it replaces frees its space.
   [[nodiscard]] WriteResult<bool> fits(const CacheChange& change);
   [[nodiscard]] WriteStatus give_back_pages();
   void keep_log_short();
-  /// False if it could not be done to its end.
+  /// Returns false if the checkpoint did not complete.
   bool checkpoint(const char* mode, std::chrono::milliseconds patience);
 
   SqliteWriter database_;
@@ -56,8 +58,8 @@ class CacheWriter {
   std::atomic<std::uint64_t> stored_ = 0;
   std::atomic<std::uint64_t> evicted_ = 0;
   std::atomic<std::uint64_t> pins_changed_ = 0;
-  std::uint64_t evicted_now_ = 0;  ///< in the transaction that is open
-  std::uint64_t pins_now_ = 0;     ///< likewise
+  std::uint64_t evicted_now_ = 0;  ///< count of the open transaction
+  std::uint64_t pins_now_ = 0;     ///< count of the open transaction
 };
 
 }  // namespace terrella

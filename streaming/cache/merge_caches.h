@@ -10,19 +10,21 @@
 namespace terrella {
 
 struct MergeSummary {
-  std::int64_t tiles = 0;     ///< in the result
-  std::int64_t absences = 0;  ///< in the result
-  std::int64_t dropped = 0;   ///< records that others in the same place have won over
+  std::int64_t tiles = 0;     ///< tiles in the result
+  std::int64_t absences = 0;  ///< absences in the result
+  std::int64_t dropped = 0;   ///< records that lost against another record of the same place
 };
 
-/// False: stop, leave nothing behind.
+/// Returns false to stop the merge; nothing is left behind.
 using MergeProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
-/// Joins caches of one source into one file, with validators, expiry, last use and absences. Of two records of one
-/// place a tile wins over an absence, else the one stored later. What is pinned in one is pinned in the result. Caches
-/// of different sources or grids are refused by name; levels may differ. The result is made beside `output` and takes
-/// its name once it is whole, so an interrupted merge leaves nothing under that name and can be run again. What has the
-/// name already is replaced only if it is one of the caches. thread: one at a time
+/// Merges caches of one source into one file, with validators, expiry, last use and absences.
+/// If two caches have a record of one place, a tile wins over an absence, otherwise the record stored later wins. A
+/// tile pinned in any cache is pinned in the result. Caches of different sources or grids are refused by name; levels
+/// may differ.
+/// The result is written beside `output` and gets that name when it is complete. An interrupted merge leaves nothing
+/// under that name and can be repeated. An existing file of that name is replaced only if it is one of the caches.
+/// thread: one at a time
 [[nodiscard]] Result<MergeSummary> merge_caches(const std::vector<std::filesystem::path>& caches,
                                                 const std::filesystem::path& output,
                                                 const MergeProgress& progress = {});

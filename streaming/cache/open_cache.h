@@ -11,28 +11,30 @@
 
 namespace terrella {
 
-/// A whole database up to this size is checked on opening (about 0.1 s). Of a larger one only the head and the smallest
-/// table (`terrella_cache`) are: damage in its tiles is met when they are read, and found by `terrella info --verify`.
+/// Databases up to this size are checked completely on opening (about 0.1 s). In a larger database only the header and
+/// the smallest table (`terrella_cache`) are checked. Damage in its tiles appears when they are read, or with `terrella
+/// info --verify`.
 inline constexpr std::uintmax_t kMaxQuickCheckBytes = 64UL << 20;
 
 struct OpenedCache {
-  SqliteWriter database;            ///< with a write-ahead log
-  std::filesystem::path set_aside;  ///< what the damaged file was renamed to; empty: none
+  SqliteWriter database;            ///< uses a write-ahead log
+  std::filesystem::path set_aside;  ///< new name of the damaged file; empty: none
 };
 
-/// Opens the file as the cache of a source, or makes it. A file with fewer levels than `info` says is extended; one
-/// with more stays as it is. Found to be damaged by the look that its size allows: renamed NAME.damaged-N with its log,
-/// and made anew. Refused by name, and left as it is: another source's cache or grid, a tile set that is no cache,
-/// another program's database, a later version's cache.
+/// Opens or creates the cache file of a source.
+/// - A cache with fewer levels than `info` is extended. A cache with more levels stays unchanged.
+/// - A file found damaged by the check for its size is renamed NAME.damaged-N with its log, and a new file is created.
+/// - Other files are refused by name and stay unchanged: a cache of another source or grid, a tile set that is no
+///   cache, a database of another program, a cache of a later version.
 [[nodiscard]] Result<OpenedCache, CacheOpenError> open_cache_database(const std::filesystem::path& path,
                                                                       const TileSetInfo& info,
                                                                       const std::string& source_key,
                                                                       const std::function<void()>& on_locked = {});
 
-/// True if both say that the same tiles lie in the same places: grid and format; names and levels may differ.
+/// True if grid and format are equal, so that the same tiles lie in the same places. Names and levels may differ.
 [[nodiscard]] bool same_tiles(const TileSetInfo& a, const TileSetInfo& b);
 
-/// True if two keys (source_key()) are of one source: equal, or one names more levels than the other.
+/// True if two keys (source_key()) belong to one source: they are equal, or one lists more levels than the other.
 [[nodiscard]] bool same_source(const std::string& a, const std::string& b);
 
 /// "PATH: the cache cannot be written: No space left on device; make space, …"

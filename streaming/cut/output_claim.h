@@ -8,7 +8,7 @@
 
 namespace terrella {
 
-/// A cut that wants a name for its output, which may be taken.
+/// A cut that wants to write an output name, which may be in use.
 struct OutputClaim {
   std::filesystem::path output;
   std::vector<std::filesystem::path> images;
@@ -16,10 +16,12 @@ struct OutputClaim {
   bool force = false;  ///< CutOptions::force
 };
 
-/// Decides if the claim may replace what lies at `there`: under the output's name, or a moment ago. Nothing, an empty
-/// file and an empty folder may be replaced; so may an earlier output of `cut` with the same mark, or, by force, with
-/// another one. Everything else stays: a cache, a GeoPackage or folder with anything that `cut` did not write, a
-/// picture of this cut. The error says what lies there and what to do. Follows links. thread: any
+/// Decides if the cut may replace `there`, which has, or had a moment ago, the output's name. Follows links.
+/// thread: any
+/// - May be replaced: nothing, an empty file, an empty folder, an earlier output of `cut` with the same mark, and by
+///   force one with another mark.
+/// - Must stay: everything else, such as a cache, a picture of this cut, or a GeoPackage or folder with content that
+///   `cut` did not write. The error says what `there` is and what to do.
 [[nodiscard]] Status may_replace(const OutputClaim& claim, const std::filesystem::path& there);
 
 }  // namespace terrella

@@ -13,55 +13,57 @@
 
 namespace terrella {
 
-/// What the four bytes of a pixel in a strip are.
+/// Meaning of the four bytes of a pixel in a strip.
 enum class PixelKind {
   opaque,  ///< RGBA8, every alpha 255
   alpha,   ///< RGBA8, not premultiplied
-  height,  ///< as read: a 32-bit float, NaN where there is none; in a finished row: 16 bits
-           ///< (streaming/cut/input/heights.h)
+  /// Pixels as read: a 32-bit float, NaN for no height. Pixels of a finished row: 16 bits
+  /// (streaming/cut/input/heights.h).
+  height,
 };
 
-/// The part of a pyramid that one Pyramid makes.
+/// Levels and rows that one Pyramid makes.
 struct PyramidPart {
   int coarsest = 0;
   int finest = 0;
-  std::int64_t first_row = 0;  ///< at the finest of these levels; a multiple of tile_px · 2^(finest - coarsest), or
-                               ///< above the picture
+  /// First row at the finest of these levels: a multiple of tile_px · 2^(finest - coarsest), or a row above the
+  /// picture.
+  std::int64_t first_row = 0;
   PixelKind pixels = PixelKind::opaque;
-  std::optional<std::uint16_t> nodata = {};  ///< of heights
+  std::optional<std::uint16_t> nodata = {};  ///< for heights only
 };
 
-/// Takes rows from the top and gives the strips of a part's levels, each as soon as its last row is known, and the rows
-/// of the level above, from which another Pyramid goes on to the same bytes. Holds one strip and two rows of each
-/// level.
+/// Builds the levels of a pyramid part. Takes rows from the top. Emits each strip as soon as its last row is known, and
+/// the rows of the next coarser level. Another Pyramid continues from those rows to the same bytes. Holds one strip and
+/// two rows of each level.
 ///
-/// A coarse pixel is the mean of the 2×2 finer ones weighted by their area on the sphere (streaming/cut/README.md).
-/// Where a level's width is odd the last column's partner lies beyond +180°, which is the first column, or between the
-/// first two where an earlier odd width has shifted them; longitude of x is that of x · 2^s modulo the picture's width.
-/// Pixels of a strip outside the picture repeat its nearest row and column, or go round the planet.
-/// thread: one at a time
+/// A coarse pixel is the mean of 2×2 finer pixels, weighted by their area on the sphere (streaming/cut/README.md). If
+/// the width of a level is odd, the partner of the last column lies beyond +180°. The partner is the first column, or
+/// lies between the first two columns if an earlier odd width shifted them. The longitude of x is that of x · 2^s
+/// modulo the picture's width. Pixels of a strip outside the picture repeat the nearest row and column, or wrap round
+/// the planet. thread: one at a time
 class Pyramid {
  public:
   using TakeStrip = std::function<void(std::shared_ptr<const Strip>)>;
-  /// A row of the level above the coarsest as floats, premultiplied, with its area.
+  /// Receives a row of the level above the coarsest, as premultiplied floats, with its area.
   using TakeRow = std::function<void(double area, std::span<const float> row)>;
   Pyramid(const CutPlan& plan, const PyramidPart& part, StripPool& pool, TakeStrip take_strip, TakeRow take_row);
 
-  /// The most that the strips under construction take together, and a finest strip alone.
+  /// Most memory of all strips in progress, and memory of one finest strip.
   [[nodiscard]] static std::size_t strip_bytes(const CutPlan& plan, const PyramidPart& part);
   [[nodiscard]] static std::size_t finest_strip_bytes(const CutPlan& plan);
-  /// Floats in a row that another part gives for this level.
+  /// Floats in a row that another part hands over for this level.
   [[nodiscard]] static std::size_t row_floats(const CutPlan& plan, int level);
 
-  /// Where the next row of the picture is to be written, 4 · width bytes; then row_written(). For a part that has the
+  /// Buffer for the next row of the picture, 4 · width bytes; call row_written() after filling it. For a part with the
   /// picture's finest level.
   [[nodiscard]] std::span<std::uint8_t> next_row();
   void row_written();
-  /// The next row of the finest of these levels, from the part below.
+  /// Adds the next row of the finest of these levels, from the part below.
   void put_row(double area, std::span<const float> row);
 
  private:
-  /// What stands at a column beyond the last: (1 - share) of `column` and `share` of the one after it.
+  /// Source of a column beyond the last: (1 - share) of `column` plus `share` of the next column.
   struct WrappedColumn {
     std::int64_t column;
     float share;
@@ -70,13 +72,13 @@ class Pyramid {
     int level = 0;
     PixelRect px{};
     Strip shape;               ///< without pixels and row
-    std::int64_t lead_px = 0;  ///< from the strip's first pixel to the picture's
-    float first_cover = 1.0F;  ///< the part of the first and last column that the picture covers
+    std::int64_t lead_px = 0;  ///< pixels from the left edge of the strip to the left edge of the picture
+    float first_cover = 1.0F;  ///< fraction of the first and last column that the picture covers
     float last_cover = 1.0F;
-    std::vector<WrappedColumn> beyond;  ///< from px.x1 on
-    std::int64_t y = 0;                 ///< the next row
+    std::vector<WrappedColumn> beyond;  ///< columns from px.x1 on
+    std::int64_t y = 0;                 ///< next row
     std::shared_ptr<Strip> strip;
-    std::array<std::vector<float>, 2> rows;  ///< the last even and odd row, premultiplied
+    std::array<std::vector<float>, 2> rows;  ///< last even and last odd row, premultiplied
     std::array<double, 2> areas{};
     [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(px.x1 - px.x0); }
   };
@@ -104,8 +106,8 @@ class Pyramid {
   StripPool& pool_;
   TakeStrip take_strip_;
   TakeRow take_row_;
-  std::vector<Level> levels_;  ///< from the coarsest
-  Level above_coarsest_;       ///< rows alone
+  std::vector<Level> levels_;  ///< coarsest first
+  Level above_coarsest_;       ///< holds rows only
 };
 
 }  // namespace terrella

@@ -14,11 +14,11 @@ namespace terrella {
 struct Strip {
   int level = 0;
   std::int64_t tile_y = 0;
-  std::int64_t tile_x0 = 0;  ///< column of its first tile
+  std::int64_t tile_x0 = 0;  ///< column of the first tile
   std::int64_t tiles = 0;
   int tile_px = 0;
-  int squeeze = 0;           ///< squeezed tiles of its row span 2^squeeze columns; 0: there are none
-  std::int64_t turn_px = 0;  ///< pixels round the planet; 0: it does not go round
+  int squeeze = 0;           ///< each squeezed tile of this row spans 2^squeeze columns; 0: no squeezed tiles
+  std::int64_t turn_px = 0;  ///< pixels round the planet; 0: the strip does not wrap
   std::vector<std::uint8_t> rgba = {};
 
   [[nodiscard]] std::size_t stride_bytes() const {
@@ -30,16 +30,15 @@ struct Strip {
   }
 };
 
-/// Lends strips and takes their memory back for the next one: fresh pages cost as much as halving does. What is lent
-/// and what is kept for the next ones are bounded together, which is what bounds the cutter's memory.
-/// thread: any. Outlives what it lends.
+/// Lends strips and reuses their memory, because fresh pages cost as much as halving. One limit covers both lent and
+/// kept strips, and thereby bounds the cutter's memory. The pool must outlive its strips. thread: any
 class StripPool {
  public:
   explicit StripPool(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// A strip of that shape, its pixels undefined. Waits until enough of what is lent has come back.
+  /// Lends a strip of that shape with undefined pixels. Blocks until enough lent memory has come back.
   [[nodiscard]] std::shared_ptr<Strip> lend(const Strip& shape);
-  /// Lent, and kept: at most `max_bytes`, or the one strip that is lent if it takes more.
+  /// Bytes of lent and kept strips: at most `max_bytes`, or the only lent strip if that is larger.
   [[nodiscard]] std::size_t held_bytes() const;
 
  private:

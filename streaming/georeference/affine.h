@@ -5,14 +5,14 @@
 
 namespace terrella {
 
-/// A point of a coordinate reference system, or longitude and latitude.
+/// A point in a coordinate reference system, or longitude and latitude.
 struct CrsPoint {
   double x = 0.0;
   double y = 0.0;
 };
 
-/// Map coordinates of pixel coordinates. Pixel coordinates begin at the outer corner of the first pixel, x to the right
-/// and y down, so that the middle of the first pixel is (0.5, 0.5).
+/// Transform from pixel coordinates to map coordinates. Pixel coordinates begin at the outer corner of the first pixel,
+/// x to the right and y down, so the middle of the first pixel is (0.5, 0.5).
 struct Affine {
   double x0 = 0.0, x_per_column = 1.0, x_per_row = 0.0;
   double y0 = 0.0, y_per_column = 0.0, y_per_row = -1.0;
@@ -20,7 +20,7 @@ struct Affine {
   [[nodiscard]] CrsPoint at(double column, double row) const {
     return {x0 + x_per_column * column + x_per_row * row, y0 + y_per_column * column + y_per_row * row};
   }
-  /// The same for numbers that are given for the middle of the first pixel.
+  /// Converts a transform given for the middle of the first pixel.
   [[nodiscard]] Affine from_centre() const {
     Affine corner = *this;
     corner.x0 -= 0.5 * (x_per_column + x_per_row);

@@ -7,15 +7,15 @@
 
 namespace terrella {
 
-/// What the GeoKeys of a TIFF say.
+/// Content of the GeoKeys of a TIFF.
 struct GeoKeys {
-  std::string crs;    ///< a text for Crs::open(); empty: the keys name none
-  std::string title;  ///< the file's own name for it, for messages; may be empty
+  std::string crs;    ///< text for Crs::open(); empty if the keys name no system
+  std::string title;  ///< name used in the file, for messages; may be empty
   bool pixel_is_point = false;
 };
 
-/// Reads the GeoKey directory with libgeotiff. The error says which keys are damaged, missing, unknown, or contradict
-/// each other. Takes any bytes. thread: any
+/// Reads the GeoKey directory with libgeotiff. The error names keys that are damaged, missing, unknown or
+/// contradictory. Accepts any bytes. thread: any
 [[nodiscard]] Result<GeoKeys> read_geo_keys(const GeoTags& tags);
 
 }  // namespace terrella

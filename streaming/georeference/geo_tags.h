@@ -10,20 +10,20 @@
 
 namespace terrella {
 
-/// What a TIFF's samples are, as far as it matters for resampling them.
+/// Sample type of a TIFF, as far as resampling needs it.
 enum class SampleKind { colours, uint16, int16, floats };
 
-/// The tags of a TIFF that say where it lies (OGC 19-008r4, section 7), with their types checked.
+/// Tags of a TIFF that give its place (OGC 19-008r4, section 7), with their types checked.
 struct GeoTags {
   std::vector<std::uint16_t> key_directory;
   std::vector<double> key_numbers;
   std::string key_text;
   std::vector<double> pixel_scale;  ///< x, y, z
-  std::vector<double> tie_points;   ///< i, j, k, x, y, z of each
+  std::vector<double> tie_points;   ///< i, j, k, x, y, z of each point
   std::vector<double> matrix;       ///< 4×4, by rows
   bool has_rpc = false;             ///< coefficients of a camera model (tag 50844)
   bool has_palette = false;
-  SampleKind samples = SampleKind::colours;  ///< all but colours: one sample a pixel
+  SampleKind samples = SampleKind::colours;  ///< kinds other than colours have one sample per pixel
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
 
@@ -32,9 +32,8 @@ struct GeoTags {
   }
 };
 
-/// Reads the tags of the file's first picture; none if it is no TIFF. The error, which has no file's name,
-/// names a tag of a wrong type.
-/// thread: any
+/// Reads the tags of the first picture in the file; none if the file is no TIFF. The error names a tag of a wrong type,
+/// but not the file. thread: any
 [[nodiscard]] Result<std::optional<GeoTags>> read_geo_tags(const std::filesystem::path& picture);
 
 }  // namespace terrella

@@ -10,19 +10,20 @@
 
 namespace terrella {
 
-/// What a file beside a picture says of the picture's place.
+/// Statement of a file beside a picture about the picture's place.
 struct SideClaim {
   std::filesystem::path file;
   std::optional<Affine> transform;
-  std::string crs;  ///< a text for Crs::open(); empty: not said
+  std::string crs;  ///< text for Crs::open(); empty if not stated
   bool has_control_points = false;
 };
 
-/// Reads the files beside the picture that say where it lies: world files (six numbers: .wld, and of a .tif .tfw and
-/// .tifw, likewise of others, in lower, upper and first upper case), GDAL's PICTURE.aux.xml, and a .prj, which counts
-/// only beside a world file. Files that say nothing of a place are left out. The error, which has not the
-/// picture's name, names the damaged file.
-/// thread: any
+/// Reads the files beside the picture that give its place. Skips files without a place. The error names the damaged
+/// file, but not the picture. thread: any
+/// - World files with six numbers: .wld, and for a .tif also .tfw and .tifw (likewise for other endings), in lower,
+///   upper and capitalised case.
+/// - GDAL's PICTURE.aux.xml.
+/// - A .prj, which counts only beside a world file.
 [[nodiscard]] Result<std::vector<SideClaim>> read_side_files(const std::filesystem::path& picture);
 
 }  // namespace terrella

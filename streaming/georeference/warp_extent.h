@@ -7,8 +7,8 @@
 
 namespace terrella {
 
-/// The grid of longitudes and latitudes that holds a picture of any projection, with pixels of about its own size in
-/// the middle. None if too little of the picture has a place. thread: any
+/// Grid of longitudes and latitudes that covers a picture of any projection. Pixels are about as large as those in the
+/// middle of the picture. None if too little of the picture has a place. thread: any
 [[nodiscard]] std::optional<DegreeGrid> warp_extent(const PictureFile& picture, const Georeference& said,
                                                     const Crs& crs);
 

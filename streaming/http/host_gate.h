@@ -6,15 +6,15 @@
 namespace terrella::http {
 
 struct HostLimits {
-  int connections = 6;      ///< requests in flight while the host does not multiplex, ≥ 1
-  int in_flight = 32;       ///< requests in flight in any case, ≥ 1
-  double rate_per_s = 0.0;  ///< of the token bucket; 0: no limit
+  int connections = 6;      ///< most requests in flight while the host does not multiplex, ≥ 1
+  int in_flight = 32;       ///< most requests in flight in any case, ≥ 1
+  double rate_per_s = 0.0;  ///< rate of the token bucket; 0: no limit
   double burst = 32.0;      ///< size of the bucket, requests, ≥ 1
 };
 
-/// When one host may be asked: requests in flight, token bucket, pauses that the host asked for. After a pause the
-/// number in flight begins at half of what it was, and grows by one with each round of good answers. Pure: the clock is
-/// an argument.
+/// Decides when a host may be asked. Takes into account requests in flight, a token bucket, and pauses that the host
+/// asked for. After a pause, half as many requests may be in flight as before. The number grows by one with each round
+/// of good answers. Pure: the clock is an argument.
 class HostGate {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -23,20 +23,21 @@ class HostGate {
   HostGate(const HostLimits& limits, Time now);
 
   [[nodiscard]] bool is_open(Time now) const { return opens_at(now) <= now; }
-  /// When one more request may be sent, if nothing is answered before; Time::max() if only an answer can open the gate.
+  /// Time at which one more request may be sent if no answer arrives before. Time::max() if only an answer can open the
+  /// gate.
   [[nodiscard]] Time opens_at(Time now) const;
   void sent(Time now);
-  void answered(bool well);          ///< one fewer in flight; `well`: neither failed nor told to wait
-  void learn(bool multiplexes);      ///< HTTP/2 or later: not bound to the number of connections
-  void pause(Time until, Time now);  ///< nothing is sent before; never shortens
-  /// Gives the host up until then: what is wanted of it fails at once.
+  void answered(bool well);          ///< one request fewer in flight; `well`: neither failed nor told to wait
+  void learn(bool multiplexes);      ///< HTTP/2 or later: the number of connections is no limit
+  void pause(Time until, Time now);  ///< sends nothing before `until`; never shortens a pause
+  /// Gives the host up until then: requests to it fail at once.
   void give_up(Time until);
   [[nodiscard]] bool is_given_up(Time now) const { return given_up_until_ && now < *given_up_until_; }
-  /// Nothing in flight, bucket full, no pause: as good as new.
+  /// True if nothing is in flight, the bucket is full and there is no pause, as in a new gate.
   [[nodiscard]] bool is_idle(Time now) const;
   [[nodiscard]] int in_flight() const { return in_flight_; }
   [[nodiscard]] bool multiplexes() const { return multiplexes_; }
-  [[nodiscard]] bool is_known() const { return known_; }  ///< whether learn() has been called
+  [[nodiscard]] bool is_known() const { return known_; }  ///< true after learn()
 
  private:
   [[nodiscard]] int bound() const;

@@ -11,7 +11,7 @@
 
 namespace terrella::http {
 
-/// HttpCounts, to be read from any thread.
+/// HttpCounts that any thread may read.
 struct HttpTally {
   std::atomic<std::size_t> waiting = 0;
   std::atomic<std::size_t> in_flight = 0;
@@ -20,13 +20,13 @@ struct HttpTally {
   std::atomic<std::uint64_t> body_bytes = 0;
 };
 
-/// All that belongs to the network thread: the waiting requests, the hosts, curl. thread: network, but for wake()
+/// State of the network thread: waiting requests, hosts, curl. thread: network, but for wake()
 class Network {
  public:
   using Time = HostGate::Time;
   using OnReply = std::function<void(HttpReply&&)>;
 
-  /// Throws std::bad_alloc if curl cannot begin. `tally.waiting` is raised by who submits.
+  /// Throws std::bad_alloc if curl cannot start. The submitting thread increments `tally.waiting`.
   Network(const HttpOptions& options, OnReply on_reply, HttpTally& tally);
   ~Network();
   Network(const Network&) = delete;
@@ -35,9 +35,10 @@ class Network {
   void submit(HttpRequest&& request);
   void set_priority(std::uint64_t id, double priority);
   void cancel(std::uint64_t id);
-  /// Sends what may be sent, moves bytes, replies. False if nothing has ended, so that one may wait().
+  /// Sends requests that may be sent, moves bytes, and replies. Returns false if no request ended; the caller may then
+  /// wait().
   bool turn();
-  /// Until there are bytes to move, a request may be sent, or wake().
+  /// Blocks until there are bytes to move, a request may be sent, or wake() is called.
   void wait();
   void wake();  ///< thread: any
 
@@ -86,7 +87,7 @@ class Network {
   std::vector<std::unique_ptr<Job>> abandoned_;
   std::uint64_t submitted_ = 0;
   std::minstd_rand random_{std::random_device()()};
-  Time now_;  ///< of this turn
+  Time now_;  ///< time of this turn
 };
 
 }  // namespace terrella::http

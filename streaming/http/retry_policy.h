@@ -9,16 +9,16 @@
 
 namespace terrella::http {
 
-/// Why a transfer was ended from our side.
+/// Reason why Terrella ended a transfer.
 enum class Cut {
   none,
   body_too_large,    ///< over max_response_bytes after decompression
   headers_too_long,  ///< over ReplyFields::kMaxBytes
-  error_body,        ///< the rest of a page that explains an error; the status is known
+  error_body,        ///< skipped the rest of an error page; the status is known
   no_memory,
 };
 
-/// How one attempt ended.
+/// Result of one attempt.
 struct Answer {
   CURLcode code = CURLE_OK;
   int status = 0;            ///< 0: none
@@ -26,13 +26,13 @@ struct Answer {
   Cut cut = Cut::none;
 };
 
-/// What follows from it.
+/// Decision about an attempt.
 struct Verdict {
   enum class Next {
-    reply,     ///< over
-    again,     ///< worth another attempt; if there is none left, over with `outcome`
-    wait,      ///< the same, and the whole host is to be left alone for a while
-    redirect,  ///< ask where the answer points
+    reply,     ///< finished
+    again,     ///< retry; without attempts left, finished with `outcome`
+    wait,      ///< like `again`, and pause the whole host
+    redirect,  ///< follow the redirect
   };
   Next next = Next::reply;
   HttpOutcome outcome = HttpOutcome::failed;
@@ -40,8 +40,8 @@ struct Verdict {
 };
 [[nodiscard]] Verdict judge(const Answer& answer);
 
-/// How long to wait after the attempt of this number (1 is the first): doubles each time up to the longest, ± 25 % by
-/// `random` in [0, 1).
+/// Wait after attempt number `attempt` (starting at 1). Doubles each time up to the longest wait, ± 25 % by `random` in
+/// [0, 1).
 [[nodiscard]] std::chrono::milliseconds backoff(const HttpOptions& options, int attempt, double random);
 
 }  // namespace terrella::http

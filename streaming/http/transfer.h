@@ -14,28 +14,28 @@
 
 namespace terrella::http {
 
-/// One curl easy handle with what it receives. What is the same for all requests is set once; begin() sets the rest, so
-/// that a handle can be used again and again. thread: network
+/// A curl easy handle and the answer that it receives. The constructor sets the options common to all requests, and
+/// begin() the others, so that handles are reused. thread: network
 class Transfer {
  public:
-  /// What one attempt asks for.
+  /// Request of one attempt.
   struct Question {
     const Url* url = nullptr;
-    const std::vector<std::string>* headers = nullptr;  ///< checked already; null: none
+    const std::vector<std::string>* headers = nullptr;  ///< already checked; null: none
     std::string_view etag;
     std::string_view last_modified;
-    bool wait_for_multiplexing = false;  ///< rather than to open a further connection
+    bool wait_for_multiplexing = false;  ///< waits for a multiplexed connection instead of opening another
   };
 
-  /// Throws std::bad_alloc if curl has no handle to give.
+  /// Throws std::bad_alloc if curl cannot create a handle.
   explicit Transfer(const HttpOptions& options);
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
 
   void begin(const Question& question);
-  /// After curl has said that it is over.
+  /// Call after curl reports the end of the transfer.
   [[nodiscard]] Answer answer(CURLcode code);
-  /// What is wrong with the server's certificate, for people; empty if that was not the trouble.
+  /// Fault of the server's certificate, for people; empty if the certificate was not the problem.
   [[nodiscard]] std::string_view certificate_fault() const { return certificate_fault_; }
   [[nodiscard]] const ReplyFields& fields() const { return fields_; }
   [[nodiscard]] std::vector<std::byte> take_body() { return std::move(body_); }

@@ -14,8 +14,8 @@
 
 namespace terrella {
 
-/// The pictures of the tiles used last, since neighbouring tiles are made of the same ones. What two threads want at
-/// once is decoded once. thread: any for every call
+/// Cache of recently used decoded tiles, because neighbouring tiles use the same sources. A tile that two threads want
+/// at once is decoded once. thread: any for every call
 class DecodedTiles {
  public:
   using Decoded = Result<std::shared_ptr<const Image>, TileFailure>;
@@ -23,10 +23,10 @@ class DecodedTiles {
 
   explicit DecodedTiles(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// The picture if it is held; else nothing.
+  /// Returns the picture if it is cached, else null.
   [[nodiscard]] std::shared_ptr<const Image> find(const TileId& id);
-  /// The picture, decoded by this call if it is not held and nobody decodes it now. Failures are not held. What
-  /// `decode` throws goes on to the caller.
+  /// Returns the picture. Decodes it if it is not cached and no other thread decodes it now. Failures are not cached.
+  /// Exceptions of `decode` go to the caller.
   [[nodiscard]] Decoded get(const TileId& id, const Decode& decode);
 
  private:
@@ -36,13 +36,14 @@ class DecodedTiles {
   };
   class Turn;
 
-  std::shared_ptr<const Image> held(const TileId& id);  ///< with the lock; the tile is then the latest used
+  /// call with the lock held; makes the tile the most recently used
+  std::shared_ptr<const Image> held(const TileId& id);
   void hold(const TileId& id, std::shared_ptr<const Image> picture);
 
   const std::size_t max_bytes_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable done_;
-  std::list<Held> tiles_;  ///< the latest used first
+  std::list<Held> tiles_;  ///< most recently used first
   std::unordered_map<TileId, std::list<Held>::iterator, TileIdHash> places_;
   std::unordered_set<TileId, TileIdHash> under_way_;
   std::size_t bytes_ = 0;

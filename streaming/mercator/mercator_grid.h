@@ -7,34 +7,35 @@
 
 namespace terrella {
 
-/// The equirectangular grid in which a set in Web Mercator is drawn. Its root tile spans the same longitudes and has
-/// as many pixels, so that columns of texels are the same and only rows need resampling, from level to level; levels
-/// begin with the same number. They go on beyond the finest until a texel along the meridian is as short as Mercator's
-/// are at the bounds' end (3 levels if that is 85°): a level's rows are equal in latitude, Mercator's get finer towards
-/// the poles. `mercator` must pass check_grid(). thread: any
+/// Equirectangular grid for drawing a set in Web Mercator. The root tile has the same span in longitude and the same
+/// pixels, so texel columns are equal and only rows need resampling. Level numbers begin equally.
+/// The grid has finer levels than the set, until a texel along the meridian is as short as Mercator's at the end of the
+/// bounds (3 more levels for 85°). The rows of a level are equal in latitude, while Mercator's get finer towards the
+/// poles. `mercator` must pass check_grid(). thread: any
 [[nodiscard]] TileGrid geodetic_grid_of(const TileGrid& mercator);
 
-/// A stored tile that a geodetic one is made of.
+/// A stored tile that contributes to a geodetic tile.
 struct MercatorPiece {
   TileId id;
-  std::int64_t first_column = 0;  ///< where it lies in the source texels of the plan, west and north side
+  std::int64_t first_column = 0;  ///< north-west corner in the source texels of the plan
   std::int64_t first_row = 0;
-  bool core = false;  ///< lies under the tile itself; else only under the filter's reach beyond its sides
+  bool core = false;  ///< lies under the tile itself; false: only under the filter's reach beyond its sides
 };
 
-/// How a tile of geodetic_grid_of(mercator) is made: which texels, of which tiles, with which weights.
+/// Recipe for a tile of geodetic_grid_of(mercator): source tiles, texels and weights.
 struct MercatorPlan {
-  int level = 0;  ///< of the stored tiles
+  int level = 0;  ///< level of the stored tiles
   int tile_px = 0;
-  std::int64_t columns = 0, rows = 0;  ///< of source texels; the taps count from their north-west corner
-  std::vector<MercatorPiece> pieces;   ///< those that exist(); 14 at most of a set that begins at level 0
+  std::int64_t columns = 0, rows = 0;  ///< size in source texels; taps count from the north-west corner
+  std::vector<MercatorPiece> pieces;   ///< only tiles that exist(); at most 14 for a set that begins at level 0
   std::vector<Taps> column_taps;       ///< for each column of the tile
   std::vector<RowTaps> row_taps;       ///< for each row of the tile
 };
 
-/// The stored level is the coarsest whose texels along the meridian are no longer than the tile's, at the tile's edge
-/// nearest to the equator, within the levels that there are: Mercator's texels shrink with cos(latitude) both ways, so
-/// at 60° a level less has all that can be seen, and asks for a quarter of the tiles. thread: any
+/// Plans a geodetic tile.
+/// The stored level is the coarsest whose texels along the meridian are no longer than the tile's at the tile's edge
+/// nearest to the equator, within the existing levels. Mercator's texels shrink with cos(latitude) in both directions.
+/// At 60° one level coarser therefore has all visible detail, and needs a quarter of the tiles. thread: any
 [[nodiscard]] MercatorPlan plan_tile(const TileGrid& mercator, const TileId& geodetic);
 
 }  // namespace terrella

@@ -11,13 +11,12 @@
 
 namespace terrella {
 
-/// One tile being made of stored ones: what is known of each of them. Its pieces are settled one by one; where a
-/// stored tile is absent its ancestors are asked for in its place, unless all under the tile are absent.
-/// thread: one at a time
+/// State of one tile being made from stored tiles. Pieces are settled one by one. An absent stored tile is replaced by
+/// its ancestors, unless all stored tiles under the tile are absent. thread: one at a time
 class MercatorJob {
  public:
   using Bytes = std::shared_ptr<const std::vector<std::byte>>;
-  /// What became of a stored tile: bytes, a picture that is at hand already, or why there is neither.
+  /// Result for a stored tile: its bytes, an already decoded picture, or the reason why there is neither.
   struct Found {
     Bytes bytes;
     std::shared_ptr<const Image> picture;
@@ -27,19 +26,20 @@ class MercatorJob {
 
   MercatorJob(const TileGrid& mercator, const TileId& id);
 
-  /// Looks for all that is not known yet; what is `remote` stays open (missing()).
+  /// Looks up all pieces that are still open. Pieces that are `remote` stay open (missing()).
   void advance(const LookUp& look_up);
-  /// What has to be fetched; none: it is finished.
+  /// Stored tiles to fetch; none if the job is finished.
   [[nodiscard]] std::vector<TileId> missing() const;
-  /// The answer about a stored tile that was missing.
+  /// Takes the answer for a missing stored tile.
   void settle(const TileId& stored, const Found& found);
-  /// Of a finished job: what makes the picture, or why there is none. The error names the stored tile.
+  /// Result of a finished job: an EncodedTile that makes the picture, or the reason why there is none. The error names
+  /// the stored tile.
   [[nodiscard]] Result<EncodedTile, TileFailure> result(const std::shared_ptr<DecodedTiles>& decoded) const;
 
  private:
   enum class State { open, missing, found, absent, hole };
   struct Piece {
-    TileId from;  ///< the stored tile that stands for it, an ancestor or itself
+    TileId from;  ///< stored tile used for the piece: its own or an ancestor
     State state = State::open;
     Found found;
   };
@@ -52,8 +52,8 @@ class MercatorJob {
   const int min_level_;
   std::shared_ptr<const MercatorPlan> plan_;
   std::vector<Piece> pieces_;
-  std::optional<TileFailure> failed_;       ///< one that could not be asked for: the tile cannot either, for now
-  std::optional<TileFailure> all_lacking_;  ///< nothing lies under the tile itself
+  std::optional<TileFailure> failed_;       ///< a failed stored tile: this tile then fails too
+  std::optional<TileFailure> all_lacking_;  ///< set if nothing lies under the tile itself
 };
 
 }  // namespace terrella

@@ -7,11 +7,11 @@
 
 namespace terrella {
 
-/// What the third coordinate of a file's positions means.
+/// Meaning of the third coordinate of positions in a file.
 enum class ThirdCoordinate { height_m, depth_km };
 
-/// Adds the objects of a GeoJSON geometry to a scene. What is wrong is left out and complained of; the other parts of a
-/// Multi geometry stay. thread: any
+/// Adds the objects of a GeoJSON geometry to a scene. Skips faulty parts with a complaint; the other parts of a Multi
+/// geometry stay. thread: any
 void add_geometry(const nlohmann::json& geometry, const ObjectStyle& style, ThirdCoordinate third, ObjectScene& scene,
                   const Complain& complain);
 

@@ -15,19 +15,19 @@ class Model;
 
 namespace terrella {
 
-/// Reads accessors of a glTF model, each with all its bounds checked. thread: one
+/// Reads accessors of a glTF model and checks all bounds. thread: one
 class GltfAccessors {
  public:
-  /// `missing`: buffers whose bytes are not there.
+  /// `missing`: buffers without bytes.
   GltfAccessors(const tinygltf::Model& model, std::set<std::size_t> missing)
       : model_(model), missing_(std::move(missing)) {}
 
-  /// Floats, or whole numbers as parts of the largest, with `least` to `most` components; those that lack are 0, 0,
-  /// 0, 1.
+  /// Floats, or whole numbers as fractions of the largest, with `least` to `most` components. Missing components are 0,
+  /// 0, 0, 1.
   [[nodiscard]] Result<std::vector<glm::vec4>> vectors(int accessor, int least, int most, std::size_t most_count) const;
   [[nodiscard]] Result<std::vector<std::uint32_t>> indices(int accessor, std::size_t most_count) const;
 
-  /// The bytes of a buffer view.
+  /// Bytes of a buffer view.
   [[nodiscard]] Result<std::span<const unsigned char>> view(int buffer_view) const;
 
  private:

@@ -8,9 +8,9 @@
 
 namespace terrella {
 
-/// The JSON of a glTF file, which a binary one (.glb) holds in its first chunk. Refuses what TinyGLTF would not
-/// survive: JSON nested deeper than kJsonLimits or of more than 4 million pieces (JsonBuilder), and chunks that run
-/// over the file; and more nodes than kMaxModelNodes. thread: any
+/// Parses the JSON of a glTF file; a binary file (.glb) has it in its first chunk. Refuses JSON that would crash
+/// TinyGLTF: deeper than kJsonLimits, more than 4 million pieces (JsonBuilder), or chunks beyond the end of the file.
+/// Also refuses more nodes than kMaxModelNodes. thread: any
 [[nodiscard]] Result<nlohmann::json> gltf_json(std::span<const std::byte> bytes);
 
 }  // namespace terrella

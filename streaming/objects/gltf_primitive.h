@@ -15,12 +15,12 @@ struct Primitive;
 
 namespace terrella {
 
-/// What a model may still take of vertices and indices.
+/// Vertices, indices and parts that a model may still use.
 struct MeshBudget {
   std::size_t vertices, indices, parts;
 };
 
-/// What primitives of one model are read with.
+/// State shared by all primitives of a model.
 struct GltfReading {
   const tinygltf::Model& model;
   const GltfAccessors& accessors;
@@ -28,8 +28,8 @@ struct GltfReading {
   MeshBudget& left;
 };
 
-/// A glTF primitive as triangles in the model's frame, with its material. What is wrong with parts of it is complained
-/// of, and the rest is taken; fails if nothing can be.
+/// Reads a glTF primitive as triangles in the model's frame, with its material. Skips faulty parts with a complaint;
+/// fails if nothing is usable.
 [[nodiscard]] Result<MeshPart> read_gltf_primitive(const GltfReading& reading, const tinygltf::Primitive& primitive,
                                                    const glm::dmat4& model_from_mesh, const Complain& complain);
 

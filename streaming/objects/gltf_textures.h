@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// The pictures of a glTF model, PNG or JPEG, each decoded once, when it is first asked for. thread: one
+/// Pictures of a glTF model, PNG or JPEG. Each is decoded once, on first use. thread: one
 class GltfTextures {
  public:
   GltfTextures(const tinygltf::Model& model, const GltfAccessors& accessors);
@@ -22,7 +22,7 @@ class GltfTextures {
 
   const tinygltf::Model& model_;
   const GltfAccessors& accessors_;
-  std::map<int, Result<std::shared_ptr<const MeshTexture>>> decoded_;  ///< by image
+  std::map<int, Result<std::shared_ptr<const MeshTexture>>> decoded_;  ///< indexed by image
   std::size_t left_bytes_;
 };
 

@@ -17,23 +17,23 @@ struct FsCallbacks;
 
 namespace terrella {
 
-/// The path of something that `name` says, in a folder or below it, free of links. An error if there is no folder
-/// (`folder` empty), or if `name`, or a link on the way, leads out of it.
+/// Resolves `name` to a path in or below a folder, free of links. Fails if there is no folder (`folder` empty), or if
+/// `name` or a link on the way leads out of it.
 [[nodiscard]] Result<std::filesystem::path> path_in_folder(const std::filesystem::path& folder,
                                                            const std::string& name);
 
-/// What TinyGLTF is given of the file system: files beside the model, and zeros in place of a buffer that is not there,
-/// so that what needs it alone is lost. thread: one
+/// File system access for TinyGLTF: files beside the model. A missing buffer is replaced by zeros, so that only parts
+/// that need it are lost. thread: one
 class ModelFolder {
  public:
-  /// `document`: the model's JSON, which says how long its buffers are to be.
+  /// `document`: JSON of the model, which gives the lengths of its buffers.
   ModelFolder(std::filesystem::path folder, const nlohmann::json& document);
 
-  /// Valid as long as this is.
+  /// Valid during the life of this object.
   tinygltf::FsCallbacks callbacks();
-  /// Buffers that have zeros instead of their bytes.
+  /// Indices of buffers that contain zeros instead of their bytes.
   [[nodiscard]] std::set<std::size_t> missing(const tinygltf::Model& model) const;
-  /// What could not be read, and why.
+  /// Files that could not be read, and why.
   [[nodiscard]] const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:

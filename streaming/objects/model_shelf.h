@@ -11,18 +11,19 @@
 
 namespace terrella {
 
-/// What the models of one file of objects may take of memory altogether: vertices, indices and pictures.
+/// Most memory of all models of one file of objects together: vertices, indices and pictures.
 inline constexpr std::size_t kMaxModelsBytes = 1UL << 30;
-/// Model files of one file of objects.
+/// Most model files for one file of objects.
 inline constexpr std::size_t kMaxModelFiles = 1000;
 
-/// The models that features name, each read once. thread: one
+/// Models named by features. Each is read once. thread: one
 class ModelShelf {
  public:
-  /// Models lie in this folder or below it; empty: there are none.
+  /// Models are in or below this folder; empty: no models.
   explicit ModelShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// None, with a complaint, if it cannot be read; what is wrong with parts of it is complained of the first time.
+  /// Returns null, with a complaint, if the model cannot be read. Complaints about parts of a model are made on its
+  /// first use.
   [[nodiscard]] std::shared_ptr<const MeshModel> get(const std::string& name, const Complain& complain);
 
  private:

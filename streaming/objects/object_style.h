@@ -9,23 +9,23 @@
 
 namespace terrella {
 
-/// How the objects of a feature look.
+/// Appearance of the objects of a feature.
 struct ObjectStyle {
   PointObject point;      ///< all but its place
   LineObject line;        ///< all but its places
   PolygonObject polygon;  ///< all but its rings
-  LabelObject label;      ///< its text, empty for none, and priority
-  std::string model;      ///< the file of a point's model; empty: none
+  LabelObject label;      ///< text, empty for no label, and priority
+  std::string model;      ///< file of a point's model; empty: none
   MeshObject mesh;        ///< all but its place; without a model the point is drawn
 };
 
-/// Told of each property that is wrong.
+/// Called with a message for each fault.
 using Complain = std::function<void(const std::string& what)>;
 
-/// Reads a feature's properties; those that lack or are wrong are as simplestyle 1.1.0 has them by default. thread: any
+/// Reads a feature's properties. Missing and faulty properties have the defaults of simplestyle 1.1.0. thread: any
 [[nodiscard]] ObjectStyle read_object_style(const nlohmann::json& properties, const Complain& complain);
 
-/// "#rgb" or "#rrggbb", the number sign may lack.
+/// Parses "#rgb" or "#rrggbb"; the number sign is optional.
 [[nodiscard]] std::optional<ObjectColor> read_color(std::string_view text);
 
 }  // namespace terrella

@@ -10,8 +10,8 @@
 
 namespace terrella {
 
-/// Answers on their way from the threads that got them to the one that deals with them. They are handed over a few at a
-/// time: to wake a thread for each would cost as much as the rest of a small tile.
+/// Passes answers from the threads that received them to the thread that processes them. Answers are handed over
+/// several at a time, because waking a thread for each would cost as much as all other work for a small tile.
 class AnswerQueue {
  public:
   void push(HttpReply&& reply) {
@@ -19,7 +19,7 @@ class AnswerQueue {
     replies_.push_back(std::move(reply));
     if (replies_.size() == kEnough) enough_.notify_one();
   }
-  /// What has come; waits for a few, but no longer than `longest`.
+  /// Returns the queued answers. Waits for several, but no longer than `longest`.
   [[nodiscard]] std::vector<HttpReply> take(std::chrono::milliseconds longest) {
     std::unique_lock lock(mutex_);
     enough_.wait_for(lock, longest, [this] { return replies_.size() >= kEnough; });

@@ -12,15 +12,15 @@
 
 namespace terrella {
 
-/// Tiles of one level: all of these columns in all of these rows.
+/// Tiles of one level: each of these columns in each of these rows.
 struct TileBlock {
   TileSpan columns;
   TileSpan rows;
   [[nodiscard]] std::int64_t count() const { return (columns.last - columns.first + 1) * (rows.last - rows.first + 1); }
 };
 
-/// The tiles of a level that overlap a region, as blocks: goes down a quadtree laid over the level, whose root holds
-/// all of it. What it keeps is one way down. Grid, ellipsoid and region must outlive it. thread: one at a time
+/// Lists the tiles of a level that overlap a region, as blocks. Walks down a quadtree whose root covers the whole
+/// level, and stores only the current path. Grid, ellipsoid and region must outlive the walk. thread: one at a time
 class BlockWalk {
  public:
   BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level);
@@ -33,10 +33,10 @@ class BlockWalk {
   };
   struct Opened {
     Node node;
-    int child = 0;  ///< to be looked at next
+    int child = 0;  ///< index of the next child to visit
     Region::Segments segments;
   };
-  /// What a node means: its children are to be looked at, or `ready_` has its blocks, if any.
+  /// Opens a node so that its children are visited next, or puts its blocks, if any, into `ready_`.
   void visit(const Node& node, const Region::Segments& candidates);
   void add_blocks(const Node& node);
   [[nodiscard]] bool holds_places(const Node& node) const;

@@ -11,26 +11,26 @@ namespace terrella {
 
 enum class Overlap { outside, cut, inside };
 
-/// A part of a planet: the union of boxes and polygons. thread: any, once it is built
+/// A part of a planet: a union of boxes and polygons. thread: any, after it is built
 class Region {
  public:
-  /// Nothing yet.
+  /// Makes an empty region.
   Region();
-  /// A box in geodetic latitude; east < west crosses ±180°.
+  /// Adds a box in geodetic latitude. East < west crosses ±180°.
   void add_box(const GeoRect& box);
-  /// A polygon of one or more rings (outer and holes alike) under even-odd filling; points within [-180, 180] and
-  /// [-90, 90].
+  /// Adds a polygon with one or more rings, filled by the even-odd rule, so outer rings and holes need no marks. Points
+  /// lie within [-180, 180] and [-90, 90].
   void add_polygon(const std::vector<MapRing>& rings);
   void add(const Region& other);
 
   [[nodiscard]] bool empty() const { return boxes_.empty() && segments_.empty(); }
 
-  /// Numbers of the segments that a rectangle was found to touch: where a walk down a quadtree goes on from.
+  /// Numbers of the segments that touch a rectangle. A walk down a quadtree passes them to the next level.
   using Segments = std::vector<std::uint32_t>;
   [[nodiscard]] Segments all_segments() const;
-  /// How a rectangle lies to the region. `candidates` are the segments that touch a rectangle around it; `touched`
-  /// receives those that touch it. `cut` may be said of a rectangle that only several parts together cover. An area
-  /// that shares no more than a border with the rectangle does not overlap it.
+  /// Classifies a rectangle against the region. `candidates` are the segments that touch an enclosing rectangle.
+  /// `touched` receives those that touch this rectangle. May return `cut` for a rectangle that only several parts
+  /// together cover. Areas that share only a border do not overlap.
   [[nodiscard]] Overlap classify(const MapRect& rect, std::span<const std::uint32_t> candidates,
                                  Segments& touched) const;
 
@@ -44,7 +44,8 @@ class Region {
 
   std::vector<MapRect> boxes_;
   std::vector<Segment> segments_;
-  std::vector<std::vector<std::uint32_t>> bands_;  ///< segments by latitude, so that a look along a parallel meets few
+  /// segments grouped by latitude, so that a scan along a parallel meets few of them
+  std::vector<std::vector<std::uint32_t>> bands_;
   std::uint32_t polygons_ = 0;
 };
 

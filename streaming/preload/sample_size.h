@@ -11,17 +11,17 @@
 
 namespace terrella {
 
-/// What a few tiles of a plan say of all of them.
+/// Estimates for a plan from a few of its tiles.
 struct SizeSample {
   int asked = 0;
-  int answered = 0;               ///< content, or that there is none
-  double bytes_per_tile = 0.0;    ///< mean over the plan, tiles that are not there counted as none
-  double seconds_per_tile = 0.0;  ///< from asking to having, one at a time
-  std::string why;                ///< of the last that did not answer
+  int answered = 0;               ///< tiles answered: content, or "no such tile"
+  double bytes_per_tile = 0.0;    ///< mean over the plan; tiles that do not exist count as 0 bytes
+  double seconds_per_tile = 0.0;  ///< from request to answer, one tile at a time
+  std::string why;                ///< reason of the last failure
 };
 
-/// Asks for at most `most` tiles spread over the plan, one after the other; finer levels, which most tiles are of, more
-/// often. Stops at the first two that do not answer, or when `go_on` says so. Blocks. thread: any
+/// Requests at most `most` tiles spread over the plan, one after the other. Finer levels, which hold most tiles, get
+/// more samples. Stops at the first two failures, or when `go_on` returns false. Blocks. thread: any
 [[nodiscard]] SizeSample sample_sizes(
     const TilePlan& plan, int most, const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
     const std::function<bool()>& go_on);

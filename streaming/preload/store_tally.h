@@ -15,26 +15,26 @@
 
 namespace terrella {
 
-/// What a preload has sent to the cache's writer and what has become of it. thread: any
+/// Counts the records that a preload has sent to the cache's writer, and their results. thread: any
 class StoreTally : public std::enable_shared_from_this<StoreTally> {
  public:
   enum class Kind : std::size_t { tile, unchanged, absent, blank, kept };
   using OnDurable = std::function<void(const StoreStatus&)>;
 
-  /// `on_stored` is called for each tile that is durable, on the writer's thread; may be empty.
+  /// `on_stored` is called on the writer's thread for each durable tile. It may be empty.
   explicit StoreTally(std::function<void(const TileId&)> on_stored) : on_stored_(std::move(on_stored)) {}
 
-  /// Counts something as sent; what to give to TileCache as `on_durable`.
+  /// Counts a record as sent. Returns the function to pass to TileCache as `on_durable`.
   [[nodiscard]] OnDurable sent(Kind kind, const TileId& id, std::size_t bytes);
 
   [[nodiscard]] std::int64_t durable(Kind kind) const { return durable_[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   [[nodiscard]] bool failed() const { return failed_; }
-  [[nodiscard]] Error error() const;  ///< the first; only if failed()
-  /// Tiles for which the cache had no room, since the last call.
+  [[nodiscard]] Error error() const;  ///< the first error; call only if failed()
+  /// Returns the tiles that found no room in the cache since the last call.
   [[nodiscard]] std::vector<TileId> take_without_room();
-  [[nodiscard]] bool out_of_room() const { return out_of_room_; }  ///< there was such a tile
-  [[nodiscard]] bool settled() const { return open_ == 0; }        ///< nothing is on its way
+  [[nodiscard]] bool out_of_room() const { return out_of_room_; }  ///< some tile found no room
+  [[nodiscard]] bool settled() const { return open_ == 0; }        ///< nothing is in flight
 
  private:
   void ended(Kind kind, const TileId& id, std::size_t bytes, const StoreStatus& status);
@@ -47,7 +47,7 @@ class StoreTally : public std::enable_shared_from_this<StoreTally> {
   std::atomic<bool> out_of_room_ = false;
   mutable std::mutex mutex_;
   std::optional<Error> error_;        ///< guarded by mutex_
-  std::vector<TileId> without_room_;  ///< likewise
+  std::vector<TileId> without_room_;  ///< guarded by mutex_
 };
 
 }  // namespace terrella

@@ -12,16 +12,16 @@
 
 namespace terrella {
 
-/// What is asked for: a tile, and of what one has of it the validators.
+/// A request for a tile, with the validators of the stored copy if there is one.
 struct TileQuestion {
-  std::uint64_t number = 0;  ///< the asker's, unique among what is under way
+  std::uint64_t number = 0;  ///< chosen by the caller; unique among requests in flight
   TileId id;
   std::string etag;
   std::string last_modified;
 };
 
-/// Where the preloader's tiles come from. Every question that is not withdrawn ends in exactly one answer, as HTTP
-/// would put it, whose `id` is the question's number.
+/// Source of tiles for the preloader. Every request that is not withdrawn gets exactly one answer in the form of an
+/// HTTP reply. The `id` of the reply is the number of the request.
 class TileOrigin {
  public:
   using OnAnswer = std::function<void(HttpReply&&)>;
@@ -32,11 +32,11 @@ class TileOrigin {
   [[nodiscard]] virtual HttpCounts counts() const = 0;
 };
 
-/// Tiles from the network. `on_answer` is called on the network thread, one at a time, and must be quick.
+/// Tiles from the network. `on_answer` is called on the network thread, one call at a time, and must be quick.
 [[nodiscard]] std::unique_ptr<TileOrigin> network_origin(const RemoteTileSet& set, const HttpOptions& options,
                                                          TileOrigin::OnAnswer on_answer);
-/// Tiles from a set on disk, read by `threads` threads, [1, 64], from which `on_answer` is called, several at once. Its
-/// answers carry no validators and no expiry.
+/// Tiles from a set on disk, read by `threads` threads, [1, 64]. These threads call `on_answer`, several at once. The
+/// answers have no validators and no expiry.
 [[nodiscard]] std::unique_ptr<TileOrigin> disk_origin(std::shared_ptr<TileSource> source, int threads,
                                                       TileOrigin::OnAnswer on_answer);
 

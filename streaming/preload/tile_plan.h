@@ -11,8 +11,8 @@
 
 namespace terrella {
 
-/// Tiles below one another: column x, rows [first_y, last_y] of a level. GeoPackages are indexed by column, then row,
-/// and directories have a folder a column, so this is the order in which looking and asking cost least.
+/// Tiles of one column x: the rows [first_y, last_y] of a level. A GeoPackage is indexed by column, then row, and a
+/// directory has a folder for each column. In this order lookups and requests cost least.
 struct TileRun {
   int level = 0;
   std::int64_t x = 0;
@@ -22,7 +22,7 @@ struct TileRun {
   bool operator==(const TileRun&) const = default;
 };
 
-/// Runs one after the other, coarse levels first, each tile once. thread: one at a time
+/// Yields runs one after the other, coarse levels first, each tile once. thread: one at a time
 class TileFeed {
  public:
   virtual ~TileFeed() = default;
@@ -34,27 +34,28 @@ struct LevelCount {
   std::int64_t tiles = 0;
 };
 
-/// Which tiles are wanted, without a list of them. thread: any, several at once
+/// A set of wanted tiles, without a list of them. thread: any, several at once
 class TilePlan {
  public:
   virtual ~TilePlan() = default;
-  [[nodiscard]] virtual const std::vector<LevelCount>& counts() const = 0;  ///< ascending levels; some may have none
-  /// From the first tile, the same order every time. The plan must outlive the feed.
+  /// ascending levels; some may have no tiles
+  [[nodiscard]] virtual const std::vector<LevelCount>& counts() const = 0;
+  /// Starts at the first tile; the order is always the same. The plan must outlive the feed.
   [[nodiscard]] virtual std::unique_ptr<TileFeed> walk() const = 0;
   [[nodiscard]] std::int64_t total() const;
 };
 
-/// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
-/// the whole planet. Nothing is kept but the region: counting and walking go down the quadtree, pass over what lies
-/// outside as a whole and take what lies inside as a whole.
+/// Plans all tiles of the levels [first_level, last_level], within the grid's own levels, that overlap a region. An
+/// empty region is the whole planet. Stores only the region: counting and walking descend the quadtree and handle nodes
+/// outside or inside the region as a whole.
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
                                                     int first_level, int last_level);
 
-/// The tiles of a list, each once.
+/// Plans the tiles of a list, each once.
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
-/// Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts are
-/// disjoint, together the whole, and differ by at most a tile a level.
+/// Part `index` of `count`, index in [1, count]. Each part is one contiguous share of the walk in every level. Parts
+/// are disjoint, together form the whole, and differ by at most one tile per level.
 struct Shard {
   std::int64_t index = 1;
   std::int64_t count = 1;

@@ -12,27 +12,28 @@
 
 namespace terrella {
 
-/// A tile to ask for, with what the cache knows of it.
+/// A tile to request, and its state in the cache.
 struct WantedTileRecord {
   TileId id;
-  bool have = false;  ///< there is a tile, out of date: `etag` and `last_modified` are its
+  bool have = false;  ///< the cache has an outdated tile; `etag` and `last_modified` belong to it
   std::string etag;
   std::string last_modified;
 };
 
-/// The tiles of a plan that a cache lacks or has out of date, in the plan's order: looks at runs of tiles rather than
-/// at each, so that a run that was broken off goes on at once where it stopped. thread: one at a time
+/// Yields the tiles of a plan that are missing or outdated in a cache, in the plan's order. Looks up runs of tiles
+/// instead of single tiles, so a resumed preload quickly reaches the point where it stopped. thread: one at a time
 class WantedTiles {
  public:
-  /// `refresh_older_than`: what was stored before is wanted, whatever its expiry; none: what has expired.
+  /// With `refresh_older_than`, tiles stored before that age are wanted whatever their expiry. Without, expired tiles
+  /// are wanted.
   WantedTiles(const TilePlan& plan, TileCache& cache, std::optional<std::chrono::seconds> refresh_older_than);
 
-  /// Looks on until something is wanted, all has been looked at, or a few thousand tiles were passed over: then
-  /// nothing, and done() tells which.
+  /// Searches for the next wanted tile. Returns nothing if all tiles were checked, or after a few thousand tiles that
+  /// are not wanted; done() tells which.
   [[nodiscard]] Result<std::optional<WantedTileRecord>> next();
   [[nodiscard]] bool done() const { return done_ && at_ == found_.size(); }
-  [[nodiscard]] std::int64_t there() const { return there_; }  ///< passed over so far
-  /// Of all looked at so far: pinned tiles, and absences that are fresh. They need no more room than they have.
+  [[nodiscard]] std::int64_t there() const { return there_; }  ///< tiles not wanted so far
+  /// Number of checked tiles that are pinned, or are fresh absences. They need no additional room.
   [[nodiscard]] std::int64_t settled() const { return settled_; }
 
  private:
@@ -43,7 +44,7 @@ class WantedTiles {
   std::unique_ptr<TileFeed> feed_;
   std::optional<std::chrono::seconds> refresh_older_than_;
   std::int64_t now_unix_s_ = 0;
-  TileRun run_;  ///< what is left of the run being looked at
+  TileRun run_;  ///< rest of the run in progress
   std::vector<WantedTileRecord> found_;
   std::size_t at_ = 0;
   std::int64_t there_ = 0;
@@ -51,7 +52,7 @@ class WantedTiles {
   bool done_ = false;
 };
 
-/// Seconds since 1970 by the machine's clock. thread: any
+/// Seconds since 1970 by the system clock. thread: any
 [[nodiscard]] std::int64_t unix_now_s();
 
 }  // namespace terrella

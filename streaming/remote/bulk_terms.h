@@ -6,8 +6,8 @@
 
 namespace terrella {
 
-/// Why tiles of this address may not be downloaded in bulk, by the terms of its host (2024); empty if none is known.
-/// Sub-domains belong to the host, look-alikes do not. thread: any
+/// Reason why the terms of a host (2024) forbid bulk download of its tiles; empty if none is known. Sub-domains belong
+/// to the host, look-alikes do not. thread: any
 [[nodiscard]] std::string bulk_refusal(const Url& url);
 
 }  // namespace terrella

@@ -11,17 +11,17 @@ namespace terrella {
 /// A reference system of longitude and latitude in degrees.
 struct GeographicCrs {
   bool latitude_first = false;  ///< by its definition; writers differ
-  std::string body;             ///< a preset's name
+  std::string body;             ///< name of a preset
   LatitudeKind latitude = LatitudeKind::graphic;
 };
 
-/// Reads the name of a reference system as a URN, a URL, or AUTHORITY:CODE: EPSG:4326, CRS84, and the geographic ones
-/// of the Moon, Mars and other bodies by the IAU's codes (NAIF number · 100 and 0, 1 or 2; of those of 2015, 1 counts
-/// planetographic latitudes, 2 planetocentric ones) or Esri's (104903 and 104905). The error is the reason why another
-/// cannot be shown: Web Mercator by name. thread: any
+/// Parses the name of a reference system as a URN, a URL, or AUTHORITY:CODE. Knows EPSG:4326, CRS84, and the geographic
+/// systems of the Moon, Mars and other bodies, by the codes of the IAU or Esri. IAU codes are the NAIF number · 100
+/// plus 0, 1 or 2; in those of 2015, 1 means planetographic latitudes and 2 planetocentric ones. Esri's are 104903 and
+/// 104905. The error says why another system cannot be shown, with Web Mercator by name. thread: any
 [[nodiscard]] Result<GeographicCrs> parse_crs(std::string_view name);
 
-/// True for the names that Web Mercator goes by, written as parse_crs() reads them. thread: any
+/// True for the names of Web Mercator, in the notations of parse_crs(). thread: any
 [[nodiscard]] bool is_web_mercator(std::string_view name);
 
 }  // namespace terrella

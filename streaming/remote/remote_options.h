@@ -9,20 +9,21 @@
 
 namespace terrella {
 
-/// What a person says about a remote set: on the command line, or in a JSON description. What is not said is decided by
-/// the document that describes the set, else as noted.
+/// User's options for a remote set, from the command line or a JSON description. Defaults come from the document that
+/// describes the set, else as noted.
 struct RemoteOptions {
-  std::string layer{};       ///< of a WMTS; empty: its only one
-  std::string matrix_set{};  ///< of a WMTS; empty: the first of the layer's that a grid can describe
-  std::string style{};       ///< of a WMTS; empty: its default
-  std::string time{};        ///< of a WMTS's time dimension, ISO 8601; empty: its default
+  std::string layer{};       ///< WMTS layer; empty: the only one
+  std::string matrix_set{};  ///< WMTS matrix set; empty: the layer's first that fits a grid
+  std::string style{};       ///< WMTS style; empty: its default
+  std::string time{};        ///< WMTS time, ISO 8601; empty: its default
 
-  std::optional<double> root_span_deg{};   ///< of a URL template; none: 180. Others: must agree with the document
-  std::optional<int> tile_px{};            ///< of a URL template; none: 256. Others: must agree with the document
-  std::optional<int> min_level{};          ///< none: 0
-  std::optional<int> max_level{};          ///< required for a URL template
-  std::optional<GeoRect> bounds{};         ///< none: the planet, or what the document says
-  std::optional<Projection> projection{};  ///< web_mercator: what the tiles are in; others must agree with the document
+  std::optional<double> root_span_deg{};  ///< for a URL template; none: 180. For others: must agree with the document
+  std::optional<int> tile_px{};           ///< for a URL template; none: 256. For others: must agree with the document
+  std::optional<int> min_level{};         ///< none: 0
+  std::optional<int> max_level{};         ///< required for a URL template
+  std::optional<GeoRect> bounds{};        ///< none: the planet, or the bounds of the document
+  /// web_mercator: projection of the tiles; for others: must agree with the document
+  std::optional<Projection> projection{};
   std::optional<LatitudeKind> latitude{};
   std::optional<ImageFormat> format{};  ///< none: by the ending of a URL template, else jpeg
 
@@ -37,14 +38,15 @@ struct RemoteOptions {
   std::optional<std::chrono::seconds> absence_life{};
 };
 
-/// `said`, and where it says nothing, `otherwise`. Headers of both, those of `said` first. thread: any
+/// Merges options: `said` wins, `otherwise` fills the gaps. Headers of both are kept, those of `said` first.
+/// thread: any
 [[nodiscard]] RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise);
 
-/// Fails if one of what is said and what a document says of its grid is Web Mercator and the other is not. thread: any
+/// Fails if only one of the options and the document's grid is Web Mercator. thread: any
 [[nodiscard]] Status check_projection(const TileGrid& grid, const RemoteOptions& options);
 
-/// Checks what a set of options may hold apart from any set: headers, sub-domains, body. The error begins with `where`
-/// and does not repeat a header's value. thread: any
+/// Checks options that can be checked without a set: headers, sub-domains, body. The error begins with `where` and does
+/// not repeat a header's value. thread: any
 [[nodiscard]] Status check_options(const RemoteOptions& options, const std::string& where);
 
 }  // namespace terrella

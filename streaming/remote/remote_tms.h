@@ -9,9 +9,9 @@
 
 namespace terrella {
 
-/// The tiles beside a geodetic tilemapresource.xml that was fetched from `address`: {folder}/{x}/{y from the south}; a
-/// query of the address goes with each. Whether it has one root tile or two, gdal2tiles does not say: check_grid()
-/// finds out. The error begins with `where`. thread: any
+/// Describes the tiles beside a geodetic tilemapresource.xml that was fetched from `address`: {folder}/{x}/{y from the
+/// south}. A query of the address goes with each tile. gdal2tiles does not say if there are one or two root tiles;
+/// check_grid() finds out. The error begins with `where`. thread: any
 [[nodiscard]] Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const Url& address,
                                                      const RemoteOptions& options, const std::string& where);
 

@@ -6,8 +6,8 @@
 
 namespace terrella {
 
-/// Part of a picture as 16 × 16 means, red, green and blue, of the levels of 8 bits: fine detail, JPEG's noise and what
-/// a coarser level was smoothed with fall away.
+/// Means of red, green and blue in 16 × 16 cells of a picture, in 8-bit levels. Averaging removes fine detail, JPEG
+/// noise and the smoothing of coarser levels.
 inline constexpr int kThumbnailSide = 16;
 using Thumbnail = std::array<float, std::size_t{3} * kThumbnailSide * kThumbnailSide>;
 

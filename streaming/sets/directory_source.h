@@ -9,7 +9,7 @@
 
 namespace terrella {
 
-/// Where the tiles of a directory lie: `folder of the level`/x/y.extension.
+/// Locations of tiles in a directory: `folder of the level`/x/y.extension.
 struct DirectoryLayout {
   std::filesystem::path root;
   std::map<int, std::string> folder;  ///< for each level
@@ -17,7 +17,7 @@ struct DirectoryLayout {
   bool rows_from_south = false;
 };
 
-/// A larger tile file is broken.
+/// A larger tile file counts as broken.
 inline constexpr std::size_t kMaxTileBytes = 32UL << 20;
 
 [[nodiscard]] std::unique_ptr<TileSource> make_directory_source(TileSetInfo info, DirectoryLayout layout);

@@ -9,8 +9,8 @@
 
 namespace terrella {
 
-/// Reads the field "elevation" of a tileset.json or a source description (streaming/README.md); none if it is not
-/// there. `fields` reads `object`, and gets the error. thread: any
+/// Reads the field "elevation" of a tileset.json or a source description (streaming/README.md); none if missing.
+/// `fields` reads `object` and receives the error. thread: any
 [[nodiscard]] std::optional<ElevationInfo> read_elevation(const nlohmann::json& object, JsonFields& fields,
                                                           const std::string& where);
 

@@ -10,18 +10,18 @@
 
 namespace terrella {
 
-/// Where the tiles of one level stand in the table: row and column count from the tile matrix set's own north-west
-/// corner.
+/// Position of one level in the table. Rows and columns of the table count from the north-west corner of the tile
+/// matrix set.
 struct GeoPackageLevel {
   std::int64_t zoom = 0;
   std::int64_t columns = 0;
   std::int64_t rows = 0;
-  std::int64_t first_column = 0;  ///< the grid's column of the table's column 0
-  std::int64_t first_row = 0;     ///< the grid's row of the table's row 0; negative if the set begins north of 90°
-  std::int64_t turn_columns = 0;  ///< columns in 360°, 0 if that is no whole number
+  std::int64_t first_column = 0;  ///< grid column of the table's column 0
+  std::int64_t first_row = 0;     ///< grid row of the table's row 0; negative if the set begins north of 90°
+  std::int64_t turn_columns = 0;  ///< columns in 360°; 0 if that is no whole number
 };
 
-/// A tile table as a tile set. Levels that the file lacks between others are not in `levels`: their tiles are absent.
+/// A tile table as a tile set. Levels missing in the file are not in `levels`; their tiles are absent.
 struct GeoPackageTiles {
   TileSetInfo info;
   std::string table;
@@ -29,10 +29,10 @@ struct GeoPackageTiles {
   std::map<int, GeoPackageLevel> levels;
 };
 
-/// Finds the tiles in a GeoPackage: those that its table `terrella_tileset` describes, else the first tile table, or if
-/// there is none the first gridded coverage (heights), in EPSG:4326 whose zoom levels halve and whose corner is a whole
-/// number of tiles from (-180°, 90°); coarse levels for which it is not are left out. OGC 12-128r18, clauses 2.2.6
-/// to 2.2.8. The error begins with `where`.
+/// Finds the tiles in a GeoPackage: those that its table `terrella_tileset` describes, else the first tile table, else
+/// the first gridded coverage (heights). The table must be in EPSG:4326 or EPSG:3857, its zoom levels must halve, and
+/// its corner must be a whole number of tiles from (-180°, 90°). Coarse levels that do not fit are left out. OGC
+/// 12-128r18, clauses 2.2.6 to 2.2.8. The error begins with `where`.
 [[nodiscard]] Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where);
 
 }  // namespace terrella

@@ -7,7 +7,7 @@
 
 namespace terrella {
 
-/// A statement of SQL with the values of its parameters ?1, ?2 …
+/// An SQL statement with the values of its parameters ?1, ?2 …
 struct SqlStatement {
   std::string sql;
   std::vector<std::string> texts;    ///< bound first
@@ -16,24 +16,24 @@ struct SqlStatement {
 
 inline constexpr int kSrsGeodetic = 4326;
 inline constexpr int kSrsWebMercator = 3857;
-/// What a degree of longitude is in EPSG:3857, metres.
+/// Length of a degree of longitude in EPSG:3857, metres.
 inline constexpr double kMercatorDegree_m = 6378137.0 * 3.14159265358979323846 / 180.0;
 
-/// What makes a tile table of this name (OGC 12-128r18, table 21).
+/// Statement that creates a tile table of this name (OGC 12-128r18, table 21).
 [[nodiscard]] std::string tile_table_sql(const std::string& name);
 
-/// What adds a level to gpkg_tile_matrix, for the table `tiles`. A grid's levels may be added in any order.
+/// Statement that adds a level to gpkg_tile_matrix for the table `tiles`. Levels of a grid may be added in any order.
 [[nodiscard]] SqlStatement tile_matrix_row(const TileGrid& grid, int level);
 
-/// What makes an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the set, and with
-/// the set's own description in the side table `terrella_tileset`. In order; no transaction of its own. Sets in Web
-/// Mercator are declared in EPSG:3857, in its metres.
-/// The tile matrix set's extent is matrix size × tile size × pixel size at every level, so it can reach beyond the
-/// planet; what there is stands in gpkg_contents, with all longitudes if it crosses ±180°, as an extent cannot.
-/// Heights make it a tiled gridded coverage (OGC 17-066r1). Squeezed tiles of a reduced grid have the table
-/// kSqueezedTable, laid out as `tiles` and not named in gpkg_contents: a reader that knows nothing of it finds one tile
-/// table, with every tile of the full grid. `last_change` goes to gpkg_contents; empty: now. `cut_key`: as of
-/// to_tileset_json().
+/// Statements that make an empty database a GeoPackage 1.3 (OGC 12-128r18) with an empty tile table `tiles` for the
+/// set. They also store the set's own description in the side table `terrella_tileset`. Run them in order; they contain
+/// no transaction. Sets in Web Mercator are declared in EPSG:3857, in metres.
+/// The extent of the tile matrix set is matrix size × tile size × pixel size at every level, so it can reach beyond the
+/// planet. gpkg_contents has the real bounds, but all longitudes if they cross ±180°, because an extent cannot cross
+/// it. Heights make the table a tiled gridded coverage (OGC 17-066r1).
+/// Squeezed tiles of a reduced grid are in the table kSqueezedTable, laid out like `tiles` and not listed in
+/// gpkg_contents. A reader that does not know that table finds one tile table with every tile of the full grid.
+/// `last_change` goes to gpkg_contents; empty: now. `cut_key`: see to_tileset_json().
 [[nodiscard]] std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::string& last_change = {},
                                                           const std::string& cut_key = {});
 

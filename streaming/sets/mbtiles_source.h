@@ -7,9 +7,10 @@
 
 namespace terrella {
 
-/// Opens an MBTiles file, whose rows count from the south. The specification means Web Mercator, whose tiles are given
-/// as they are stored; a geodetic one says so in its metadata (`profile` geodetic, or `crs` or `srs` EPSG:4326 or
-/// CRS84), or `geodetic` does. Whether that has one root tile or two its tiles tell, with the bounds of its metadata.
+/// Opens an MBTiles file; its rows count from the south.
+/// The specification means Web Mercator; tiles of such a file are returned as stored. A geodetic file is recognised by
+/// its metadata (`profile` geodetic, or `crs` or `srs` EPSG:4326 or CRS84), or by `geodetic`. The tiles and the bounds
+/// in the metadata show if a geodetic file has one root tile or two.
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& path, bool geodetic);
 
 }  // namespace terrella

@@ -15,21 +15,22 @@
 
 namespace terrella {
 
-/// A tile is found through an index in dozens of steps; without one, these are enough to scan a few hundred thousand.
+/// Step limit for one tile. With an index a tile is found in dozens of steps; without one, this limit allows a scan of
+/// a few hundred thousand rows.
 inline constexpr std::int64_t kMaxTileSteps = 2'000'000;
 
-/// Where a tile is in a table of tiles.
+/// Position of a tile in a table of tiles.
 struct SqlitePlace {
   std::int64_t zoom = 0;
   std::int64_t column = 0;
   std::int64_t row = 0;
 };
 
-/// With the tiles of a gridded coverage come their own scales and offsets (OGC 17-066r1, table 3).
+/// Gridded coverages have a scale and an offset for each tile (OGC 17-066r1, table 3).
 enum class TileExtras { none, coverage };
 
-/// The tiles in one table (zoom_level, tile_column, tile_row, tile_data) of a GeoPackage or an MBTiles file. Several
-/// threads read at once, each on a connection of its own. thread: any
+/// Tiles of one table (zoom_level, tile_column, tile_row, tile_data) of a GeoPackage or an MBTiles file. Several
+/// threads may read at once, each on its own connection. thread: any
 class SqliteTiles {
  public:
   [[nodiscard]] static Result<std::unique_ptr<SqliteTiles>, SqlError> open(std::filesystem::path path,
@@ -38,12 +39,13 @@ class SqliteTiles {
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const SqlitePlace& place);
   [[nodiscard]] std::optional<std::int64_t> count(std::int64_t zoom);
-  /// Calls with the column and row of each tile of a level, until the call returns false. True: it has seen all.
+  /// Calls `call` with the column and row of each tile of a level, until `call` returns false. Returns true if all
+  /// tiles were visited.
   [[nodiscard]] Result<bool, SqlError> for_each(std::int64_t zoom,
                                                 const std::function<bool(std::int64_t, std::int64_t)>& call) const;
 
  private:
-  /// A connection and its two queries; used by one thread at a time.
+  /// A connection and its two queries, used by one thread at a time.
   struct Connection {
     SqliteReader reader;
     SqliteQuery tile;

@@ -8,22 +8,22 @@
 
 namespace terrella {
 
-/// Columns or rows [first, last]; none if last < first.
+/// Columns or rows [first, last]; empty if last < first.
 struct TileSpan {
   std::int64_t first = 0;
   std::int64_t last = -1;
 };
-/// The tiles of a level that exist(): every one of these columns in every one of these rows.
+/// The tiles of a level that exist(): each of these columns in each of these rows.
 struct TilePlaces {
-  std::vector<TileSpan> columns;  ///< ascending, apart; bounds over ±180° give more than one
+  std::vector<TileSpan> columns;  ///< ascending and separate; several if the bounds cross ±180°
   TileSpan rows;
 };
 [[nodiscard]] TilePlaces tile_places(const TileGrid& grid, int level);  ///< thread: any
 
-/// Tiles of a level that exist(), that is on the planet and within the bounds. thread: any
+/// Number of tiles of a level that exist(), that is, on the planet and within the bounds. thread: any
 [[nodiscard]] std::int64_t count_places(const TileGrid& grid, int level);
 
-/// Calls for each of them, row by row from the north, until the call returns false. thread: any
+/// Calls `call` for each tile that exists(), row by row from the north, until `call` returns false. thread: any
 void for_each_place(const TileGrid& grid, int level, const std::function<bool(const TileId&)>& call);
 
 }  // namespace terrella

@@ -9,30 +9,30 @@
 
 namespace terrella {
 
-/// The side table of a GeoPackage of ours, `terrella_tileset(key TEXT PRIMARY KEY, value TEXT)`: under `kTileSetKey`
-/// stands the text that a directory keeps in `tileset.json`.
+/// Side table of Terrella's GeoPackages, `terrella_tileset(key TEXT PRIMARY KEY, value TEXT)`. The key `kTileSetKey`
+/// has the text that a directory keeps in `tileset.json`.
 inline constexpr const char* kTileSetTable = "terrella_tileset";
 inline constexpr const char* kTileSetKey = "tileset";
 inline constexpr const char* kTileSetFile = "tileset.json";
-/// Where squeezed tiles stand (TileGrid::reduced): a table beside `tiles`, a folder beside the levels'.
+/// Location of squeezed tiles (TileGrid::reduced): a table beside `tiles`, a folder beside the level folders.
 inline constexpr const char* kSqueezedTable = "terrella_squeezed_tiles";
 inline constexpr const char* kSqueezedFolder = "squeezed";
 /// A longer description is refused before it is parsed.
 inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
 
-/// Degrees without the rounding that the way through radians leaves: 45, not 45.000000000000007. 1e-11 degrees is a
+/// Angle in degrees without the rounding error of radians: 45, not 45.000000000000007. Rounds to 1e-11 degrees, a
 /// micrometre on Earth. thread: any
 [[nodiscard]] double tidy_degrees(Angle angle);
 
-/// The description of a tile set as JSON text, fields as in streaming/README.md. Bytes that are not UTF-8 in a name are
-/// replaced by U+FFFD. A `cut_key` that is not empty marks the set as written by `cut`. thread: any
+/// Describes a tile set as JSON text, with fields as in streaming/README.md. Replaces bytes in names that are not UTF-8
+/// by U+FFFD. A non-empty `cut_key` marks the set as written by `cut`. thread: any
 [[nodiscard]] std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key = {});
 
 /// The `cut_key` of a description; nothing if `cut` did not write it. thread: any
 [[nodiscard]] std::optional<std::string> read_cut_key(std::string_view text);
 
-/// Reads it back and checks every field. `where` (a path) begins the error, which names the field and what it may be.
-/// Unknown fields are passed over. thread: any
+/// Parses a description and checks every field. The error begins with `where` (a path) and names the field and its
+/// allowed values. Unknown fields are ignored. thread: any
 [[nodiscard]] Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where);
 
 }  // namespace terrella

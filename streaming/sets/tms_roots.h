@@ -6,10 +6,10 @@
 
 namespace terrella {
 
-/// gdal2tiles.py --profile=geodetic makes two kinds of sets, with two root tiles (--tmscompatible) or one, and
-/// describes both as the former. This looks at the columns and rows of the finest level in `root` and, if they are
-/// those of one root tile, doubles the root span of `tms`, whose level 0 then is left out (its tile begins at -90° and
-/// ends at 270°).
+/// Detects the number of root tiles of a set by gdal2tiles.py --profile=geodetic. That program makes sets with two root
+/// tiles (--tmscompatible) or one, and describes both as having two. This function looks at the columns and rows of the
+/// finest level in `root`. If they belong to one root tile, it doubles the root span of `tms` and leaves out level 0,
+/// whose tile begins at -90° and ends at 270°.
 [[nodiscard]] Result<TmsDescription> correct_tms_roots(TmsDescription tms, const std::filesystem::path& root);
 
 }  // namespace terrella

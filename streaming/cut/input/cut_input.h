@@ -9,18 +9,18 @@
 
 namespace terrella {
 
-/// The pictures of a cut, opened as one.
+/// All pictures of a cut, opened as one picture.
 struct CutInput {
   std::unique_ptr<RowReader> rows;
-  std::optional<GeoRect> bounds;           ///< what they say of themselves; none: nothing, or the whole planet
-  std::string resample_command{};          ///< of GDAL, for pixels that fit no grid; empty: they say no place
-  std::optional<ElevationInfo> elevation;  ///< rows are heights (PixelKind::height)
+  std::optional<GeoRect> bounds;   ///< place stated by the pictures; none if they state no place, or the whole planet
+  std::string resample_command{};  ///< GDAL command for pixels that fit no grid; empty if the pictures state no place
+  std::optional<ElevationInfo> elevation;  ///< set if the rows are heights (PixelKind::height)
 };
 [[nodiscard]] Result<CutInput> open_input(const CutOptions& options);
 
-/// What the only picture of a cut says that it covers; none: nothing, or the whole planet. Fails if the cut may not go
-/// on by what the picture says of its place, body or latitudes. Bounds in the options stand over what it says of its
-/// place. thread: any
+/// Returns the area that the only picture of a cut states for itself; none if it states nothing, or the whole planet.
+/// Fails if the picture's place, body or latitudes do not allow the cut. Bounds in the options override the place in
+/// the picture. thread: any
 [[nodiscard]] Result<std::optional<GeoRect>> said_bounds(const CutOptions& options);
 
 }  // namespace terrella

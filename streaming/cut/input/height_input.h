@@ -13,19 +13,20 @@ namespace terrella {
 
 struct HeightPlan {
   HeightCoding coding;
-  ElevationInfo elevation;  ///< what the tiles' numbers mean
+  ElevationInfo elevation;  ///< meaning of the numbers in tiles
 };
 
-/// How the pictures' heights are kept in tiles. Reads all their pixels once if they are 32-bit floats and the options
-/// do not say. All pictures have one kind of sample. thread: any
+/// Chooses how tiles store the heights of the pictures. Reads all pixels once if the samples are 32-bit floats and the
+/// options do not give the coding. All pictures must have the same kind of sample. thread: any
 [[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
                                               const CutElevation& options);
 
-/// Whether a picture of these sides is a whole planet by nodes: columns from -180° on and rows from pole to pole, both
-/// included.
+/// True if a picture of this size is a whole planet sampled at nodes: columns from -180° on, rows from pole to pole,
+/// both poles included.
 [[nodiscard]] bool is_node_planet(std::int64_t width, std::int64_t height);
 
-/// The pixels between the nodes of such a planet: each the mean of its four corners that are known, one row less.
+/// Converts node samples to pixels between the nodes, with one row less. Each pixel is the mean of its known corners
+/// (at most four).
 [[nodiscard]] std::unique_ptr<RowReader> between_nodes(std::unique_ptr<RowReader> nodes);
 
 }  // namespace terrella

@@ -7,21 +7,22 @@
 namespace terrella {
 
 /// Heights in strips and between levels, in units of the tiles' whole numbers (metres = number · scale + offset). A
-/// pixel takes four bytes as colours do: as read a 32-bit float, NaN where there is no height; in a finished row the 16
-/// bits of a tile in its first two bytes, in this machine's order. Between levels they are premultiplied rows like
-/// those of colours: (height · share, 0, 0, share), so that only what is known has a part in a mean. thread: any
+/// pixel has four bytes, as for colours.
+/// Pixels as read are 32-bit floats, NaN for no height. In a finished row the first two bytes are the 16 bits of a
+/// tile, in this machine's byte order. Between levels the rows are premultiplied like colours: (height · share, 0, 0,
+/// share). Only known heights therefore count in a mean. thread: any
 
 void heights_to_floats(std::span<const std::uint8_t> pixels, float* out);
 
-/// Rounds to whole numbers in [0, 65535]. Where nothing is known: nodata. A height that falls on nodata is moved by
+/// Rounds to whole numbers in [0, 65535]. Unknown heights become nodata. A known height equal to nodata is moved by
 /// one.
 void floats_to_heights(std::span<const float> row, std::optional<std::uint16_t> nodata, std::uint8_t* out);
 
-/// (1 - share) · a + share · b of two finished pixels; where one is nodata the other.
+/// Mixes two finished pixels: (1 - share) · a + share · b. If one is nodata, returns the other.
 void mix_heights(const std::uint8_t* a, const std::uint8_t* b, float share, std::optional<std::uint16_t> nodata,
                  std::uint8_t* out);
 
-/// The 16 bits of a finished pixel.
+/// Reads the 16 bits of a finished pixel.
 [[nodiscard]] std::uint16_t height_at(const std::uint8_t* pixel);
 
 }  // namespace terrella

@@ -11,7 +11,7 @@
 
 namespace terrella {
 
-/// A part of a mosaic, as it is found.
+/// A part of a mosaic, as found on disk.
 struct MosaicPart {
   std::filesystem::path path;
   std::int64_t width_px = 0;
@@ -19,22 +19,23 @@ struct MosaicPart {
   std::optional<Placement> place = {};
 };
 
-/// Parts that lie side by side from the west, all of one height.
+/// Parts side by side from the west, all of the same height.
 struct MosaicRow {
   std::int64_t height_px = 0;
-  std::vector<std::size_t> parts;  ///< by number, from 0
+  std::vector<std::size_t> parts;  ///< indices from 0
 };
 
 struct MosaicLayout {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  std::vector<MosaicRow> rows;    ///< from the north
-  std::optional<GeoRect> bounds;  ///< if the parts say; none: the whole planet
+  std::vector<MosaicRow> rows;    ///< ordered from the north
+  std::optional<GeoRect> bounds;  ///< area stated by the parts; none: the whole planet
 };
 
-/// How parts form one picture, without gaps and overlaps: by `grid` if it is given, else by NASA's names (A1 to D2
-/// between other than letters and digits: columns of 90° from -180°, rows of 90° from the north), else by where the
-/// parts say that they lie. The error names the part that does not fit, and its number from 1. Pure. thread: any
+/// Arranges parts into one picture without gaps and overlaps. Uses `grid` if given. Otherwise uses NASA's names: A1 to
+/// D2 between characters that are neither letters nor digits; columns of 90° from -180°, rows of 90° from the north.
+/// Otherwise uses the places stated by the parts. The error names the part that does not fit, and its number from 1.
+/// Pure. thread: any
 [[nodiscard]] Result<MosaicLayout> lay_out(const std::vector<MosaicPart>& parts, const std::optional<MosaicGrid>& grid);
 
 }  // namespace terrella

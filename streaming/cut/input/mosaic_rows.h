@@ -10,7 +10,7 @@ namespace terrella {
 
 using OpenRows = std::function<Result<std::unique_ptr<RowReader>>(const std::filesystem::path&)>;
 
-/// The parts as one picture. Those of one row of parts are open at a time. `info` says size and transparency.
+/// Reads the parts as one picture. Keeps only one row of parts open at a time. `info` gives size and transparency.
 [[nodiscard]] std::unique_ptr<RowReader> make_mosaic_rows(std::vector<MosaicPart> parts, MosaicLayout layout,
                                                           const PictureInfo& info, OpenRows open);
 

@@ -10,7 +10,7 @@
 #include "streaming/cut/input/height_samples.h"
 #include "streaming/cut/input/row_reader.h"
 
-/// What the readers of each format share. `name` is the file's path, for messages.
+/// Helpers shared by the readers of all formats. `name` is the path of the file, for messages.
 namespace terrella {
 
 struct CloseFile {
@@ -18,7 +18,7 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// The file stands at its first byte and has been seen to begin as the format does.
+/// Opens a reader. The file must be at its first byte, and its head already checked for the format.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
@@ -28,7 +28,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// True for the first bytes of a TIFF or BigTIFF in either byte order.
 [[nodiscard]] bool begins_as_tiff(std::string_view head);
 
-/// Refuses a picture of no size or over kMaxPictureSide_px.
+/// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);
 
 /// "PATH: heights are read from …"

@@ -12,8 +12,8 @@ struct CloseTiff {
 };
 using TiffHandle = std::unique_ptr<TIFF, CloseTiff>;
 
-/// Opens a TIFF or BigTIFF to read, with bounded memory and silent: errors, also later ones, stand in `message`, which
-/// outlives the handle. None if it cannot be opened. thread: any
+/// Opens a TIFF or BigTIFF for reading, with bounded memory and no output to the console. Errors, also later ones, are
+/// written to `message`, which must outlive the handle. Returns null on failure. thread: any
 [[nodiscard]] TiffHandle open_tiff(const std::string& name, std::string& message);
 
 }  // namespace terrella

@@ -20,7 +20,7 @@
 namespace terrella {
 
 struct TileCounts {
-  std::int64_t tiles = 0;  ///< without squeezed ones, which are there besides
+  std::int64_t tiles = 0;  ///< excludes squeezed tiles, which are extra
   std::int64_t bytes = 0;
   void add(const TileId& id, std::size_t size) {
     if (id.squeeze == 0) ++tiles;
@@ -28,22 +28,21 @@ struct TileCounts {
   }
 };
 
-/// Encodes the tiles of strips on `jobs` threads and writes them on one more, in the order of submission whatever
-/// thread was faster, so that the same picture gives the same file. What waits is bounded by the strips that are lent
-/// (StripPool) and by kMaxUnwrittenTiles. After a failure it drops what comes.
-/// thread: one at a time
+/// Encodes the tiles of strips on `jobs` threads and writes them on one more thread. Tiles are always written in the
+/// order of submission, so the same picture gives the same file. The number of lent strips (StripPool) and
+/// kMaxUnwrittenTiles bound the queue. After a failure, new strips are dropped. thread: one at a time
 class EncodePool {
  public:
-  /// The first `already` tiles are written already and only counted past.
+  /// The first `already` tiles exist already and are only counted.
   EncodePool(int jobs, TileCoding coding, TileWriter& writer, std::int64_t already = 0);
-  ~EncodePool();  ///< drops what has not been encoded
+  ~EncodePool();  ///< drops strips that are not encoded yet
   EncodePool(const EncodePool&) = delete;
   EncodePool& operator=(const EncodePool&) = delete;
 
   void submit(const std::shared_ptr<const Strip>& strip);
   [[nodiscard]] bool failed() const;
-  /// Waits until everything is written, or tells the first failure. Throws what a thread has thrown (std::bad_alloc).
-  /// Nothing can be submitted after it.
+  /// Waits until everything is written, or returns the first failure. Rethrows an exception of a thread
+  /// (std::bad_alloc). No strip can be submitted afterwards.
   [[nodiscard]] Result<TileCounts> finish();
 
  private:

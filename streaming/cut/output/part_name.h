@@ -7,22 +7,24 @@
 
 namespace terrella {
 
-/// A name beside `output` for what is not whole yet: hidden, and no other process or call uses it. thread: any
+/// Temporary name beside `output` for incomplete data: hidden, and used by no other process or call. thread: any
 [[nodiscard]] std::filesystem::path part_name(const std::filesystem::path& output);
 
 /// Waits until the file or directory is on the disk. thread: any
 [[nodiscard]] Status sync_to_disk(const std::filesystem::path& path);
 
-/// Looks at what stands under an output's name, or did until now and lies at `there`: done, or why it must stay.
+/// Decides if an existing output may be replaced. `there` is the output's name, or the place to which it was just
+/// moved. The error says why it must stay.
 using MayReplace = std::function<Status(const std::filesystem::path& there)>;
 
-/// Gives `part` the name `output` in one step, and makes that last. A file or folder that has the name is asked about
-/// first, and again when it is out of the way and nobody can exchange it any more: one that must stay gets its name
-/// back. What was replaced lies at `part` then; the caller removes it. thread: any
+/// Gives `part` the name `output` in one step, durably.
+/// `may_replace` is asked about an existing file or folder of that name. It is asked again after the old output was
+/// moved aside, when nobody can exchange it any more. An output that must stay gets its name back. The replaced output
+/// is then at `part`, and the caller removes it. thread: any
 [[nodiscard]] Status take_name(const std::filesystem::path& part, const std::filesystem::path& output,
                                const MayReplace& may_replace);
 
-/// The directory that `output` is in. thread: any
+/// The directory that contains `output`. thread: any
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& output);
 
 }  // namespace terrella

@@ -25,14 +25,15 @@ struct CloseLog {
 };
 using LogFile = std::unique_ptr<std::FILE, CloseLog>;
 
-/// What a run keeps for the next one if it is killed: a file of records with checksums, one after the other, that has
-/// its name only when it is whole and is called NAME.part before. In this machine's byte order. thread: one at a time
+/// Records that a killed run leaves for the next run: a file of records with checksums, one after the other. The file
+/// is called NAME.part until it is complete. It uses this machine's byte order. thread: one at a time
 class RecordLogWriter : public TileWriter {
  public:
-  /// Goes on after the last whole record of NAME.part if `resume`, else begins anew. `output` is named in errors.
+  /// Opens the log for writing. With `resume`, continues after the last complete record of NAME.part; else starts anew.
+  /// `output` is named in errors.
   [[nodiscard]] static Result<std::unique_ptr<RecordLogWriter>> open(std::filesystem::path path, bool resume,
                                                                      std::filesystem::path output);
-  /// Records that were there already.
+  /// Number of records found on opening.
   [[nodiscard]] std::int64_t found() const { return found_; }
   [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override;
   [[nodiscard]] Status finish() override;
@@ -48,11 +49,11 @@ class RecordLogWriter : public TileWriter {
   std::int64_t records_ = 0;
 };
 
-/// Reads a whole log; what is damaged or ends too early is an error. thread: one at a time
+/// Reads a whole log. Damaged or truncated logs cause an error. thread: one at a time
 class RecordLogReader {
  public:
   [[nodiscard]] static Result<RecordLogReader> open(const std::filesystem::path& path);
-  /// The next record; none after the last.
+  /// Returns the next record; none after the last.
   [[nodiscard]] Result<std::optional<LogRecord>> next();
 
  private:

@@ -10,8 +10,8 @@
 #include "streaming/cut/output/encode_pool.h"
 #include "streaming/cut/output/work_folder.h"
 
-/// Several machines at one picture: each makes the bands of its share in a folder of its own beside the output, and
-/// one joins them.
+/// Lets several machines cut one picture. Each makes the bands of its share in its own folder beside the output. One
+/// machine joins them.
 namespace terrella {
 
 struct BandRange {
@@ -21,20 +21,20 @@ struct BandRange {
 
 [[nodiscard]] Status check_shard(const CutOptions& options);
 
-/// Shares that differ by one band at most; empty where there are fewer bands than shards.
+/// Bands of one shard. Shares differ by at most one band. A share is empty if there are fewer bands than shards.
 [[nodiscard]] BandRange bands_of_shard(const CutShard& shard, std::int64_t bands);
 
 /// "OUTPUT.shard-2-of-8"
 [[nodiscard]] std::filesystem::path shard_folder(const std::filesystem::path& output, const CutShard& shard);
 
-/// The tiles of bands that are there.
+/// Counts the tiles of existing bands.
 [[nodiscard]] Result<TileCounts> count_bands(const WorkFolder& folder, const BandRange& range);
 
 struct FoundShards {
-  std::vector<std::filesystem::path> bands;    ///< of all, in order: what their files' names begin with
-  std::vector<std::filesystem::path> folders;  ///< that they lie in
+  std::vector<std::filesystem::path> bands;    ///< path prefix of the files of each band, in order
+  std::vector<std::filesystem::path> folders;  ///< folders that contain them
 };
-/// The folders of all shards beside the output; an error that says which are missing, not finished or of another
+/// Finds the folders of all shards beside the output. The error lists shards that are missing, unfinished or of another
 /// picture.
 [[nodiscard]] Result<FoundShards> find_shards(const std::filesystem::path& output, const std::string& key,
                                               std::int64_t bands);

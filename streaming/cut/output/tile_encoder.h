@@ -11,15 +11,15 @@
 
 namespace terrella {
 
-/// How tiles are written.
+/// Encoding options of tiles.
 struct TileCoding {
   ImageFormat format = ImageFormat::jpeg;
   int quality = 85;
-  bool heights = false;  ///< PNG of 16 bits, gray
+  bool heights = false;  ///< 16-bit gray PNG
 };
 
-/// Encodes tiles out of strips; keeps its codec from tile to tile. JPEG: 4:2:0, the accurate DCT, Huffman tables as
-/// they come. PNG: as encode_png(). thread: one at a time
+/// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG: like
+/// encode_png(). thread: one at a time
 class TileEncoder {
  public:
   explicit TileEncoder(const TileCoding& coding);

@@ -12,20 +12,21 @@
 
 namespace terrella {
 
-/// Writes a tile set under a temporary name, and takes its own with finish(). Destroyed before that, it leaves nothing
-/// under its own. Errors name the output. thread: one at a time
+/// Writes a tile set under a temporary name, and renames it in finish(). Without finish() nothing is left under the
+/// final name. Errors name the output. thread: one at a time
 class TileWriter {
  public:
   virtual ~TileWriter() = default;
   [[nodiscard]] virtual Status put(const TileId& id, std::span<const std::byte> bytes) = 0;
-  /// Writes everything to the disk, then gives the output its name by take_name().
+  /// Writes everything to the disk, then gives the output its name with take_name().
   [[nodiscard]] virtual Status finish() = 0;
 };
 
-/// What a writer is told beside the tiles.
+/// Arguments of a tile writer.
 struct WriterSetup {
   std::filesystem::path output;
-  std::filesystem::path part;  ///< temporary names begin with it; on the output's file system; what is there is removed
+  /// prefix of temporary names, on the output's file system; existing files of these names are removed
+  std::filesystem::path part;
   TileSetInfo info;
   std::string last_change;  ///< "2026-01-31T12:00:00.000Z"
   std::string mark;         ///< cut_mark()
@@ -35,8 +36,8 @@ struct WriterSetup {
 /// True if an output of this name is a GeoPackage, false if it is a folder.
 [[nodiscard]] bool is_gpkg_name(const std::filesystem::path& output);
 
-/// A GeoPackage if the name ends in .gpkg, else a directory {z}/{x}/{y}.jpg|png with tileset.json. The same tiles in
-/// the same order give the same bytes.
+/// Makes a GeoPackage writer for a name that ends in .gpkg, else a writer of a directory {z}/{x}/{y}.jpg|png with
+/// tileset.json. The same tiles in the same order give the same bytes.
 [[nodiscard]] Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup);
 
 [[nodiscard]] Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const WriterSetup& setup);

@@ -7,16 +7,17 @@
 
 namespace terrella {
 
-/// Where a run keeps what is not whole yet, beside the output. The file `key` in it says for what (options, pictures,
-/// their sizes and times): only a run with the same key goes on with it. The file `lock` is locked (flock) as long as
-/// the run lives, so that two runs never share a folder and a folder that nobody holds is known to be left over.
-/// Removed with its owner unless keep() was called; not removed by a killed one. thread: one at a time
+/// Folder beside the output for incomplete work.
+/// The file `key` in the folder identifies the work (options, pictures, their sizes and times). Only a run with the
+/// same key resumes it. The file `lock` is locked (flock) while the run lives. Two runs therefore never share a folder,
+/// and an unlocked folder is a leftover. The destructor removes the folder unless keep() was called. A killed run
+/// leaves the folder behind. thread: one at a time
 class WorkFolder {
  public:
-  /// A hidden folder beside the output: one with this key that a killed run has left, else a new one. Removes what
-  /// killed runs for the same output have left under other keys.
+  /// Opens a hidden folder beside the output: a leftover of a killed run with this key, else a new folder. Removes
+  /// leftovers of killed runs for the same output with other keys.
   [[nodiscard]] static Result<WorkFolder> beside(const std::filesystem::path& output, const std::string& key);
-  /// The folder of that name; emptied if it was made for something else. An error if another run holds it.
+  /// Opens the folder of that name, and empties it if it has another key. Fails if another run holds it.
   [[nodiscard]] static Result<WorkFolder> named(const std::filesystem::path& folder, const std::string& key);
 
   WorkFolder(WorkFolder&& other) noexcept : path_(std::move(other.path_)), lock_(other.lock_), keep_(other.keep_) {
@@ -28,7 +29,7 @@ class WorkFolder {
   ~WorkFolder();
 
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  /// From now on it stays when its owner goes.
+  /// Keeps the folder when this object is destroyed.
   void keep() { keep_ = true; }
 
  private:
@@ -38,7 +39,7 @@ class WorkFolder {
   bool keep_ = false;
 };
 
-/// The text of a work folder's `key`; empty if there is none. thread: any
+/// The text of a work folder's `key` file; empty if there is none. thread: any
 [[nodiscard]] std::string key_of_folder(const std::filesystem::path& folder);
 
 }  // namespace terrella

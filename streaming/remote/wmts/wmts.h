@@ -9,13 +9,13 @@
 
 namespace terrella {
 
-/// NASA GIBS' document of all its layers has about 5 MB.
+/// Limit on a document. NASA GIBS' document of all layers has about 5 MB.
 inline constexpr std::size_t kMaxCapabilitiesBytes = 32UL << 20;
 
-/// Finds a layer's tiles in a WMTS capabilities document (OGC 07-057r7, version 1.0.0): by the layer's URL template,
-/// else by GetTile with key-value pairs. The first linked matrix set that a TileGrid can describe is taken, or the one
-/// asked for; JPEG before PNG. Entities of the document's own are not expanded and nothing is fetched. The error begins
-/// with `where` and says what there is instead (layers, times), or why a matrix set cannot be described. thread: any
+/// Finds a layer's tiles in a WMTS capabilities document (OGC 07-057r7, version 1.0.0). Uses the layer's URL template,
+/// else GetTile with key-value pairs. Takes the requested matrix set, or the first linked one that a TileGrid can
+/// describe; prefers JPEG to PNG. Does not expand entities of the document, and fetches nothing. The error begins with
+/// `where`. It lists the choices (layers, times), or says why a matrix set cannot be described. thread: any
 [[nodiscard]] Result<RemoteTileSet> parse_wmts_capabilities(std::string_view xml, const RemoteOptions& options,
                                                             const std::string& where);
 

@@ -10,20 +10,21 @@
 
 namespace terrella {
 
-/// A tile matrix set on a TileGrid: its levels are the set's matrices, coarsest first.
+/// A tile matrix set on a TileGrid. Its levels are the set's matrices, coarsest first.
 struct WmtsGrid {
-  TileGrid grid;  ///< bounds: where the matrices, or the layer's limits, have tiles
+  TileGrid grid;  ///< bounds: area in which the matrices, or the layer's limits, have tiles
   std::vector<std::string> level_names;
   std::vector<TileShift> shifts;  ///< empty: none
   std::string body;
 };
 
-/// Finds the grid of a matrix set. Angles come from the scale denominators: a WMTS pixel is 0.28 mm and a degree
-/// 6378137·π/180 m whatever the body (OGC 07-057r7, 6.1); where the matrices then do not cover the planet but do so
-/// with the radius of the body (of `body`, else of the reference system), that is what the server counts with. Matrices
-/// whose corner is no whole number of tiles from (-180°, 90°) are left out if they are coarser than some whose is.
-/// Those of EPSG:3857 make a grid in Web Mercator, if their tiles are the web's. The error is the reason alone. thread:
-/// any
+/// Finds the grid of a matrix set.
+/// Angles come from the scale denominators: a WMTS pixel is 0.28 mm and a degree 6378137·π/180 m, whatever the body
+/// (OGC 07-057r7, 6.1). If the matrices then do not cover the planet, but do with the radius of the body (`body`, else
+/// that of the reference system), the server counts with that radius.
+/// Matrices whose corner is no whole number of tiles from (-180°, 90°) are left out if a finer matrix has a fitting
+/// corner. Matrices of EPSG:3857 make a grid in Web Mercator if their tiles are the usual web tiles. The error is the
+/// reason alone. thread: any
 [[nodiscard]] Result<WmtsGrid> grid_of(const WmtsMatrixSet& set, const std::vector<WmtsLimits>& limits,
                                        const std::optional<std::string>& body);
 

@@ -25,17 +25,17 @@ struct WmtsLink {
 struct WmtsLayer {
   std::string name{};
   std::string title{};
-  std::vector<std::string> styles{};  ///< the default first
+  std::vector<std::string> styles{};  ///< default first
   std::vector<std::string> formats{};
   std::vector<WmtsLink> links{};
   std::vector<WmtsDimension> dimensions{};
-  std::vector<WmtsResource> resources{};  ///< of tiles
-  std::optional<GeoRect> bounds{};        ///< WGS84BoundingBox; none if it is not there or makes no sense
+  std::vector<WmtsResource> resources{};  ///< addresses of tiles
+  std::optional<GeoRect> bounds{};        ///< WGS84BoundingBox; none if missing or invalid
 };
 
 [[nodiscard]] WmtsLayer read_wmts_layer(const pugi::xml_node& node);
 
-/// Where GetTile with key-value pairs is answered; empty: nowhere.
+/// Address for GetTile with key-value pairs; empty if there is none.
 [[nodiscard]] std::string kvp_address(const pugi::xml_node& capabilities);
 
 }  // namespace terrella

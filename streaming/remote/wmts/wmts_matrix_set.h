@@ -11,11 +11,11 @@
 
 namespace terrella {
 
-/// A <TileMatrix>, as numbers that are in range.
+/// A <TileMatrix> with numbers checked for range.
 struct WmtsMatrix {
   std::string name{};
   double scale_denominator = 0.0;
-  std::pair<double, double> corner{};  ///< TopLeftCorner as written: which is the latitude, wmts_grid decides
+  std::pair<double, double> corner{};  ///< TopLeftCorner as written; wmts_grid decides which number is the latitude
   int tile_px = 0;
   std::int64_t columns = 0;
   std::int64_t rows = 0;
@@ -28,7 +28,7 @@ struct WmtsMatrixSet {
   std::vector<WmtsMatrix> matrices{};
 };
 
-/// A <TileMatrixLimits>: the tiles that a layer has of a matrix, first and last included.
+/// A <TileMatrixLimits>: tiles of a matrix in a layer, first and last included.
 struct WmtsLimits {
   std::string matrix{};
   std::int64_t first_column = 0, last_column = 0, first_row = 0, last_row = 0;
@@ -37,7 +37,7 @@ struct WmtsLimits {
 /// Reads a <TileMatrixSet>. The error is the reason alone, without the name of document or set. thread: any
 [[nodiscard]] Result<WmtsMatrixSet> read_matrix_set(const pugi::xml_node& node);
 
-/// Reads the limits of a <TileMatrixSetLink>; those that are no numbers are passed over. thread: any
+/// Reads the limits of a <TileMatrixSetLink>. Skips limits that are not numbers. thread: any
 [[nodiscard]] std::vector<WmtsLimits> read_limits(const pugi::xml_node& link);
 
 }  // namespace terrella

@@ -11,16 +11,16 @@ namespace terrella {
 struct WmtsDimension {
   std::string name{};
   std::string otherwise{};            ///< <Default>; empty: none
-  std::vector<std::string> values{};  ///< single values, or START/END/PERIOD as OGC 06-042 writes them
+  std::vector<std::string> values{};  ///< single values, or START/END/PERIOD as in OGC 06-042
 };
 
 struct ChosenTime {
   std::string value{};
-  bool newest = false;  ///< within a day of the last that is listed: some of its tiles may be still to come
+  bool newest = false;  ///< within a day of the last listed time: some tiles may not exist yet
 };
 
-/// The time to ask for: `given`, if it is listed (periods are not counted out), else the default. The error says what
-/// is listed. thread: any
+/// Chooses the time to request: `given` if listed, else the default. Does not check that `given` is a step of a period.
+/// The error lists the available times. thread: any
 [[nodiscard]] Result<ChosenTime> choose_time(const WmtsDimension& dimension, const std::string& given);
 
 }  // namespace terrella

@@ -8,7 +8,7 @@
 
 namespace terrella {
 
-/// What is asked for in every request for a tile.
+/// Parameters common to all tile requests of a layer.
 struct WmtsRequest {
   std::string layer{};
   std::string style{};
@@ -17,10 +17,10 @@ struct WmtsRequest {
   std::map<std::string, std::string> dimensions{};  ///< by the name in the document
 };
 
-/// A RemoteTileSet's URL template of a <ResourceURL>'s template. The error is the reason alone. thread: any
+/// Converts a <ResourceURL>'s template to a RemoteTileSet's URL template. The error is the reason alone. thread: any
 [[nodiscard]] Result<std::string> rest_template(const std::string& wmts_template, const WmtsRequest& request);
 
-/// The same for GetTile with key-value pairs. thread: any
+/// Makes a URL template for GetTile with key-value pairs. thread: any
 [[nodiscard]] std::string kvp_template(const std::string& address, const WmtsRequest& request);
 
 }  // namespace terrella
