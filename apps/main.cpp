@@ -18,10 +18,10 @@ using namespace terrella;
 
 constexpr const char* kProgramExamples =
     "Examples:\n"
-    "  terrella view                                  turn the Earth\n"
-    "  terrella view moon.jpg --body moon             turn any planet that there is a 2:1 picture of\n"
-    "  terrella render -o shot.png --camera 46,7,3e5  a picture, without display or GPU\n"
-    "  terrella cut picture.tif -o planet.gpkg        tiles from a picture of any size";
+    "  terrella view                                  explore the Earth\n"
+    "  terrella view moon.jpg --body moon             explore any planet from a 2:1 picture\n"
+    "  terrella render -o shot.png --camera 46,7,3e5  save a picture, without display or GPU\n"
+    "  terrella cut picture.tif -o planet.gpkg        cut a picture of any size into tiles";
 
 /// The subcommand that the command line got as far as, or the program: whose --help answers the mistake.
 const CLI::App& innermost(const CLI::App& app) {
@@ -62,7 +62,7 @@ int terrella::fail(const char* command, const std::string& why) {
 namespace {
 
 int run_program(int argc, char** argv) {
-  CLI::App app("A globe for equirectangular pictures and tile sets of any planet.", "terrella");
+  CLI::App app("Show equirectangular pictures and tile sets of any planet on a globe.", "terrella");
   app.set_version_flag("--version", std::string("terrella ") + TERRELLA_VERSION);
   app.require_subcommand(1);
   app.footer(kProgramExamples);

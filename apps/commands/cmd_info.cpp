@@ -37,7 +37,7 @@ constexpr const char* kInfoExamples =
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
-    "  terrella info moon.tif                where a picture says that it lies, and how it is shown, or why not";
+    "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
   std::error_code error;
@@ -132,14 +132,13 @@ int run_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("info", "Say what a tile set holds or what a picture says of its place, and check it.");
+      app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
-  command->add_flag(
-      "--verify", options->verify,
-      "decode every tile, name the broken ones, and check a cache's database; exit code 1 if there are any");
-  command->add_flag("--json", options->json, "one JSON object");
+  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage or a picture")->required();
+  command->add_flag("--verify", options->verify,
+                    "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
+  command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 

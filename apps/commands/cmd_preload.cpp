@@ -31,7 +31,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
-    "Preloaded tiles are pinned: no limit of a viewer evicts them. To let go of them:\n"
+    "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
 
 constexpr int kMostSampled = 20;
@@ -243,7 +243,7 @@ int run(PreloadCommand& command) {
 }  // namespace
 
 void add_preload_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline.");
+  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline");
   sub.footer(kPreloadExamples);
   const auto command = std::make_shared<PreloadCommand>();
   add_preload_options(sub, *command);

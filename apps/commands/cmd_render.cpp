@@ -75,7 +75,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
     print_result("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  print_result("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
+  print_result("{}: {} tiles: {} loaded, {} missing\n", command.output, stats.tiles_wanted, got,
                stats.tiles_lacked + stats.tiles_missing);
   if (!rendered.attributions.empty()) {
     print_result("{}: thanks to {}\n", command.output,
@@ -211,13 +211,12 @@ int run(const RenderCommand& command) {
 }  // namespace
 
 void add_render_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub =
-      *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
+  CLI::App& sub = *app.add_subcommand("render", "Render the globe to a PNG file, without display or GPU");
   auto command = std::make_shared<RenderCommand>();
   add_scene_options(sub, command->scene);
-  sub.add_option("-o,--output", command->output, "PNG file to write")->required();
+  sub.add_option("-o,--output", command->output, "Write this PNG file")->required();
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without one it is day everywhere
-  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")
+  sub.add_option("--timeout", command->timeout_s, "Wait at most this many seconds for tiles")
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();
   sub.add_flag("--json", command->json, "Print the result as one JSON object");

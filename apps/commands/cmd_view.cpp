@@ -27,11 +27,11 @@ constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
 constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // of a size that was kept
 
 constexpr const char* kHelpFooter =
-    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
-    "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that,\n"
-    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks; files dropped onto the window become layers,\n"
-    "F1 or ? lists the keys, Esc leaves.\n"
+    "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
+    "turn, double-click to fly there. Drop files onto the window to add layers.\n"
+    "Keys: arrows, + and - move; N north up, Home whole globe, G graticule, F full screen, / search, M measure,\n"
+    "U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save pictures,\n"
+    "1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -157,14 +157,14 @@ int view(const ViewOptions& options) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("view", "Turn a globe in a window");
+  CLI::App* command = app.add_subcommand("view", "Explore a globe in a window");
   const auto options = std::make_shared<ViewOptions>();
   options->scene.size = kWindow;
   add_scene_options(*command, options->scene);
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
-                    "Print the camera, as --camera takes it, on standard output each time it comes to rest");
-  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F goes back to a window");
+                    "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
   command->callback([options, command, &exit_code] {
     begin_as_kept(*options, *command);
