@@ -72,7 +72,7 @@ int run(const BenchCommand& command) {
     if (StopSignals::came()) throw std::runtime_error("stopped; nothing was written");
     print_message("bench {}: {}\n", chosen.name, doing);
   };
-  // Not after minutes of measuring.
+  // Fail before minutes of measuring, not after.
   if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
   const Result<bench::Report> report = chosen.run(options);
   if (!report) return fail("bench", report.error().message);

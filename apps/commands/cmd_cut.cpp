@@ -55,7 +55,7 @@ Result<GeoRect> parse_bounds(const std::string& text) {
   return GeoRect{.west = sides[0], .south = sides[1], .east = sides[2], .north = sides[3]};
 }
 
-/// Two whole numbers around a letter, as 4x2 or 3/8.
+/// Parses two whole numbers around a letter, such as 4x2 or 3/8.
 Result<std::pair<int, int>> parse_pair(const std::string& text, char between, const char* wanted) {
   const std::size_t at = text.find(between);
   const auto first = read_number(std::string_view(text).substr(0, at));
@@ -89,7 +89,7 @@ void print_summary(const CutCommand& command, const CutSummary& summary) {
                                    {"root_span_deg", grid.root_span_deg},
                                    {"min_level", grid.min_level},
                                    {"max_level", grid.max_level}};
-    // A path need not be UTF-8.
+    // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }

@@ -63,7 +63,8 @@ std::vector<LevelReport> count_levels(TileSource& source) {
   return levels;
 }
 
-/// A line on standard error every second or so: results go to standard output alone. Stops on a signal.
+/// Prints a progress line to standard error about once a second; standard output carries only results. Stops on a
+/// signal.
 auto progress_lines() {
   return [last = std::chrono::steady_clock::now()](std::int64_t done, std::int64_t total) mutable {
     if (StopSignals::came()) return false;
@@ -75,7 +76,7 @@ auto progress_lines() {
   };
 }
 
-/// Tiles are checked as they are stored: those of a set in Web Mercator, not what is made of them.
+/// Checks tiles as stored. For a set in Web Mercator these are the original tiles, not the reprojected ones.
 Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSource> source, bool is_cache) {
   if (source->info().made_of) {
     auto stored = open_stored_tile_set(options.tile_set.with_secrets());
@@ -84,7 +85,7 @@ Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSour
   }
   Result<VerifyReport> verified = verify_tiles(source, progress_lines());
   if (!verified) return Error{options.tile_set.redacted() + ": " + verified.error().message};
-  // A cache is not meant to have all tiles of its source.
+  // A cache need not hold all tiles of its source.
   if (is_cache) verified->absent = 0;
   return verified;
 }
@@ -98,7 +99,7 @@ int run_picture_info(const InfoOptions& options) {
 
 int run_info(const InfoOptions& options) {
   const StopSignals signals;
-  // A picture is cut only to have its tiles checked.
+  // Pictures are cut only for --verify.
   if (is_picture(options.tile_set.with_secrets()) && !options.verify) return run_picture_info(options);
   SceneOptions scene;
   scene.tile_set = options.tile_set;

@@ -39,7 +39,7 @@ void print_summary(const MergeCommand& command, const MergeSummary& summary) {
                                         {"tiles", summary.tiles},
                                         {"absences", summary.absences},
                                         {"dropped", summary.dropped}};
-    // A path need not be UTF-8.
+    // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }

@@ -24,7 +24,7 @@ namespace terrella {
 namespace {
 
 constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
-constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // of a size that was kept
+constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower bound for a kept size
 
 constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
@@ -47,7 +47,7 @@ struct ViewOptions {
   std::string message;
 };
 
-// The command line goes before what earlier runs have kept.
+// Applies the kept settings of earlier runs; options on the command line have priority.
 void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   const auto file = settings_file();
   if (!file) return;
@@ -67,7 +67,7 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   if (!said("--stereo")) scene.stereo.mode = kept.stereo;
 }
 
-/// The name of a file alone; the whole address of a set on the network, whose last part is "{y}.jpg" for most.
+/// Name of a local file, or the whole address of a remote set. The last part of most addresses is just "{y}.jpg".
 std::string layer_name(const Url& tile_set) {
   const std::string shown = tile_set.without_query();
   const std::string name = is_remote(tile_set) ? shown : std::filesystem::path(shown).filename().string();
@@ -78,7 +78,7 @@ LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
   return {.id = id, .name = layer_name(tile_set), .bounds = {}, .look = look};
 }
 
-/// In the order that add_overlays(), add_image_layers() and add_objects() have made them.
+/// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
@@ -107,10 +107,10 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
 
 int view(const ViewOptions& options) {
   if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
-  // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
+  // The window opens before the cutting, so that a missing display is reported at once.
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail("view", window.error().message);
-  // A picture that is being cut must not be left half done; the window itself may be ended at any time.
+  // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
   auto imagery = open_imagery(options.scene);
   if (!imagery) return fail("view", imagery.error().message);
@@ -138,7 +138,7 @@ int view(const ViewOptions& options) {
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
   const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());
-  // Heights that come later raise the eye with the ground, as everywhere in the window.
+  // Later heights raise the eye with the ground, as everywhere in the window.
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);
   const ViewerOptions viewer_options{.camera = start,

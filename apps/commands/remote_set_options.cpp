@@ -8,7 +8,7 @@ namespace terrella {
 
 namespace {
 
-/// Refuses what no request could be sent with, before any is.
+/// Refuses headers that no request could carry, before any request is sent.
 CLI::Validator sendable_header() {
   return {[](const std::string& header) {
             const Status sendable = http::check_request_header(header);

@@ -168,7 +168,7 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
       ->default_str("auto");
 }
 
-// The almanac's years are part of what the option takes.
+// Parses a time and refuses years outside the almanac.
 Result<UtcTime> parse_time(std::string_view text) {
   Result<UtcTime> time = parse_utc(text);
   if (!time) return time;
