@@ -18,29 +18,29 @@ using namespace terrella;
 
 constexpr const char* kProgramExamples =
     "Examples:\n"
-    "  terrella view                                  turn the Earth\n"
-    "  terrella view moon.jpg --body moon             turn any planet that there is a 2:1 picture of\n"
-    "  terrella render -o shot.png --camera 46,7,3e5  a picture, without display or GPU\n"
-    "  terrella cut picture.tif -o planet.gpkg        tiles from a picture of any size";
+    "  terrella view                                  explore the Earth\n"
+    "  terrella view moon.jpg --body moon             explore any planet from a 2:1 picture\n"
+    "  terrella render -o shot.png --camera 46,7,3e5  save a picture, without display or GPU\n"
+    "  terrella cut picture.tif -o planet.gpkg        cut a picture of any size into tiles";
 
-/// The subcommand that the command line got as far as, or the program: whose --help answers the mistake.
+/// Returns the subcommand that the parse reached, or the program; an error message refers to its --help.
 const CLI::App& innermost(const CLI::App& app) {
   const auto parsed = app.get_subcommands();
   return parsed.empty() ? app : *parsed.front();
 }
 
-/// "--option" of "--option=value".
+/// Returns "--option" of "--option=value".
 std::string name_part(const std::string& argument) {
   return argument.starts_with('-') ? argument.substr(0, argument.find('=')) : argument;
 }
 
-/// CLI11 has an exit code for each kind of mistake; the program's contract has one, 2.
+/// Maps CLI11's many exit codes for mistakes to the contract's single code, 2.
 int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const CLI::App& where = innermost(app);
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
-  // CLI11 looks for what is missing first: without this, a mistyped name would be told as a missing one. And it names
-  // all that it cannot use, the value of a mistyped --header included.
+  // CLI11 reports missing arguments before unknown ones, so a mistyped name would be reported as a missing one. CLI11
+  // also prints all unknown arguments, including the value of a mistyped --header.
   const auto unknown = where.remaining();
   const bool mistyped = (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
                          dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) &&
@@ -62,7 +62,7 @@ int terrella::fail(const char* command, const std::string& why) {
 namespace {
 
 int run_program(int argc, char** argv) {
-  CLI::App app("A globe for equirectangular pictures and tile sets of any planet.", "terrella");
+  CLI::App app("Show equirectangular pictures and tile sets of any planet on a globe.", "terrella");
   app.set_version_flag("--version", std::string("terrella ") + TERRELLA_VERSION);
   app.require_subcommand(1);
   app.footer(kProgramExamples);

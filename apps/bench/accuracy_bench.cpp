@@ -23,7 +23,7 @@ namespace {
 
 using truth::ZoneError;
 
-/// What was found of one setting in one view.
+/// Figures of one setting in one view.
 struct AccuracyFigures {
   double selection_ms = 0.0, frame_ms = 0.0, frame_cpu_ms = 0.0;
   std::int64_t patches = 0, triangles = 0;
@@ -33,14 +33,14 @@ struct AccuracyFigures {
   double rms = kNoFigure, rms_pole = kNoFigure, rms_elsewhere = kNoFigure, rms_borders = kNoFigure;
 };
 
-/// What tiles take on the GPU: their gutters and mips too.
+/// GPU memory of tiles, including gutters and mips.
 double slots_mb(const TileGrid& grid, int gutter_px, std::int64_t tiles) {
   constexpr double kMipsOverFinest = 1.0 + 1.0 / 4 + 1.0 / 16 + 1.0 / 64, kBytesATexel = 4.0;
   const double side = grid.tile_px + 2.0 * gutter_px;
   return 1e-6 * kBytesATexel * kMipsOverFinest * side * side * static_cast<double>(tiles);
 }
 
-/// Pixels of the one that are in the other, or that are not.
+/// Intersects a mask with another, or subtracts the other.
 truth::Mask within(truth::Mask mask, const truth::Mask& other, bool inside = true) {
   for (std::size_t k = 0; k < mask.set.size(); ++k) mask.set[k] = mask.set[k] != 0 && (other.set[k] != 0) == inside;
   return mask;
@@ -91,7 +91,7 @@ class AccuracyLab {
     const View view = make_view(eye, earth().ellipsoid, viewport_);
     std::vector<SelectedPatch> patches;
     std::vector<double> times_ms;
-    for (int round = -1; round < rounds_; ++round) {  // the first makes the tree
+    for (int round = -1; round < rounds_; ++round) {  // the first round builds the tree
       const auto start = std::chrono::steady_clock::now();
       select_patches(tree, view, selection_of(options), patches);
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
@@ -103,7 +103,7 @@ class AccuracyLab {
     figures.mesh = mesh_error(tree, view, eye, patches, true);
   }
 
-  /// A globe made anew, so that what it reads is what this view takes.
+  /// Draws with a new globe, so that the requests are those of this view.
   void draw(const GlobeOptions& options, const AccuracyView& view, const truth::TruthImage& truth,
             AccuracyFigures& figures) {
     auto opened = open_tile_set(planet_.tiles);
@@ -128,7 +128,7 @@ class AccuracyLab {
     figures.rms = rms_of(truth::masked_error(shown, truth, clear));
     figures.rms_pole = rms_of(truth::masked_error(shown, truth, pole));
     figures.rms_elsewhere = rms_of(truth::masked_error(shown, truth, within(clear, pole, false)));
-    if (!view.magnified) return;  // else which tiles meet where is a matter of the view
+    if (!view.magnified) return;  // in other views, the borders between tiles depend on the view
     const truth::Mask borders = truth::tile_border_mask(
         truth, as_spheroid(earth().ellipsoid), {}, {.root_span_deg = grid_.root_span_deg, .level = grid_.max_level});
     figures.rms_borders = rms_of(truth::masked_error(shown, truth, within(borders, clear)));
@@ -183,8 +183,8 @@ double of_default(const Report& report, const std::string& view, const char* col
   return kNoFigure;
 }
 
-/// A view over a pole beside that over the equator from as high. One height alone says where levels change; over an
-/// octave of heights the means count.
+/// Adds ratios of views over a pole to views over the equator at the same height. A single height shows only where
+/// levels change; means over an octave of heights are meaningful.
 void add_polar_findings(const std::vector<AccuracyView>& views, Report& report) {
   constexpr double kMoreTiles = 1.5, kMoreError = 1.1;
   for (const auto& [column, limit] : {std::pair{"tiles", kMoreTiles}, {"rms", kMoreError}}) {
@@ -215,7 +215,7 @@ void add_findings(const std::vector<AccuracyView>& views, Report& report) {
 
 std::vector<Plot> accuracy_plots(const std::vector<AccuracyView>& views) {
   const std::string pole = "beside the pole, 6000 km", middle = "mid latitude, 6000 km";
-  std::vector<std::string> pairs;  // where the finest tiles are not yet all there is
+  std::vector<std::string> pairs;  // views and their twins; the finest tiles do not limit them
   for (const AccuracyView& view : views) {
     if (!view.twin.empty()) pairs.insert(pairs.end(), {view.twin, view.name});
   }

@@ -18,7 +18,7 @@ class Settings {
  public:
   explicit Settings(Effort effort) : effort_(effort) { settings_.push_back({kDefaults, kNoFigure, drawn()}); }
 
-  /// `quick`, `normal` and `full`: the values; `set` puts one into the options.
+  /// Adds a setting for each value of the effort; `set` stores a value in the options.
   template <class Set>
   void sweep(const char* name, const std::vector<double>& quick, const std::vector<double>& normal,
              const std::vector<double>& full, Set set) {
@@ -35,7 +35,7 @@ class Settings {
   std::vector<AccuracySetting> settings_;
 };
 
-/// From so high the planet fills a picture's width, and its tiles are not yet the finest.
+/// At this height the planet fills the picture's width, and its tiles are not the finest.
 constexpr double kFourRadii_m = 3.0 * 6378137.0;
 constexpr double kHalfAnOctaveLower_m = 13.5e6;
 

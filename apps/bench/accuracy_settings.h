@@ -10,9 +10,9 @@
 
 namespace terrella::bench {
 
-/// One value of one of the globe's options, the others at their defaults.
+/// One value of one globe option; all other options have their defaults.
 struct AccuracySetting {
-  const char* sweep;  ///< which option; kDefaults: none
+  const char* sweep;  ///< name of the option, or kDefaults
   double value;       ///< NaN with kDefaults
   GlobeOptions globe;
 };
@@ -20,9 +20,10 @@ struct AccuracySetting {
 inline constexpr const char* kDefaults = "default";
 inline constexpr const char* kTessellation = "tessellation";
 inline constexpr const char* kThreshold = "threshold";
-inline constexpr const char* kPlainThreshold = "threshold, plain mapping";  ///< paper 1's (1) in place of the tangent
-inline constexpr const char* kDetail = "detail";                            ///< texels a pixel that are asked for
-inline constexpr const char* kColumns = "polar columns";                    ///< on the full grid
+inline constexpr const char* kPlainThreshold =
+    "threshold, plain mapping";                           ///< paper 1's formula (1) in place of the tangent
+inline constexpr const char* kDetail = "detail";          ///< requested texels per pixel
+inline constexpr const char* kColumns = "polar columns";  ///< on the full grid
 inline constexpr const char* kGutter = "gutter";
 
 [[nodiscard]] std::vector<AccuracySetting> accuracy_settings(Effort effort);
@@ -30,12 +31,12 @@ inline constexpr const char* kGutter = "gutter";
 struct AccuracyView {
   std::string name;
   truth::TruthCamera camera;
-  std::string twin = {};   ///< of a view over the pole: that over the equator from as high
-  bool magnified = false;  ///< every texel is larger than a pixel: the finest tiles are all there is
+  std::string twin = {};   ///< views over the pole: the view over the equator from the same height
+  bool magnified = false;  ///< every texel is larger than a pixel; even the finest tiles are too coarse
 };
 [[nodiscard]] std::vector<AccuracyView> accuracy_views(Effort effort);
 
-/// The selection that a globe with these options makes, but for what is about translucency.
+/// Selection options of a globe with these options, without those for translucency.
 [[nodiscard]] PatchSelectionOptions selection_of(const GlobeOptions& options);
 
 }  // namespace terrella::bench

@@ -13,24 +13,24 @@
 namespace terrella::bench {
 
 enum class Effort {
-  quick,   ///< seconds, small pictures: shows that it works; its figures are not to be quoted
+  quick,   ///< seconds, small pictures: a trial run; do not quote its figures
   normal,  ///< minutes on two cores of a software rasteriser
   full,    ///< the whole grid
 };
 
 struct BenchOptions {
   Effort effort = Effort::normal;
-  std::filesystem::path work;                     ///< keeps the planet, its tiles and the ground truth between runs
-  std::string only = {};                          ///< views or flights whose name has this; empty: all
-  std::optional<ShaderFunctions> functions = {};  ///< of the self-test's shaders; none: what the engine chooses
+  std::filesystem::path work;  ///< keeps the planet, its tiles and the ground truth between runs
+  std::string only = {};       ///< runs only views or flights whose name contains this text; empty: all
+  std::optional<ShaderFunctions> functions = {};  ///< functions of the self-test's shaders; none: the engine chooses
   std::function<void(const std::string& doing)> progress = [](const std::string&) {};
-  std::function<bool()> goes_on = [] { return true; };  ///< asked while pictures are cut; false stops
+  std::function<bool()> goes_on = [] { return true; };  ///< called while pictures are cut; false stops
 
   [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
 };
 
-/// Each measures and returns its table. An error names what is missing. They make their own OpenGL context and need the
-/// processor for themselves. thread: main
+/// Runs a benchmark and returns its table. An error names the missing part. Each benchmark creates its own OpenGL
+/// context and needs the processor for itself. thread: main
 [[nodiscard]] Result<Report> bench_polar(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_accuracy(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);

@@ -7,7 +7,7 @@
 
 namespace terrella::bench {
 
-/// A tile set on disk that counts what is read of it. thread: as TileSource
+/// A tile set on disk that counts requests and bytes. thread: as TileSource
 class CountingSource : public TileSource {
  public:
   explicit CountingSource(std::unique_ptr<TileSource> tiles) : tiles_(std::move(tiles)) {}

@@ -26,7 +26,7 @@ void for_each_triangle(const PatchTree& tree, const SelectedPatch& patch, const 
   for (std::uint32_t k = range.first; k < range.first + range.count; k += 3) {
     const DrawnTriangle triangle{vertices[indices.indices[k]], vertices[indices.indices[k + 1]],
                                  vertices[indices.indices[k + 2]]};
-    // A coarse side folds some triangles to nothing.
+    // A coarse side collapses some triangles.
     if (triangle[0].position_m == triangle[1].position_m || triangle[1].position_m == triangle[2].position_m ||
         triangle[2].position_m == triangle[0].position_m) {
       continue;

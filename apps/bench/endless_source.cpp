@@ -12,11 +12,11 @@ namespace terrella::bench {
 namespace {
 
 constexpr int kTile_px = 256;
-constexpr int kWaves = 19;           // one a level
-constexpr double kAmplitude = 10.0;  // of each, 8-bit levels
+constexpr int kWaves = 19;           // one per level
+constexpr double kAmplitude = 10.0;  // of each wave, in 8-bit levels
 
-/// The waves of one axis over a tile: kWaves a texel. Wave k is that of the level k above, 48 of whose periods lie on a
-/// tile of that level, 5.3 texels each; a level has its own wave and those of all above it.
+/// The waves of one axis over a tile: kWaves values per texel. Wave k belongs to the level k above; 48 of its periods
+/// lie on a tile of that level, 5.3 texels each. A level has its own wave and the waves of all coarser levels.
 std::vector<float> waves(int level, std::int64_t tile, double phase) {
   std::vector<float> values;
   for (int texel = 0; texel < kTile_px; ++texel) {

@@ -6,9 +6,9 @@
 
 namespace terrella::bench {
 
-/// A planet of waves that has tiles at every level to 18, made when they are read: what a flight down to a street
-/// needs, and no disk holds. A level shows the waves that its texels can, so that tiles of different levels show the
-/// same planet; PNG tiles of 256 pixels, WorldCRS84Quad's grid.
+/// Creates a synthetic planet of waves with tiles at levels 0 to 18, made on demand. Flights down to a street need more
+/// tiles than a disk holds. Each level shows the waves that its texels can resolve, so that all levels show the same
+/// planet. Tiles are PNG with 256 pixels a side, on WorldCRS84Quad's grid.
 [[nodiscard]] std::unique_ptr<TileSource> make_endless_source();
 
 }  // namespace terrella::bench

@@ -56,7 +56,7 @@ std::vector<Curve> curves_of(const Report& report, const Plot& plot) {
   return curves;
 }
 
-/// Within double quotes, as gnuplot reads them.
+/// Quotes a text for gnuplot.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -81,7 +81,7 @@ std::string data_of(const std::vector<Curve>& curves, std::size_t plot) {
   return text;
 }
 
-/// A range with a margin: gnuplot's own on a logarithmic axis ends at powers of ten.
+/// A range with a margin; gnuplot's own range of a logarithmic axis ends at powers of ten.
 std::string log_range(const char* axis, const std::vector<Curve>& curves, double std::pair<double, double>::*member) {
   constexpr double kMargin = 1.2;
   double least = HUGE_VAL, most = 0.0;
@@ -109,7 +109,7 @@ std::string commands_of(const Report& report, const Plot& plot, const std::vecto
       plot.log_x && !curves.empty() ? log_range("x", curves, &Point::first) : "set xrange [*:*]\nset xtics autofreq\n";
   text +=
       plot.log_y && !curves.empty() ? log_range("y", curves, &Point::second) : "set yrange [0:*]\nset ytics autofreq\n";
-  // An axis without a point cannot be drawn: gnuplot would fail.
+  // gnuplot fails on an axis without points.
   if (curves.empty())
     return text + "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\nset xrange [*:*]\n";
   text += "plot ";
@@ -149,7 +149,7 @@ Drawn run_gnuplot(const std::filesystem::path& script) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  // What it would tell is about the script, whose place is told instead.
+  // gnuplot's messages concern the script; the report names the script instead.
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t pid = 0;
@@ -158,7 +158,7 @@ Drawn run_gnuplot(const std::filesystem::path& script) {
   if (refused != 0) return Drawn::no_gnuplot;
   int status = 0;
   if (waitpid(pid, &status, 0) != pid || !WIFEXITED(status)) return Drawn::failed;
-  constexpr int kNotFound = 127;  // of a spawn that found out late
+  constexpr int kNotFound = 127;  // exit code if the spawn failed late
   if (WEXITSTATUS(status) == kNotFound) return Drawn::no_gnuplot;
   return WEXITSTATUS(status) == 0 ? Drawn::yes : Drawn::failed;
 }

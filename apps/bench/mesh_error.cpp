@@ -22,7 +22,7 @@ constexpr double kMostSilhouette_px = 256.0;
 
 glm::dvec3 direction_to(const glm::dvec2& lon_lat_deg) { return truth::local_frame(lon_lat_deg.y, lon_lat_deg.x).up; }
 
-/// A point of a triangle between its corners, as the rasteriser interpolates it.
+/// Interpolates a point of a triangle from its corners, as the rasteriser does.
 DrawnVertex mixed(const DrawnTriangle& t, const glm::dvec3& weights) {
   DrawnVertex v{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec2(0.0)};
   for (int k = 0; k < 3; ++k) {
@@ -51,7 +51,7 @@ class Inspector {
     }
   }
 
-  /// Where the mesh ends short of the limb: the middle of an edge between a front and no front.
+  /// Measures the gap between mesh and limb at the middle of an edge between a front and a back face.
   void look_at_outline(const glm::dvec3& a_m, const glm::dvec3& b_m) {
     const auto at = project(view_, Ecef{0.5 * (a_m + b_m)});
     const auto centre = project(view_, Ecef{glm::dvec3(0.0)});
@@ -116,7 +116,7 @@ class Inspector {
   std::int64_t samples_ = 0;
 };
 
-/// Edges by their ends, whose bits are the same in every patch that has them, and the fronts beside them.
+/// Edges with the numbers of front and back faces beside them. An edge's ends have the same bits in every patch.
 class Outline {
  public:
   void add(const DrawnTriangle& t, bool front) {

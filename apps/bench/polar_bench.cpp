@@ -23,7 +23,7 @@ namespace {
 
 using truth::ZoneError;
 
-constexpr std::size_t kGlobeBytes = 192UL << 20;  // each of the many globes: 490 tiles
+constexpr std::size_t kGlobeBytes = 192UL << 20;  // per globe, as there are many: 490 tiles
 
 struct Size {
   int side_px;
@@ -35,7 +35,7 @@ Size size_of(Effort effort) {
   return {1024, 8, effort == Effort::full ? 15 : 9};
 }
 
-/// What one method did in one view.
+/// Figures of one method in one view.
 struct PolarFigures {
   ZoneError pole, twin, mid;  ///< twin: the pole's pixels in the view of mid latitudes
   std::int64_t triangles = 0, vertices = 0, tiles = 0;
@@ -94,7 +94,7 @@ class PolarLab {
                               truth_folder(options_));
   }
 
-  /// What the method shows from a camera.
+  /// Draws the method's picture for a camera.
   truth::Picture picture(std::size_t m, const truth::TruthCamera& camera, PolarFigures& figures) {
     if (methods_[m].sphere) {
       sphere_.draw(camera, polar_body().a_m, *methods_[m].sphere);
@@ -159,7 +159,7 @@ class PolarLab {
   PaperSphere sphere_;
   OffscreenTarget target_;
   std::vector<PolarMethod> methods_;
-  std::vector<std::unique_ptr<Globe>> globes_;  ///< of the methods that have one
+  std::vector<std::unique_ptr<Globe>> globes_;  ///< globes of the methods that use one
 };
 
 std::vector<Column> polar_columns() {
@@ -193,7 +193,7 @@ double figure(const Report& report, std::string_view view, std::string_view meth
   return kNoFigure;
 }
 
-/// The points of the list that this table answers.
+/// Adds the figures that answer the benchmark's questions.
 void add_findings(const std::vector<PolarView>& views, Report& report) {
   constexpr double kSideLimit = 1.02, kPoleLimit = 1.15, kErrorLimit = 1.0;
   for (const PolarView& view : views) {

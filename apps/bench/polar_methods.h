@@ -13,23 +13,23 @@
 
 namespace terrella::bench {
 
-/// A way of texturing with its parameters: of paper 1's sphere, or of the engine's globe.
+/// A texturing method with its parameters, for paper 1's sphere or the engine's globe.
 struct PolarMethod {
   std::string name;                 ///< "sphere: plain", "globe: auto" …
   std::optional<PaperLook> sphere;  ///< none: the globe
   Texturing texturing = Texturing::automatic;
-  bool squeezed = true;         ///< takes squeezed tiles near the poles, else those of the full grid
-  double a = 4.0, band = 0.05;  ///< of the methods that have them
+  bool squeezed = true;         ///< uses squeezed tiles near the poles, else the full grid
+  double a = 4.0, band = 0.05;  ///< used only if has_a_and_band
   bool has_a_and_band = false, has_anisotropy = false;
-  bool everywhere = true;  ///< in all views, not only where parameters are swept
+  bool everywhere = true;  ///< used in all views, not only where parameters are swept
 };
 
-/// The engine's `vertex` is there under this name, the plain sphere under the other: what others are ratios to.
+/// Names of the methods used as references in ratios: the plain sphere and the engine's `vertex`.
 inline constexpr const char* kPlainSphere = "sphere: plain";
 inline constexpr const char* kVertexGlobe = "globe: vertex";
 inline constexpr const char* kAutoGlobe = "globe: auto";
 
-/// normal: a, b and anisotropy are varied one by one; full: all of a with all of b, in every view.
+/// Lists the methods. normal: varies a, b and anisotropy one by one. full: combines all a with all b in every view.
 [[nodiscard]] std::vector<PolarMethod> polar_methods(Effort effort);
 
 }  // namespace terrella::bench

@@ -9,18 +9,18 @@
 
 namespace terrella::bench {
 
-/// A view of the pole, with the same view moved 55° of latitude away, where the planet is seen from as far and at the
-/// same slant: what stands at the pole in the one stands at 35° in the other, in the same pixels.
+/// A view of the pole, and a twin moved by 55° of latitude with the same distance and slant. Ground at the pole in the
+/// view covers the same pixels as ground at 35° in the twin.
 struct PolarView {
   std::string name;
   truth::TruthCamera camera;
-  std::optional<truth::TruthCamera> twin;  ///< none: no pole band is in the picture
-  bool swept = false;                      ///< all parameters are tried here, in every run
+  std::optional<truth::TruthCamera> twin;  ///< none: the picture contains no pole band
+  bool swept = false;                      ///< all parameters are tried in this view, in every run
 };
 
-/// The sphere that they look at: Earth's mean radius.
+/// The sphere in these views: Earth's mean radius.
 [[nodiscard]] truth::Spheroid polar_body();
-/// Height over it from which the sphere is inscribed in the picture at a field of view of 40°.
+/// Height above the sphere at which the sphere is inscribed in a picture with a 40° field of view.
 [[nodiscard]] double inscribed_height_m();
 [[nodiscard]] std::vector<PolarView> polar_views(Effort effort);
 

@@ -36,7 +36,7 @@ nlohmann::ordered_json json_value(const Cell& cell) {
   return std::get<double>(cell);  // NaN becomes null
 }
 
-/// Columns counted in letters, since bytes of "µs" are three.
+/// Width of a text in characters; "µs" has three bytes.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

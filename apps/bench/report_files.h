@@ -9,17 +9,17 @@
 
 namespace terrella::bench {
 
-/// What was written, and what to say about it.
+/// Written files, and a remark for the user.
 struct ReportFiles {
   std::vector<std::filesystem::path> written;
-  std::string remark;  ///< why there is no picture, and what to do; empty: there is one
+  std::string remark;  ///< explains a missing picture and the remedy; empty if the picture was drawn
 };
 
-/// Makes a folder for reports, if it is not there.
+/// Creates a folder for reports if needed.
 [[nodiscard]] Status make_folder(const std::filesystem::path& folder);
 
-/// Writes NAME.csv, NAME.json and NAME.gnuplot into a folder, and lets the program `gnuplot` draw
-/// NAME.png if there is one.
+/// Writes NAME.csv, NAME.json and NAME.gnuplot into a folder. Runs the program `gnuplot`, if installed, to draw
+/// NAME.png.
 [[nodiscard]] Result<ReportFiles> write_report(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace terrella::bench

@@ -7,16 +7,16 @@
 
 namespace terrella::bench {
 
-/// The same camera for the engine.
+/// Converts a camera for the engine.
 [[nodiscard]] Camera as_globe_camera(const truth::TruthCamera& camera);
-/// The other way round.
+/// Converts a camera for the ground truth.
 [[nodiscard]] truth::TruthCamera as_truth_camera(const Camera& camera);
 [[nodiscard]] truth::Spheroid as_spheroid(const Ellipsoid& ellipsoid);
 
-/// What a target shows, without alpha.
+/// Reads a target's picture without alpha.
 [[nodiscard]] truth::Picture shot(const OffscreenTarget& target, Viewport size);
 
-/// Turns the globe to a camera and draws until nothing is missing. Throws std::runtime_error after two minutes.
+/// Sets the globe's camera and draws until nothing is missing. Throws std::runtime_error after two minutes.
 FrameStats settle(Globe& globe, const truth::TruthCamera& camera, const OffscreenTarget& target, Viewport size);
 
 }  // namespace terrella::bench

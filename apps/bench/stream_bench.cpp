@@ -41,9 +41,9 @@ std::vector<StreamView> stream_views(Effort effort) {
   return views;
 }
 
-/// What had happened at the end of a frame.
+/// Totals at the end of a frame.
 struct Moment {
-  double ms = 0.0;  ///< since the globe was asked for the view
+  double ms = 0.0;  ///< since the view was requested
   int frames = 0;
   std::int64_t requests = 0, bytes = 0;
   int tiles = 0, missing = 0;
@@ -82,8 +82,8 @@ class Streamer {
   }
 
  private:
-  /// Frames until the view has settled; of them those that are worth a row: the first, the first without a hole, a
-  /// quarter, half and three quarters of the tiles, the last.
+  /// Draws frames until the view has settled. Returns the notable ones: the first, the first without a hole, a quarter,
+  /// half and three quarters of the tiles, and the last.
   std::vector<Moment> come_to(Globe& globe, const truth::TruthCamera& camera) {
     const std::int64_t requests = source_->requests(), bytes = source_->bytes();
     const auto start = Clock::now();

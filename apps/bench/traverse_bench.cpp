@@ -35,7 +35,7 @@ FlightEffort effort_of(Effort effort) {
   return effort == Effort::full ? FlightEffort{1024, 1200, 24} : FlightEffort{1024, 240, 8};
 }
 
-/// Evenly many cameras between the positions of each way.
+/// Spreads cameras evenly between the positions of each flight.
 std::vector<Camera> cameras_of(const std::vector<std::vector<Camera>>& ways, int frames) {
   std::size_t parts = 0;
   for (const std::vector<Camera>& way : ways) parts += way.size() - 1;
@@ -52,10 +52,10 @@ std::vector<Camera> cameras_of(const std::vector<std::vector<Camera>>& ways, int
   return cameras;
 }
 
-/// Of all frames of a flight, in order.
+/// Figures of all frames of a flight, in order.
 struct FlightFigures {
   std::vector<double> frame_ms, selection_ms, patches, draws, triangles, uploads_mb, tiles;
-  std::vector<double> missing_share, lag_rms;  ///< lag: of the frames that were looked at
+  std::vector<double> missing_share, lag_rms;  ///< lag: only of the compared frames
   MeshCount mesh;
   double worst_position_px = 0.0;
   int uncovered_frames = 0;
@@ -134,7 +134,7 @@ class Flyer {
     figures.uncovered_frames += stats.patches_uncovered > 0 ? 1 : 0;
   }
 
-  /// What is on the screen against the same view when all has come; what was drawn that was not needed.
+  /// Compares the screen with the settled view, and counts needless patches and triangles.
   void look(Globe& patient, const Camera& camera, FlightFigures& figures) {
     const truth::Picture shown = shot(target_, viewport_);
     settle(patient, as_truth_camera(camera), target_, viewport_);

@@ -19,7 +19,7 @@ truth::Picture make_picture(const fs::path& file, const BenchOptions& options) {
   if (options.effort == Effort::quick) noise.width = 1024, noise.height = 512;
   options.progress(fmt::format("making a noise planet of {}x{}", noise.width, noise.height));
   truth::Picture picture = truth::noise_planet(noise);
-  // Under another name first: an interrupted run leaves no half a planet.
+  // A temporary name first, so that an interrupted run leaves no incomplete planet.
   const fs::path unfinished = fmt::format("{}.{}", file.string(), getpid());
   truth::write_png(picture, unfinished);
   fs::rename(unfinished, file);
@@ -39,7 +39,7 @@ CutOptions cut_options(const BenchOptions& options) {
   return cut;
 }
 
-/// The planet without its tiles.
+/// Creates the planet without its tiles.
 TestPlanet noise_picture(const BenchOptions& options) {
   const fs::path file = picture_file(options);
   fs::create_directories(options.work);

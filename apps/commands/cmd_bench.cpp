@@ -29,14 +29,14 @@ constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBenc
                               NamedBench{"stability", bench::bench_stability}};
 
 constexpr const char* kBenchExamples =
-    "polar      texturing at the poles: paper 1's sphere and the globe, time beside error\n"
-    "accuracy   tessellation, error threshold, tile columns at a pole: what each costs, and what it leaves\n"
-    "traverse   flights: selection, draws and uploads on the way, and what was drawn in vain\n"
-    "stream     from nothing to a settled view: time, requests and bytes beside the error on the screen\n"
-    "stability  a self-test on this GPU, pass or fail: functions, depth, jitter, coordinates, geodesy, same pixels\n"
+    "polar      time and error of texturing at the poles: paper 1's sphere against the globe\n"
+    "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
+    "traverse   selection, draws, uploads and wasted drawing on flights\n"
+    "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"
+    "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
     "Examples:\n"
     "  terrella bench polar --out results        results/polar.csv, .json, .gnuplot and .png\n"
-    "  terrella bench polar --quick --json       seconds, to see that it works\n"
+    "  terrella bench polar --quick --json       a trial run of a few seconds\n"
     "  terrella bench stability                  exit code 1 if a figure is over its limit";
 
 struct BenchCommand {
@@ -72,7 +72,7 @@ int run(const BenchCommand& command) {
     if (StopSignals::came()) throw std::runtime_error("stopped; nothing was written");
     print_message("bench {}: {}\n", chosen.name, doing);
   };
-  // Not after minutes of measuring.
+  // Fail before minutes of measuring, not after.
   if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
   const Result<bench::Report> report = chosen.run(options);
   if (!report) return fail("bench", report.error().message);
@@ -89,24 +89,24 @@ int run(const BenchCommand& command) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("bench", "Measures speed beside error, and writes a table and a plot");
+  CLI::App& sub = *app.add_subcommand("bench", "Measure speed and error; write a table and a plot");
   sub.footer(kBenchExamples);
   const auto command = std::make_shared<BenchCommand>();
-  sub.add_option("NAME", command->name, "What to measure")
+  sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
       ->type_name("polar|accuracy|traverse|stream|stability");
-  sub.add_option("-o,--out", command->out, "Folder for NAME.csv, NAME.json, NAME.gnuplot and NAME.png")
+  sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
-  sub.add_option(
-      "--work", command->work,
-      "Folder that keeps the planet, its tiles and the ground truth from run to run (default: in the cache)");
-  sub.add_option("--only", command->only, "Only the views or flights whose name has this text");
+  sub.add_option("--work", command->work,
+                 "Keep the planet, its tiles and the ground truth in this folder between runs (default: in the cache)");
+  sub.add_option("--only", command->only, "Run only the views or flights whose name contains this text");
   sub.add_option("--functions", command->functions,
-                 "stability: whose functions of angles shaders use, auto: as the engine chooses")
+                 "Choose the shaders' trigonometric functions for stability; with auto the engine chooses")
       ->check(CLI::IsMember({"auto", "driver", "own"}))
       ->capture_default_str();
-  CLI::Option* quick = sub.add_flag("--quick", command->quick, "Seconds: small pictures, figures not to be quoted");
-  sub.add_flag("--full", command->full, "The whole grid of parameters and views")->excludes(quick);
+  CLI::Option* quick =
+      sub.add_flag("--quick", command->quick, "Finish in seconds with small pictures; do not quote these figures");
+  sub.add_flag("--full", command->full, "Run the whole grid of parameters and views")->excludes(quick);
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.callback([command, &exit_code] { exit_code = run(*command); });
 }

@@ -25,7 +25,7 @@ constexpr const char* kCutExamples =
     "  terrella cut etopo5.png --elevation --offset -32768 -o relief.gpkg\n"
     "  terrella cut huge.tif -o huge.gpkg --shard 3/8                   on each of 8 machines, 1/8 to 8/8, then\n"
     "  terrella cut huge.tif -o huge.gpkg --join\n"
-    "Killed and started again with the same arguments it goes on, to the same bytes.";
+    "After an interruption the same command resumes and writes the same bytes.";
 
 struct CutCommand {
   std::vector<std::string> images;
@@ -55,7 +55,7 @@ Result<GeoRect> parse_bounds(const std::string& text) {
   return GeoRect{.west = sides[0], .south = sides[1], .east = sides[2], .north = sides[3]};
 }
 
-/// Two whole numbers around a letter, as 4x2 or 3/8.
+/// Parses two whole numbers around a letter, such as 4x2 or 3/8.
 Result<std::pair<int, int>> parse_pair(const std::string& text, char between, const char* wanted) {
   const std::size_t at = text.find(between);
   const auto first = read_number(std::string_view(text).substr(0, at));
@@ -89,7 +89,7 @@ void print_summary(const CutCommand& command, const CutSummary& summary) {
                                    {"root_span_deg", grid.root_span_deg},
                                    {"min_level", grid.min_level},
                                    {"max_level", grid.max_level}};
-    // A path need not be UTF-8.
+    // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
@@ -123,66 +123,67 @@ void add_description_options(CLI::App& app, CutOptions& cut) {
            (void)parsed_or_throw("--body", parse_body(text));
            cut.body = text;
          },
-         "The planet that the picture shows; kept in the tile set")
+         "Set the planet in the picture; stored in the tile set")
       ->type_name("earth|moon|mars|sphere|A,F");
   add_choice<Projection>(app, "--projection", cut.projection,
                          {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
-                         "What the picture's rows are linear in: latitude, or its sine");
+                         "Set the picture's projection; its rows are linear in latitude or in the sine of latitude");
   add_choice<LatitudeKind>(app, "--latitude", cut.latitude,
                            {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
-                           "Which latitude the picture's rows count: planetographic or planetocentric");
-  app.add_option("--name", cut.name, "What the tile set is called (default: the picture's file name)");
-  app.add_option("--attribution", cut.attribution, "Whom to thank for the picture; shown with it");
+                           "Set the latitude that the picture's rows count: planetographic or planetocentric");
+  app.add_option("--name", cut.name, "Set the tile set's name (default: the picture's file name)");
+  app.add_option("--attribution", cut.attribution, "Set the attribution text shown with the picture");
 }
 
 void add_input_options(CLI::App& app, CutCommand& command) {
   CutOptions& cut = command.cut;
   app.add_option_function<std::string>(
          "--bounds", [&cut](const std::string& text) { cut.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
-         "What the picture covers, degrees; W > E crosses 180 (default: what the picture or files beside it say, else "
-         "the whole planet)")
+         "Set the picture's bounds in degrees; W > E crosses 180 (default: as stated by the picture or files beside "
+         "it, "
+         "else the whole planet)")
       ->type_name("W,S,E,N");
   app.add_option_function<std::string>(
          "--mosaic", [&cut](const std::string& text) { cut.mosaic = parsed_or_throw("--mosaic", parse_mosaic(text)); },
-         "The pictures form a grid, named in rows from the north-west (default: by NASA's names A1 to D2, else by "
-         "what they say of their place)")
+         "Join pictures given in rows from the north-west into a grid (default: by NASA's names A1 to D2, else by the "
+         "bounds that each picture states)")
       ->type_name("COLSxROWS");
-  CLI::Option* elevation = app.add_flag("--elevation", command.elevation, "The picture holds heights: 16-bit tiles");
+  CLI::Option* elevation =
+      app.add_flag("--elevation", command.elevation, "Read the picture as heights and write 16-bit tiles");
   app.add_option("--scale", command.heights.scale,
-                 "Metres = number * scale + offset (default: 1; of Float32: by range)")
+                 "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range)")
       ->needs(elevation);
-  app.add_option("--offset", command.heights.offset, "Metres that are added (default: 0; of Float32: by range)")
+  app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
       ->needs(elevation);
-  app.add_option("--nodata", command.heights.nodata, "The value in the picture that says that there is no height")
-      ->needs(elevation);
+  app.add_option("--nodata", command.heights.nodata, "Set the picture's value for unknown heights")->needs(elevation);
 }
 
 void add_work_options(CLI::App& app, CutCommand& command) {
   CutOptions& cut = command.cut;
-  app.add_option("--jobs", cut.jobs, "Threads that encode tiles; 0: as many as cores")
+  app.add_option("--jobs", cut.jobs, "Set the number of threads that encode tiles; 0 means one per core")
       ->check(whole_number_in(0, 256))
       ->capture_default_str();
   CLI::Option* shard = app.add_option_function<std::string>(
       "--shard", [&cut](const std::string& text) { cut.shard = parsed_or_throw("--shard", parse_shard(text)); },
-      "Do part I of N alone, kept in OUT.shard-I-of-N until --join");
+      "Cut only part I of N into OUT.shard-I-of-N, for a later --join");
   shard->type_name("I/N");
-  app.add_flag("--join", cut.join, "Make the output of all shards, and remove them")->excludes(shard);
+  app.add_flag("--join", cut.join, "Write the output from all shards, then remove the shards")->excludes(shard);
 }
 
 }  // namespace
 
 void add_cut_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("cut", "Cuts a picture of a planet into a tile set");
+  CLI::App& sub = *app.add_subcommand("cut", "Cut a picture of a planet into a tile set");
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option("image", command->images, "The picture, or the parts of one: JPEG, PNG, TIFF or BigTIFF")
+  sub.add_option("image", command->images, "A picture or the parts of one: JPEG, PNG, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
-  sub.add_option("-o,--output", command->output, "What to write: a GeoPackage if it ends in .gpkg, else a folder")
+  sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")
       ->required()
       ->type_name("OUT.gpkg|DIR");
-  sub.add_option("--tile-size", cut.tile_px, "Pixels a side of a tile, an even number")
+  sub.add_option("--tile-size", cut.tile_px, "Set the side of a tile in pixels, an even number")
       ->check(whole_number_in(16, 4096))
       ->check(CLI::Validator(
           [](const std::string& text) {
@@ -190,17 +191,19 @@ void add_cut_command(CLI::App& app, int& exit_code) {
           },
           "even"))
       ->capture_default_str();
-  sub.add_option("--quality", cut.quality, "Of JPEG tiles")->check(whole_number_in(1, 100))->capture_default_str();
+  sub.add_option("--quality", cut.quality, "Set the JPEG quality of the tiles")
+      ->check(whole_number_in(1, 100))
+      ->capture_default_str();
   sub.add_option_function<std::string>(
          "--format",
          [&cut](const std::string& text) { cut.format = text == "png" ? ImageFormat::png : ImageFormat::jpeg; },
-         "Of the tiles (default: png if the picture has transparency, else jpg)")
+         "Set the tile format (default: png if the picture has transparency, else jpg)")
       ->check(CLI::IsMember({"jpg", "png"}))
       ->type_name("jpg|png");
   add_input_options(sub, *command);
   add_description_options(sub, cut);
   add_work_options(sub, *command);
-  sub.add_flag("--force", cut.force, "Replace a tile set that was cut from other pictures; other files stay");
+  sub.add_flag("--force", cut.force, "Replace a tile set that was cut from other pictures; keep other files");
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.callback([command, &exit_code] { exit_code = run(*command); });
 }

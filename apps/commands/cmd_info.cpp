@@ -37,7 +37,7 @@ constexpr const char* kInfoExamples =
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
-    "  terrella info moon.tif                where a picture says that it lies, and how it is shown, or why not";
+    "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
   std::error_code error;
@@ -63,7 +63,8 @@ std::vector<LevelReport> count_levels(TileSource& source) {
   return levels;
 }
 
-/// A line on standard error every second or so: results go to standard output alone. Stops on a signal.
+/// Prints a progress line to standard error about once a second; standard output carries only results. Stops on a
+/// signal.
 auto progress_lines() {
   return [last = std::chrono::steady_clock::now()](std::int64_t done, std::int64_t total) mutable {
     if (StopSignals::came()) return false;
@@ -75,7 +76,7 @@ auto progress_lines() {
   };
 }
 
-/// Tiles are checked as they are stored: those of a set in Web Mercator, not what is made of them.
+/// Checks tiles as stored. For a set in Web Mercator these are the original tiles, not the reprojected ones.
 Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSource> source, bool is_cache) {
   if (source->info().made_of) {
     auto stored = open_stored_tile_set(options.tile_set.with_secrets());
@@ -84,7 +85,7 @@ Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSour
   }
   Result<VerifyReport> verified = verify_tiles(source, progress_lines());
   if (!verified) return Error{options.tile_set.redacted() + ": " + verified.error().message};
-  // A cache is not meant to have all tiles of its source.
+  // A cache need not hold all tiles of its source.
   if (is_cache) verified->absent = 0;
   return verified;
 }
@@ -98,7 +99,7 @@ int run_picture_info(const InfoOptions& options) {
 
 int run_info(const InfoOptions& options) {
   const StopSignals signals;
-  // A picture is cut only to have its tiles checked.
+  // Pictures are cut only for --verify.
   if (is_picture(options.tile_set.with_secrets()) && !options.verify) return run_picture_info(options);
   SceneOptions scene;
   scene.tile_set = options.tile_set;
@@ -132,14 +133,13 @@ int run_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("info", "Say what a tile set holds or what a picture says of its place, and check it.");
+      app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "directory of tiles, GeoPackage or picture")->required();
-  command->add_flag(
-      "--verify", options->verify,
-      "decode every tile, name the broken ones, and check a cache's database; exit code 1 if there are any");
-  command->add_flag("--json", options->json, "one JSON object");
+  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage or a picture")->required();
+  command->add_flag("--verify", options->verify,
+                    "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
+  command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }
 

@@ -30,7 +30,7 @@ constexpr const char* kMergeExamples =
     "Examples:\n"
     "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
     "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
-    "A tile wins over an absence, else the record stored later. Levels may differ; pinned tiles stay pinned.";
+    "A tile wins over an absence; otherwise the later record wins. Levels may differ. Pinned tiles stay pinned.";
 
 void print_summary(const MergeCommand& command, const MergeSummary& summary) {
   if (command.json) {
@@ -39,7 +39,7 @@ void print_summary(const MergeCommand& command, const MergeSummary& summary) {
                                         {"tiles", summary.tiles},
                                         {"absences", summary.absences},
                                         {"dropped", summary.dropped}};
-    // A path need not be UTF-8.
+    // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
@@ -66,16 +66,18 @@ int run_merge(const MergeCommand& command) {
 }  // namespace
 
 void add_merge_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("merge", "Join caches of one source, losing nothing.");
+  CLI::App* command = app.add_subcommand("merge", "Join caches of one source without loss");
   command->footer(kMergeExamples);
   const auto options = std::make_shared<MergeCommand>();
-  command->add_option("CACHE", options->caches, "caches that `preload` or `view` filled from one source")
+  command->add_option("CACHE", options->caches, "Caches that preload or view filled from one source")
       ->required()
       ->type_name("CACHE...");
-  command->add_option("-o,--output", options->output, "the cache to make; replaced only if it is one of the caches")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Write this cache; an existing file is replaced only if it is one of the inputs")
       ->required()
       ->type_name("OUT.gpkg");
-  command->add_flag("--json", options->json, "one JSON object");
+  command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_merge(*options); });
 }
 

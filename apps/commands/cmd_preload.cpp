@@ -31,18 +31,18 @@ constexpr const char* kPreloadExamples =
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
-    "Preloaded tiles are pinned: no limit of a viewer evicts them. To let go of them:\n"
+    "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
 
 constexpr int kMostSampled = 20;
-constexpr double kSampleRate = 10.0;      // requests a second
-constexpr int kQuestionsAConnection = 8;  // under way at once where a connection carries several
+constexpr double kSampleRate = 10.0;      // requests per second
+constexpr int kQuestionsAConnection = 8;  // in flight at once if a connection carries several requests
 constexpr std::chrono::hours kDay{24};
 
 HttpOptions network_options(const PreloadCommand& command) {
   HttpOptions http = command.http;
   http.in_flight_per_host = std::max(32, http.connections_per_host * kQuestionsAConnection);
-  // Who asks for a rate does not want the first second's requests at once.
+  // With a requested rate, the first second's requests must not start all at once.
   if (http.rate_per_host > 0.0) http.burst = std::clamp(http.rate_per_host / 4.0, 1.0, http.burst);
   return http;
 }
@@ -77,13 +77,13 @@ Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, con
   return *std::move(cache);
 }
 
-/// What a cache has of a plan.
+/// A cache's share of a plan.
 struct Held {
-  std::int64_t there = 0;    ///< fresh
+  std::int64_t there = 0;    ///< fresh tiles
   std::int64_t settled = 0;  ///< WantedTiles::settled()
 };
 
-/// Nothing, if there is no such file.
+/// Counts nothing if the file does not exist.
 Result<Held> count_held(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   std::error_code unknown;
   if (!std::filesystem::exists(command.output, unknown)) return Held{};
@@ -100,7 +100,7 @@ SizeSample take_sample(const PreloadSource& source, const TilePlan& plan) {
   return sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
 }
 
-/// Before anything is asked for but a sample: the plan must fit into the cache.
+/// Checks that the plan fits into the cache, before any request except the sample's.
 Status check_room(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   if (command.cache_size_mb == 0) return Done{};
   const auto held = count_held(command, source, plan);
@@ -141,7 +141,7 @@ int forecast(const PreloadCommand& command, const PreloadSource& source, const T
   return kDone;
 }
 
-/// What a person is told of a run that is not all good, and the exit code.
+/// Reports an incomplete run to the user and returns the exit code.
 int conclude(const PreloadCommand& command, const PreloadResult& result) {
   const PreloadCounts& c = result.counts;
   const char* again = "the same command goes on where this one ended";
@@ -208,7 +208,7 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   return conclude(command, *result);
 }
 
-/// Connections that cannot be opened would look like a server that fails.
+/// Reduces --jobs to the allowed open files; a connection that fails to open would look like a failing server.
 void fit_jobs(PreloadCommand& command) {
   const int asked = command.http.connections_per_host;
   int& jobs = command.http.connections_per_host;
@@ -243,7 +243,7 @@ int run(PreloadCommand& command) {
 }  // namespace
 
 void add_preload_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline.");
+  CLI::App& sub = *app.add_subcommand("preload", "Fill a cache before going offline");
   sub.footer(kPreloadExamples);
   const auto command = std::make_shared<PreloadCommand>();
   add_preload_options(sub, *command);

@@ -43,7 +43,7 @@ struct Rendered {
   FrameStats stats;
   std::vector<LackingTile> lacking, lacking_heights;
   std::vector<std::string> attributions;
-  bool all_objects = true;  ///< nothing in the file of --objects was wrong
+  bool all_objects = true;  ///< true if the file of --objects has no faults
 };
 
 constexpr std::size_t kMostNamed = 16;
@@ -53,7 +53,7 @@ std::string name_of(const LackingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
 }
 
-/// Tiles of heights that failed, or that had not come when time was up.
+/// Height tiles that failed or had not arrived at the deadline.
 int heights_without(const FrameStats& stats) { return stats.heights_lacked + stats.heights_missing; }
 
 void report(const RenderCommand& command, const Rendered& rendered) {
@@ -75,7 +75,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
     print_result("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  print_result("{}: {} tiles asked for, {} got, {} lacked\n", command.output, stats.tiles_wanted, got,
+  print_result("{}: {} tiles: {} loaded, {} missing\n", command.output, stats.tiles_wanted, got,
                stats.tiles_lacked + stats.tiles_missing);
   if (!rendered.attributions.empty()) {
     print_result("{}: thanks to {}\n", command.output,
@@ -86,7 +86,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   }
 }
 
-/// A picture of no tile would look like the planet, and is none.
+/// Refuses a picture without any tile, which would look like the planet.
 Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& lacking) {
   if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
   std::string message =
@@ -97,7 +97,7 @@ Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& l
   return Error{message};
 }
 
-/// Renders until settled, or until the deadline, and looks for a signal a few times a second.
+/// Renders until settled or until the deadline, and checks for signals a few times a second.
 void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline) {
   constexpr std::chrono::milliseconds kBetweenLooks{200};
   while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
@@ -106,7 +106,7 @@ void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chro
   }
 }
 
-/// Renders until all tiles have come, or until time is up. The eye follows the ground as heights raise it.
+/// Renders until all tiles are loaded or time is up. The eye rises with the ground as heights arrive.
 void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
   constexpr int kMostMoves = 4;  // finer heights move the ground less and less
   const auto limit =
@@ -123,8 +123,8 @@ void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted
   tell_of_move("render", wanted, globe.camera());
 }
 
-/// By trials with Mesa's software driver and its compiler, which end the program when memory runs out: limits up to
-/// 900 MB did so now and then.
+/// Checks memory with a bound found by trials. Mesa's software driver and its compiler end the program when memory runs
+/// out; limits up to 900 MB did so occasionally.
 Status check_drawing_memory(Viewport size) {
   constexpr std::size_t kDriver_bytes = 1'200'000'000;
   constexpr std::size_t kBytesAPixel = 32;
@@ -160,7 +160,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const Result<std::unique_ptr<HeadlessContext>> context = HeadlessContext::create();
   if (!context) return context.error();
   GlobeOptions options = globe_options(command.scene, *body);
-  // Nobody watches the frames in between: as much as has come goes up at once.
+  // Intermediate frames are invisible, so all arrived tiles are uploaded at once.
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
@@ -177,7 +177,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
-  // Rendering takes its time: another file may have come under the name.
+  // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
@@ -211,13 +211,12 @@ int run(const RenderCommand& command) {
 }  // namespace
 
 void add_render_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub =
-      *app.add_subcommand("render", "Render a picture of the globe to a PNG file; needs no display and no GPU");
+  CLI::App& sub = *app.add_subcommand("render", "Render the globe to a PNG file, without display or GPU");
   auto command = std::make_shared<RenderCommand>();
   add_scene_options(sub, command->scene);
-  sub.add_option("-o,--output", command->output, "PNG file to write")->required();
-  sub.get_option("--night")->needs(sub.get_option("--time"));  // without one it is day everywhere
-  sub.add_option("--timeout", command->timeout_s, "Seconds to wait for tiles")
+  sub.add_option("-o,--output", command->output, "Write this PNG file")->required();
+  sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
+  sub.add_option("--timeout", command->timeout_s, "Wait at most this many seconds for tiles")
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();
   sub.add_flag("--json", command->json, "Print the result as one JSON object");

@@ -24,14 +24,14 @@ namespace terrella {
 namespace {
 
 constexpr Viewport kWindow{.width_px = 1280, .height_px = 800};
-constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // of a size that was kept
+constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower bound for a kept size
 
 constexpr const char* kHelpFooter =
-    "In the window: drag holds the ground, the wheel zooms to the cursor, right drag or Ctrl + drag tilts and turns,\n"
-    "a double click flies there; arrows, + and - move; N north up, Home whole globe, G graticule, F full screen,\n"
-    "/ finds a place, M measures, U translucent, X under the ground, B sky, S stereo, P a panel with all of that,\n"
-    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks; files dropped onto the window become layers,\n"
-    "F1 or ? lists the keys, Esc leaves.\n"
+    "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
+    "turn, double-click to fly there. Drop files onto the window to add layers.\n"
+    "Keys: arrows, + and - move; N north up, Home whole globe, G graticule, F full screen, / search, M measure,\n"
+    "U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save pictures,\n"
+    "1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -47,7 +47,7 @@ struct ViewOptions {
   std::string message;
 };
 
-// The command line goes before what earlier runs have kept.
+// Applies the kept settings of earlier runs; options on the command line have priority.
 void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   const auto file = settings_file();
   if (!file) return;
@@ -67,7 +67,7 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   if (!said("--stereo")) scene.stereo.mode = kept.stereo;
 }
 
-/// The name of a file alone; the whole address of a set on the network, whose last part is "{y}.jpg" for most.
+/// Name of a local file, or the whole address of a remote set. The last part of most addresses is just "{y}.jpg".
 std::string layer_name(const Url& tile_set) {
   const std::string shown = tile_set.without_query();
   const std::string name = is_remote(tile_set) ? shown : std::filesystem::path(shown).filename().string();
@@ -78,7 +78,7 @@ LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
   return {.id = id, .name = layer_name(tile_set), .bounds = {}, .look = look};
 }
 
-/// In the order that add_overlays(), add_image_layers() and add_objects() have made them.
+/// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
@@ -107,10 +107,10 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
 
 int view(const ViewOptions& options) {
   if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
-  // The window comes before the cutting: without a display nobody should wait for a picture to be cut.
+  // The window opens before the cutting, so that a missing display is reported at once.
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail("view", window.error().message);
-  // A picture that is being cut must not be left half done; the window itself may be ended at any time.
+  // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
   auto imagery = open_imagery(options.scene);
   if (!imagery) return fail("view", imagery.error().message);
@@ -138,7 +138,7 @@ int view(const ViewOptions& options) {
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
   const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());
-  // Heights that come later raise the eye with the ground, as everywhere in the window.
+  // Later heights raise the eye with the ground, as everywhere in the window.
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);
   const ViewerOptions viewer_options{.camera = start,
@@ -157,14 +157,14 @@ int view(const ViewOptions& options) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("view", "Turn a globe in a window");
+  CLI::App* command = app.add_subcommand("view", "Explore a globe in a window");
   const auto options = std::make_shared<ViewOptions>();
   options->scene.size = kWindow;
   add_scene_options(*command, options->scene);
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
-                    "Print the camera, as --camera takes it, on standard output each time it comes to rest");
-  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F goes back to a window");
+                    "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
   command->callback([options, command, &exit_code] {
     begin_as_kept(*options, *command);

@@ -24,7 +24,7 @@ Status read_angle(const json& properties, const char* name, double low, double h
   return Done{};
 }
 
-/// Which way the eye of a Feature looks.
+/// View direction of a Feature.
 Result<Camera> camera_of(const json& object) {
   Camera camera;
   const auto properties = object.find("properties");

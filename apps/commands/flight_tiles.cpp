@@ -13,16 +13,16 @@
 namespace terrella {
 namespace {
 
-constexpr int kSegments = 24;                  // of a patch's side, as the globe has them
-constexpr double kStepOfPicture = 0.05;        // of what the picture shows from side to side
-constexpr double kStepOfTile = 0.02;           // no shorter, however low the eye: of a finest tile's side
-constexpr double kStepOfLogHeight = 0.05;      // a 13th of the way to the next level
+constexpr int kSegments = 24;                  // segments per patch side, as in the globe
+constexpr double kStepOfPicture = 0.05;        // fraction of the picture's visible width
+constexpr double kStepOfTile = 0.02;           // smallest step, as a fraction of a finest tile's side
+constexpr double kStepOfLogHeight = 0.05;      // 1/13 of the way to the next level
 constexpr double kLowest_m = 0.1;              // heights are interpolated by their logarithm
-constexpr std::size_t kMostPatches = 100'000;  // remembered from one view to the next
+constexpr std::size_t kMostPatches = 100'000;  // kept from one view to the next
 
 double log_height(const Camera& camera) { return std::log(std::max(camera.eye.height_m, kLowest_m)); }
 
-/// What a view asks for, gathered over many.
+/// Collects the tiles of many views.
 class Gatherer {
  public:
   explicit Gatherer(const FlightView& view) : view_(view), tree_(new_tree()) {
@@ -55,7 +55,7 @@ class Gatherer {
   std::unordered_set<TileId, TileIdHash> tiles_;
 };
 
-/// Steps that the part of a way around a camera would take in all, if it were all like that.
+/// Number of steps for a whole segment, if all of the segment were like the part around a camera.
 double steps_at(const Camera& camera, const Camera& a, const Camera& b, const FlightView& view) {
   const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
   const glm::dvec3 to = Ellipsoid::normal(b.eye.lat, b.eye.lon).xyz;

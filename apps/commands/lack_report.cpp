@@ -11,8 +11,7 @@ namespace {
 
 constexpr std::size_t kMostReasons = 100;
 
-/// What is wrong, without the address that is another for each tile: "http://host/5/3/2.jpg: status 503" is "status
-/// 503".
+/// Removes the address, which differs for each tile: "http://host/5/3/2.jpg: status 503" becomes "status 503".
 std::string reason_of(const std::string& why) {
   const std::size_t scheme = why.find("://");
   const std::size_t end = scheme == std::string::npos ? scheme : why.find(": ", scheme);

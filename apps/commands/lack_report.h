@@ -14,10 +14,10 @@
 
 namespace terrella {
 
-/// "broken", "refused", "failed", "no room".
+/// Name of a reason: "broken", "refused", "failed" or "no room".
 [[nodiscard]] const char* lack_name(Lack kind);
 
-/// Tiles that a preload could not bring, by reason, and one by one in a file. thread: one at a time
+/// Missing tiles of a preload, grouped by reason and listed one by one in a file. thread: one at a time
 class LackReport {
  public:
   struct Group {
@@ -27,13 +27,13 @@ class LackReport {
     TileId first;
   };
 
-  /// `file`: where each tile gets a line `LEVEL/X/Y<TAB>kind<TAB>why`; empty: nowhere.
+  /// Opens the list. Each tile adds a line `LEVEL/X/Y<TAB>kind<TAB>why` to `file`; an empty name writes no list.
   [[nodiscard]] static Result<LackReport> open(const std::filesystem::path& file);
 
   void add(const TileId& id, Lack kind, const std::string& told);
-  /// Most tiles first; reasons beyond the first hundred different ones stand as one.
+  /// Groups sorted by tile count, largest first. All reasons beyond the first hundred share one group.
   [[nodiscard]] std::vector<Group> groups() const;
-  /// Fails if the file could not be written.
+  /// Closes the list; fails if the file could not be written.
   [[nodiscard]] Status close() { return list_.close(); }
 
  private:

@@ -16,7 +16,7 @@ std::string outside(std::string_view text, double low, double high) {
   return fmt::format("{} is out of range; it takes {} to {}", in_quotes(text), low, high);
 }
 
-/// Why read_number() takes nothing from the text.
+/// Explains why read_number() rejects the text.
 std::string not_read(std::string_view text, const char* wanted, double low, double high) {
   double ignored = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), ignored);

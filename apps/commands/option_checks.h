@@ -12,25 +12,25 @@
 
 namespace terrella {
 
-/// A check for a number in [low, high]. NaN, which passes CLI11's own range, text after the number and hexadecimal are
-/// refused; the message has the value and the range, and CLI11 puts the option's name before it.
+/// Accepts numbers in [low, high]. Refuses NaN (which passes CLI11's own range), text after the number, and
+/// hexadecimal. The message contains the value and the range; CLI11 puts the option's name in front.
 [[nodiscard]] CLI::Validator number_in(double low, double high);
 [[nodiscard]] CLI::Validator whole_number_in(long low, long high);
 
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
 [[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 
-/// Reads a length of at least 0 metres, or "off", which is none.
+/// Reads a length of at least 0 metres; "off" gives nullopt.
 [[nodiscard]] Result<std::optional<double>> parse_length_or_off(std::string_view text);
 
-/// The value, or a CLI::ValidationError that names the option.
+/// Returns the value, or throws a CLI::ValidationError that names the option.
 template <class T>
 [[nodiscard]] T parsed_or_throw(const char* option, Result<T> parsed) {
   if (!parsed) throw CLI::ValidationError(option, parsed.error().message);
   return std::move(parsed).value();
 }
 
-/// Adds an option whose value is one of a few words.
+/// Adds an option that takes one of a few words.
 template <class Value, class Target>
 CLI::Option* add_choice(CLI::App& command, const char* option, Target& target,
                         std::vector<std::pair<std::string, Value>> words, const char* help) {

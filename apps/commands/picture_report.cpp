@@ -18,15 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// All that is known; what is not is absent.
+/// Known facts; unknown ones are absent.
 struct PictureFacts {
   PictureFile file;
-  bool is_heights = false;  ///< of a kind that only heights have
+  bool is_heights = false;  ///< true for pixel types used only for heights
   std::optional<Georeference> said;
   std::optional<CrsFacts> crs;
   std::optional<Placement> placement;
-  std::string command;  ///< what shows it
-  std::string refused;  ///< why it is not shown; empty: it is
+  std::string command;  ///< command that shows the picture
+  std::string refused;  ///< reason for a refusal; empty if the picture is accepted
 };
 
 Result<PictureFacts> measure(const fs::path& picture) {
@@ -46,14 +46,14 @@ Result<PictureFacts> measure(const fs::path& picture) {
   return facts;
 }
 
-/// Asks the cutter, with the options that the picture needs.
+/// Tests with the cutter whether the picture is accepted, with the options that the picture needs.
 void try_out(PictureFacts& facts) {
   const NeededOptions needed = facts.crs ? needed_options(*facts.crs) : NeededOptions{};
   CutOptions cut;
   cut.images = {facts.file.path};
   cut.body = needed.body;
   cut.latitude = needed.centric ? LatitudeKind::centric : LatitudeKind::graphic;
-  // With a scale no pixel is read to find the range of the heights.
+  // A given scale avoids reading pixels to find the range of heights.
   if (facts.is_heights) cut.elevation = CutElevation{.scale = 1.0, .offset = 0.0};
   const std::string name = shell_word(facts.file.path.string());
   facts.command = facts.is_heights ? fmt::format("terrella cut {}{} --elevation -o HEIGHTS.gpkg", name, needed.text())
@@ -73,7 +73,7 @@ Result<PictureFacts> look_at(const fs::path& picture) {
   return facts;
 }
 
-/// Metres that a pixel is high.
+/// Height of a pixel in metres.
 double pixel_m(const PictureFacts& facts) {
   const double radius_m = facts.crs ? facts.crs->a_m : earth().ellipsoid.a_m();
   return facts.placement->pixel_height_deg * radius_m * M_PI / 180.0;
@@ -159,7 +159,7 @@ std::string to_json(const PictureFacts& facts) {
   object["shown"] = facts.refused.empty();
   if (facts.refused.empty()) object["command"] = facts.command;
   if (!facts.refused.empty()) object["refused"] = facts.refused;
-  // A path need not be UTF-8.
+  // Paths may contain bytes that are not UTF-8.
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

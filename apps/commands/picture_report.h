@@ -7,9 +7,9 @@
 
 namespace terrella {
 
-/// What a picture says of itself and what `view` would do with it, for `terrella info`: lines of text, or one JSON
-/// object. Reads the header and the files beside it, no pixels. Fails if the file is no picture that can be read.
-/// thread: any
+/// Describes a picture for `terrella info`, as lines of text or one JSON object: its metadata, and how `view` would
+/// show the picture. Reads the header and the files beside the picture, but no pixels. Fails if the file is not a
+/// readable picture. thread: any
 [[nodiscard]] Result<std::string> picture_report(const std::filesystem::path& picture, bool json);
 
 }  // namespace terrella

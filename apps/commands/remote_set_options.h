@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Adds to a subcommand what a person may say about a remote set; `remote` must outlive the parse. thread: main
+/// Adds the options for remote tile sets to a subcommand; `remote` must outlive the parse. thread: main
 void add_remote_set_options(CLI::App& app, RemoteOptions& remote);
 
 }  // namespace terrella

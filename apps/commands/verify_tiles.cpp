@@ -38,7 +38,7 @@ void add(const LoadedTile& tile, VerifyReport& report) {
   if (report.first_bad.size() < kMaxBadTilesListed) report.first_bad.push_back({tile.id, tile.tile.error().why});
 }
 
-/// Loads a batch and waits for all of it.
+/// Loads a batch and waits for all its tiles.
 void load(TileLoader& loader, const std::vector<TileRequest>& batch, VerifyReport& report) {
   loader.request(batch);
   for (std::size_t come = 0; come < batch.size();) {
@@ -50,7 +50,7 @@ void load(TileLoader& loader, const std::vector<TileRequest>& batch, VerifyRepor
   }
 }
 
-/// Rows of a level that have squeezed tiles, with how many.
+/// Visits a level's rows of squeezed tiles, with the number of tiles in each.
 void for_each_squeezed_row(const TileGrid& grid, int level,
                            const std::function<void(std::int64_t y, int squeeze, std::int64_t tiles)>& call) {
   if (!grid.reduced) return;
@@ -76,13 +76,13 @@ std::int64_t count_listed(TileSource& source) {
   return total;
 }
 
-/// Takes tiles one by one and loads them in batches.
+/// Collects tiles and loads them in batches.
 class Verifier {
  public:
   Verifier(const std::shared_ptr<TileSource>& source, std::int64_t total, const VerifyProgress& progress)
       : loader_(source, options()), total_(total), progress_(progress) {}
 
-  /// False once the progress has asked to stop.
+  /// Returns false once the progress has requested a stop.
   bool take(const TileId& id) {
     batch_.push_back({id, 0.0});
     if (batch_.size() == kBatch) flush();

@@ -1,4 +1,4 @@
-// earthquakes TILES QUAKES.geojson OUTPUT.png: what lies under a translucent Earth. Without a window.
+// earthquakes TILES QUAKES.geojson OUTPUT.png: draws earthquakes under a translucent Earth, without a window.
 #include <terrella/globe.h>
 #include <terrella/render/gl/offscreen.h>
 #include <terrella/streaming/objects/geojson_objects.h>
@@ -19,7 +19,7 @@ Status draw(char** paths) {
   auto globe = Globe::create(options, *std::move(tiles));
   if (!globe) return globe.error();
 
-  // A catalogue of the US Geological Survey: depth becomes a colour, magnitude a radius.
+  // Catalogue of the US Geological Survey: colour shows the depth, radius shows the magnitude.
   const auto quakes = read_geojson_objects(paths[1]);
   if (!quakes) return quakes.error();
   for (const std::string& complaint : quakes->complaints) std::cerr << complaint << '\n';

@@ -1,4 +1,5 @@
-// flight_frames TILES FOLDER [SECONDS]: from Lisbon to Tokyo, as numbered pictures for a video, 25 a second:
+// flight_frames TILES FOLDER [SECONDS]: renders a flight from Lisbon to Tokyo as numbered pictures for a video, 25 a
+// second:
 //   ffmpeg -framerate 25 -i FOLDER/%04d.png -pix_fmt yuv420p flight.mp4
 #include <terrella/globe.h>
 #include <terrella/render/gl/offscreen.h>

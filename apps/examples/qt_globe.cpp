@@ -1,4 +1,4 @@
-// qt_globe TILES OBJECTS.geojson: a globe in a Qt 6 window, turned and zoomed by the mouse.
+// qt_globe TILES OBJECTS.geojson: shows a globe in a Qt 6 window; the mouse turns and zooms the globe.
 #include <terrella/globe.h>
 #include <terrella/streaming/objects/geojson_objects.h>
 #include <terrella/streaming/sets/open_tile_set.h>

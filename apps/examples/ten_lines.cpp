@@ -1,4 +1,4 @@
-// ten_lines TILES: a planet that turns in a window.
+// ten_lines TILES: shows a turning planet in a window.
 #include <GLFW/glfw3.h>
 #include <terrella/globe.h>
 #include <terrella/streaming/sets/open_tile_set.h>
@@ -7,7 +7,7 @@
 
 using namespace terrella;
 
-// All that is Terrella's: ten lines.
+// The ten lines that use Terrella.
 bool turn(GLFWwindow* window, const char* path) {
   auto tiles = open_tile_set(path);
   if (!tiles) return std::cerr << tiles.error().message << '\n', false;

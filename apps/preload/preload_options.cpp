@@ -65,7 +65,7 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
   app.add_option_function<std::string>(
          "--levels",
          [&command](const std::string& text) { command.levels = parsed_or_throw("--levels", parse_levels(text)); },
-         "Of tiles, coarsest to finest (default: all that the set has)")
+         "Set the tile levels, coarsest to finest (default: all of the set)")
       ->type_name("A-B");
   app.add_option_function<std::vector<std::string>>(
          "--bbox",
@@ -74,51 +74,55 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
              command.boxes.push_back(parsed_or_throw("--bbox", parse_box(text)));
            }
          },
-         "A box, degrees; WEST > EAST crosses 180°. May be given again")
+         "Add a box in degrees; WEST > EAST crosses 180°. Repeatable")
       ->type_name("W,S,E,N")
       ->allow_extra_args(false);
-  app.add_option("--polygon", command.polygons, "GeoJSON polygons; edges are great circles. May be given again")
+  app.add_option("--polygon", command.polygons, "Add GeoJSON polygons; edges are great circles. Repeatable")
       ->type_name("F.geojson")
       ->allow_extra_args(false);
-  app.add_option("--flight", command.flight,
-                 "GeoJSON LineString of the eye's places and heights: what the viewer would ask for along it")
+  app.add_option(
+         "--flight", command.flight,
+         "Load the tiles that the viewer would request along a flight: a GeoJSON LineString of eye positions and "
+         "heights")
       ->type_name("F.geojson");
   app.add_option_function<std::string>(
          "--size", [&command](const std::string& text) { command.size = parsed_or_throw("--size", parse_size(text)); },
-         "Of the viewer's window, for --flight (default 1920x1080)")
+         "Set the viewer's window size for --flight (default: 1920x1080)")
       ->type_name("WxH");
   app.add_option_function<std::string>(
          "--shard",
          [&command](const std::string& text) { command.shard = parsed_or_throw("--shard", parse_shard(text)); },
-         "Only the I-th of N equal parts, for several machines; see terrella merge")
+         "Load only part I of N equal parts, for several machines; see terrella merge")
       ->type_name("I/N");
 }
 
 void add_network_options(CLI::App& app, PreloadCommand& command) {
-  app.add_option("--jobs", command.http.connections_per_host, "Connections to a host")
+  app.add_option("--jobs", command.http.connections_per_host, "Limit the connections to one host")
       ->check(whole_number_in(1, 64))
       ->capture_default_str();
   app.add_option("--rate", command.http.rate_per_host,
-                 "Requests a second to a host, retries included (default: no limit)")
+                 "Limit the requests per second to one host, retries included (default: no limit)")
       ->check(number_in(0.01, 1e6));
   app.add_option_function<int>(
          "--retries", [&command](int retries) { command.http.attempts = retries + 1; },
-         "Of a request that failed, with growing pauses (default 4)")
+         "Retry a failed request this often, with growing pauses (default: 4)")
       ->check(whole_number_in(0, 19));
   app.add_option("--refresh-older-than", command.refresh_older_than_days,
-                 "Ask again, with conditional requests, for what was stored so long ago (default: what has expired)")
+                 "Refresh tiles older than this by conditional requests (default: refresh expired tiles)")
       ->type_name("DAYS")
       ->check(number_in(0.0, 36500.0));
-  app.add_option("--ca-file", command.http.ca_file, "Certificates to trust instead of the system's")->type_name("FILE");
+  app.add_option("--ca-file", command.http.ca_file, "Trust these certificates instead of the system's")
+      ->type_name("FILE");
 }
 
 }  // namespace
 
 void add_preload_options(CLI::App& app, PreloadCommand& command) {
-  app.add_option("SOURCE", command.source,
-                 "URL template, address of a WMTS capabilities document, source description, or tile set on disk")
+  app.add_option(
+         "SOURCE", command.source,
+         "A URL template, the address of a WMTS capabilities document, a source description, or a tile set on disk")
       ->required();
-  app.add_option("-o,--output", command.output, "The cache: made if it is not there, else added to")
+  app.add_option("-o,--output", command.output, "Write tiles to this cache; an existing cache is extended")
       ->required()
       ->type_name("CACHE.gpkg");
   add_area_options(app, command);
@@ -127,22 +131,23 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
                          {{"equirectangular", Projection::equirectangular},
                           {"equal-area", Projection::equal_area},
                           {"web-mercator", Projection::web_mercator}},
-                         "Of a URL template: what its rows are linear in (default equirectangular)");
+                         "Set the projection of a URL template (default: equirectangular)");
   add_network_options(app, command);
   app.add_option(
          "--cache-size", command.cache_size_mb,
-         "Of the cache in MB; what the plan needs beyond it is refused. Tiles that viewers left go first, preloaded "
-         "ones never")
+         "Limit the cache's size in MB; a larger plan is refused. Tiles left by viewers are evicted first, preloaded "
+         "tiles never")
       ->type_name("MB")
       ->check(whole_number_in(1, 1L << 40));
-  app.add_option("--missing", command.missing_file, "Write the tiles that are missing in the end, and why")
+  app.add_option("--missing", command.missing_file, "List the tiles that are missing in the end, and why")
       ->type_name("FILE");
-  app.add_option("--stored", command.stored_file, "Append each tile as LEVEL/X/Y once it is safely stored")
+  app.add_option("--stored", command.stored_file,
+                 "Append each tile to FILE as LEVEL/X/Y once the tile is safely stored")
       ->type_name("FILE");
-  app.add_flag("--dry-run", command.dry_run, "Say how many tiles, bytes (by a sample) and how long; store nothing");
+  app.add_flag("--dry-run", command.dry_run, "Estimate tiles, bytes (from a sample) and time; store nothing");
   app.add_flag("--release", command.release,
-               "Ask for nothing: the plan's tiles that are there may be evicted again, by viewers with --cache-size");
-  app.add_flag("--offline", command.offline, "With --dry-run: take no sample");
+               "Unpin the plan's cached tiles, so that viewers with --cache-size may evict them; load nothing");
+  app.add_flag("--offline", command.offline, "Take no sample, with --dry-run");
   app.add_flag("--json", command.json, "Print the result as one JSON object");
 }
 

@@ -14,13 +14,13 @@
 
 namespace terrella {
 
-/// The first and the last of some levels.
+/// First and last level of a range, both included.
 struct LevelRange {
   int first = 0;
   int last = 0;
 };
 
-/// What `terrella preload` was told. Every value has been checked once the parse is over.
+/// Options of `terrella preload`; the parse has checked every value.
 struct PreloadCommand {
   Url source;
   std::string output;
@@ -45,7 +45,7 @@ struct PreloadCommand {
 /// Adds SOURCE and the options to the subcommand; `command` must outlive the parse. thread: main
 void add_preload_options(CLI::App& app, PreloadCommand& command);
 
-/// What only all options together show; an error is wrong usage.
+/// Checks combinations of options; an error means wrong usage.
 [[nodiscard]] Status check_together(const PreloadCommand& command);
 
 }  // namespace terrella

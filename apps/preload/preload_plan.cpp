@@ -34,7 +34,7 @@ Result<Region> region_of(const PreloadCommand& command) {
   return region;
 }
 
-/// In Web Mercator: what the tiles that are drawn are made of.
+/// For Web Mercator, returns the source tiles of the drawn tiles.
 std::vector<TileId> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body, Viewport size,
                                      const TileGrid& grid) {
   if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});

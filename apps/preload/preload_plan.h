@@ -9,8 +9,8 @@
 
 namespace terrella {
 
-/// The tiles that a command line asks for: boxes and polygons together, or a flight; the shard of it. Reads the GeoJSON
-/// files; the error names them. thread: main
+/// Lists the tiles of a command line: boxes and polygons together, or a flight, reduced to the requested shard. Reads
+/// the GeoJSON files; an error names the file. thread: main
 [[nodiscard]] Result<std::shared_ptr<const TilePlan>> make_preload_plan(const PreloadCommand& command,
                                                                         const TileSetInfo& info);
 

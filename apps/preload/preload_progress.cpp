@@ -25,14 +25,14 @@ void PreloadProgress::show(const PreloadCounts& counts) {
     line_open_ = true;
     return;
   }
-  // After 1 s, then at most every 2 s, and at most twenty lines for each tenfold of the time.
+  // The first line comes after 1 s, later lines at most every 2 s, with at most twenty lines per tenfold time.
   const auto between = std::max<Clock::duration>(std::chrono::seconds(2), (now - begun_) / 10);
   if (now - begun_ < std::chrono::seconds(1) || (told_ != begun_ && now - told_ < between)) return;
   told_ = now;
   fmt::print(stderr, "{}\n", line(counts));
 }
 
-// Tiles that were there already are passed over too fast to say anything about the time left.
+// Updates the rate. Tiles already in the cache pass too fast to predict the remaining time, so they do not count.
 void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now) {
   constexpr double kSmoothing_s = 5.0;
   const double seconds = std::chrono::duration<double>(now - measured_).count();
@@ -44,7 +44,7 @@ void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now
   }
   const std::int64_t asked = counts.passed - counts.there;
   const double rate = static_cast<double>(asked - asked_measured_) / seconds;
-  // A running mean that begins with no opinion: what it has seen so far counts for all of it.
+  // A running mean without an initial value: the observations so far stand for all.
   const double kept = std::exp(-seconds / kSmoothing_s);
   tiles_seen_ = kept * tiles_seen_ + (1.0 - kept) * rate;
   weight_seen_ = kept * weight_seen_ + (1.0 - kept);

@@ -7,9 +7,8 @@
 
 namespace terrella {
 
-/// Tells how far a preload is, on standard error: one line that is drawn over on a terminal, else a line now and then,
-/// the fewer the longer it takes. Has the rate of the last seconds and the time left at that rate. thread: one at a
-/// time
+/// Shows a preload's progress on standard error: one line redrawn on a terminal, else plain lines that become rarer
+/// with time. Each line has the recent rate and the remaining time at that rate. thread: one at a time
 class PreloadProgress {
  public:
   PreloadProgress();
@@ -31,13 +30,13 @@ class PreloadProgress {
   Clock::time_point measured_ = begun_;
   Clock::time_point told_ = begun_;
   std::int64_t asked_measured_ = 0;
-  double tiles_seen_ = 0.0;  ///< a second, of those that had to be asked for, times weight_seen_
+  double tiles_seen_ = 0.0;  ///< tiles requested per second, times weight_seen_
   double weight_seen_ = 0.0;
 };
 
-/// "2 h 5 min", "40 s".
+/// Formats a duration: "2 h 5 min", "40 s".
 [[nodiscard]] std::string duration_text(double seconds);
-/// "1.2 GB", "840 kB".
+/// Formats a size: "1.2 GB", "840 kB".
 [[nodiscard]] std::string bytes_text(double bytes);
 
 }  // namespace terrella

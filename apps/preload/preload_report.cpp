@@ -29,7 +29,7 @@ const char* end_name(PreloadEnd end) {
 
 std::string tile_name(const TileId& id) { return fmt::format("{}/{}/{}", id.level, id.x, id.y); }
 
-/// Texts from servers need not be UTF-8.
+/// Texts from servers may contain bytes that are not UTF-8.
 std::string text_of(const json& object) { return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n"; }
 
 std::int64_t tiles_in(const PreloadForecast& forecast) {

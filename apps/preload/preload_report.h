@@ -11,32 +11,32 @@
 
 namespace terrella {
 
-/// What a preload came to.
+/// Result of a preload.
 struct PreloadReport {
   std::string output;
   PreloadResult result;
   std::vector<LackReport::Group> lacking;
   double seconds = 0.0;
 };
-/// For people: lines of text, at most twenty reasons. For programs: one JSON object.
+/// to_text() gives lines of text with at most twenty reasons, for people. to_json() gives one JSON object.
 [[nodiscard]] std::string to_text(const PreloadReport& report);
 [[nodiscard]] std::string to_json(const PreloadReport& report);
 
-/// What --release came to, for programs.
+/// Result of --release, for programs.
 struct ReleaseReport {
   std::string output;
   std::int64_t released = 0;
 };
 [[nodiscard]] std::string to_json(const ReleaseReport& report);
 
-/// What a preload would come to.
+/// Estimate of a preload.
 struct PreloadForecast {
   std::vector<LevelCount> levels;
-  std::int64_t there = 0;  ///< in the cache already, fresh
+  std::int64_t there = 0;  ///< fresh tiles already in the cache
   SizeSample sample;
-  double rate = 0.0;  ///< requests a second; 0: no limit
+  double rate = 0.0;  ///< requests per second; 0: no limit
   int jobs = 1;
-  std::optional<Error> no_room;  ///< why the cache's limit is too small for it
+  std::optional<Error> no_room;  ///< set if the cache's limit is too small for the plan
 };
 [[nodiscard]] std::string to_text(const PreloadForecast& forecast);
 [[nodiscard]] std::string to_json(const PreloadForecast& forecast);

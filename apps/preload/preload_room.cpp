@@ -14,9 +14,9 @@ namespace terrella {
 namespace {
 
 constexpr double kMegabyte = 1e6;
-/// A picture that does not compress, in bytes a pixel.
+/// Size of an incompressible picture, in bytes per pixel.
 constexpr double kMostBytesAPixel = 4.0;
-/// A sample of twenty is off by a tenth or two.
+/// A sample of twenty has an error of ten to twenty per cent.
 constexpr double kAdvisedSpare = 1.25;
 
 double room_bytes(const PreloadCommand& command) {
@@ -25,7 +25,7 @@ double room_bytes(const PreloadCommand& command) {
   return static_cast<double>(budget.file_pages * kCachePageBytes);
 }
 
-/// "; levels 0-5 need about 6 MB": the coarse levels that fit, if any.
+/// Names the coarse levels that fit, if any: "; levels 0-5 need about 6 MB".
 std::string levels_that_fit(const PreloadCommand& command, const TilePlan& plan, const RoomNeed& need, double a_tile) {
   std::string fit;
   std::int64_t tiles = 0;
@@ -43,7 +43,7 @@ std::string levels_that_fit(const PreloadCommand& command, const TilePlan& plan,
 
 RoomNeed room_need(const PreloadCommand& command, const TilePlan& plan, std::int64_t settled) {
   RoomNeed need{.tiles = plan.total() - settled};
-  // Of a file that cannot be counted nothing is known: then a tile without room is told when it comes.
+  // If the file cannot be counted, nothing is known; a tile without room is reported later.
   const Result<CacheReport> report = read_cache_report(command.output, std::time(nullptr));
   if (report && report->tiles > 0) {
     const double share = static_cast<double>(report->pinned_tiles) / static_cast<double>(report->tiles);

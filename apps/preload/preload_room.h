@@ -10,21 +10,22 @@
 
 namespace terrella {
 
-/// What a plan asks of a cache that has a limit. Nothing of a plan is ever evicted, so all of it must fit, beside what
-/// was pinned before.
+/// Space that a plan needs in a cache with a size limit. Planned tiles are never evicted, so all of them must fit
+/// beside the tiles pinned earlier.
 struct RoomNeed {
-  std::int64_t tiles = 0;     ///< of the plan, that are not pinned in the cache yet; absences are not counted
-  double pinned_bytes = 0.0;  ///< of the file, that tiles take which are pinned already
+  std::int64_t tiles = 0;     ///< planned tiles not yet pinned in the cache, without absences
+  double pinned_bytes = 0.0;  ///< bytes of the file used by pinned tiles
 };
 
-/// `settled`: WantedTiles::settled() of the whole plan. Reads the cache's file if there is one. thread: any
+/// Computes the space that a plan needs. `settled` is WantedTiles::settled() for the whole plan. Reads the cache's file
+/// if the file exists. thread: any
 [[nodiscard]] RoomNeed room_need(const PreloadCommand& command, const TilePlan& plan, std::int64_t settled);
 
-/// True if the plan fits even with the largest tiles that are likely: then no sample need be taken.
+/// True if the plan fits even with the largest likely tiles; then no sample is needed.
 [[nodiscard]] bool surely_fits(const PreloadCommand& command, const RoomNeed& need, int tile_px);
 
-/// Why the plan does not fit into the limit, by the mean size of a sample, and what to do. Nothing: it fits, there is
-/// no limit, or the sample had no answer.
+/// Explains why the plan exceeds the limit, by the mean size of a sample, and what to do. Returns nullopt if the plan
+/// fits, without a limit, or if the sample got no answer.
 [[nodiscard]] std::optional<Error> find_no_room(const PreloadCommand& command, const TilePlan& plan,
                                                 const RoomNeed& need, const SizeSample& sample);
 

@@ -30,7 +30,7 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   const std::string& source = named.with_secrets();
   auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
-  // A cache has no place for what GeoPackages say of single tiles' heights.
+  // A cache cannot store a GeoPackage's scale and offset of single height tiles.
   if ((*tiles)->info().elevation) {
     return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
   }

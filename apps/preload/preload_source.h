@@ -12,19 +12,19 @@
 
 namespace terrella {
 
-/// What `preload` reads from: a remote set, or one on disk.
+/// Source of `preload`: a remote set, or a set on disk.
 struct PreloadSource {
-  RemoteTileSet set;  ///< of a set on disk only `info`
-  std::string key;    ///< what tells its cache from others'
+  RemoteTileSet set;  ///< only `info` for a set on disk
+  std::string key;    ///< identifies the source's cache
   bool remote = false;
   std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)> make_origin;
 };
 
-/// Finds out what SOURCE is; a remote set's description is fetched. The error names SOURCE. thread: main
+/// Opens SOURCE; fetches a remote set's description. The error names SOURCE. thread: main
 [[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
                                                         const HttpOptions& http);
 
-/// Fetches one document and waits for it. thread: any
+/// Fetches one document and waits for the answer. thread: any
 [[nodiscard]] Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
                                                             const std::vector<std::string>& headers);
 

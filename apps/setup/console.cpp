@@ -20,7 +20,7 @@ bool acts_on_a_terminal(char32_t c) {
 
 std::size_t needed_bytes(char32_t c) { return c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4; }
 
-/// By the first byte of a character.
+/// Length of a character by its first byte.
 std::size_t written_bytes(char first) {
   return static_cast<std::size_t>(std::max(1, std::countl_one(static_cast<unsigned char>(first))));
 }
@@ -31,7 +31,7 @@ std::string escaped(std::string_view text, std::string_view kept) {
   for (const char32_t c : code_points(text)) {
     const bool broken = c == kNotUtf8 && !text.starts_with(kReplacement);
     const std::size_t bytes = broken ? 1 : written_bytes(text.front());
-    if (broken || bytes != needed_bytes(c)) {  // longer than needed: a way past filters
+    if (broken || bytes != needed_bytes(c)) {  // overlong encodings could bypass filters
       shown += kReplacement;
     } else if (acts_on_a_terminal(c) && kept.find(text.front()) == std::string_view::npos) {
       shown += fmt::format("\\u{:04x}", static_cast<unsigned>(c));

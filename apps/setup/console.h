@@ -9,20 +9,21 @@
 
 namespace terrella {
 
-/// Text that a terminal only shows, whatever file or server it came from: control characters (C0 but line end and tab,
-/// DEL, C1), the line separators of Unicode and those characters that turn the direction of writing become "\u001b",
-/// bytes that are not UTF-8 become U+FFFD. JSON text keeps its meaning. thread: any
+/// Makes text from files and servers safe for a terminal. Control characters (C0 except line end and tab, DEL, C1),
+/// Unicode line separators and direction marks become escapes such as "\u001b". Bytes that are not UTF-8 become U+FFFD.
+/// JSON text keeps its meaning. thread: any
 [[nodiscard]] std::string printable(std::string_view text);
-/// The same without line ends and tabs: for a name that stands in a line of a report, or in a file of lines.
+/// Like printable(), but also escapes line ends and tabs. Use this for a name within a line of a report or list.
 [[nodiscard]] std::string one_line(std::string_view text);
 
 /// Writes printable(text) to standard output.
 void write_result(std::string_view text);
-/// Writes printable(text) to standard error, its addresses redacted, all lines but the first indented: a line that a
-/// file's name brought with it does not look like a message of the program's own.
+/// Writes printable(text) to standard error, with addresses redacted. All lines but the first are indented, so that a
+/// line break in a file's name cannot fake a message of the program.
 void write_message(std::string_view text);
 
-/// Print a result on standard output, a message on standard error. Every subcommand prints by these two alone.
+/// Print a result to standard output, or a message to standard error. Every subcommand prints through these two
+/// functions only.
 template <class... Args>
 void print_result(fmt::format_string<Args...> format, Args&&... args) {
   write_result(fmt::format(format, std::forward<Args>(args)...));

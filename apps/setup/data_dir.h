@@ -6,17 +6,15 @@
 
 namespace terrella {
 
-/// Something that is installed with the program is not there. Nothing that a command could do instead: it ends in main.
+/// A file installed with the program is missing. No command can recover; main reports the error.
 class BrokenInstallation : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A file that the program carries, for example "earth.gpkg". It is looked for in the folder that the environment
-/// variable TERRELLA_DATA names, if it is set, and nowhere else then; otherwise in data/ beside the program (a build)
-/// and in
-/// ../share/terrella/ (an installation). Throws BrokenInstallation, which names the places.
-/// thread: any
+/// Finds a file included with the program, for example "earth.gpkg". If the environment variable TERRELLA_DATA is set,
+/// only that folder is searched. Otherwise data/ beside the program (a build) and ../share/terrella/ (an installation)
+/// are searched. Throws BrokenInstallation, which names the places. thread: any
 [[nodiscard]] std::filesystem::path data_file(std::string_view name);
 
 }  // namespace terrella

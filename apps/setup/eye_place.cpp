@@ -21,7 +21,7 @@ double lowest_eye_m(const SceneOptions& options, const Ellipsoid& e) {
   return (depth_m ? inner_sphere_radius_m(e.a_m(), e.b_m(), *depth_m) : 0.0) - e.b_m();
 }
 
-/// From here the planet is one pixel wide.
+/// Height from which the planet is one pixel wide.
 double highest_eye_m(const Ellipsoid& e, const Camera& camera, Viewport picture) {
   const double pixels_per_radian = 0.5 * picture.height_px / std::tan(0.5 * camera.fov_y.rad());
   const double half_pixel_rad = std::min(0.5 / pixels_per_radian, 0.5 * std::numbers::pi);

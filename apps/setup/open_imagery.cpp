@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tile set of which the command line knows better than its own description.
+/// A tile set whose description is overridden by the command line.
 class DescribedSource : public TileSource {
  public:
   DescribedSource(std::shared_ptr<TileSource> tiles, TileSetInfo info)
@@ -41,7 +41,7 @@ class DescribedSource : public TileSource {
   TileSetInfo info_;
 };
 
-/// A folder of its own under the system's temporary folder, removed with all that is in it at the end.
+/// A folder inside the system's temporary folder; the destructor removes the folder with its contents.
 class ScratchFolder {
  public:
   explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
@@ -67,7 +67,7 @@ Result<std::unique_ptr<ScratchFolder>> make_scratch_folder() {
   return std::make_unique<ScratchFolder>(name);
 }
 
-/// Keeps the scratch folder for as long as its tiles are read. Members are destroyed last to first: tiles, then folder.
+/// Keeps the scratch folder while its tiles are read. Members are destroyed last to first: tiles, then folder.
 class ScratchSource : public TileSource {
  public:
   ScratchSource(std::unique_ptr<ScratchFolder> folder, std::unique_ptr<TileSource> tiles)
@@ -81,7 +81,7 @@ class ScratchSource : public TileSource {
   std::unique_ptr<TileSource> tiles_;
 };
 
-/// What is said of the picture's body and latitudes goes into the cut, which compares it with what the picture says.
+/// Cuts a picture. The cut receives the given body and latitude kind and compares them with the picture's own.
 Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
                                                  const SceneOptions& options, const CutProgress& told) {
   CutOptions cut;
@@ -125,8 +125,8 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
-/// Options to open the heights with. What is said of TILESET, its rows and its server, is not said of them. A cache
-/// holds one source's tiles: theirs stands beside a --cache that is given.
+/// Options for opening the heights. The description and server options of TILESET do not apply. A cache holds one
+/// source's tiles, so the heights' cache stands beside a given --cache.
 SceneOptions heights_options(const SceneOptions& options) {
   SceneOptions heights = options;
   heights.tile_set = options.elevation;
@@ -140,7 +140,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   return heights;
 }
 
-/// `field`: the field of a description that the address goes into.
+/// `field` is the field of a description for the address.
 Error no_meaning(const Url& address, const char* field) {
   return Error{fmt::format(
       "{}: nothing says what the numbers in its tiles mean in metres; write a description that does, for example "
@@ -158,7 +158,7 @@ bool begins_as_picture(const fs::path& path) {
   file.read(head.data(), head.size());
   const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
   using namespace std::string_view_literals;
-  // JPEG, PNG, TIFF and BigTIFF in either byte order.
+  // First bytes of JPEG, PNG, TIFF and BigTIFF in either byte order.
   constexpr std::array kStarts = {"\xff\xd8\xff"sv, "\x89PNG\r\n\x1a\n"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
   return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
 }
@@ -227,7 +227,7 @@ Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& option
                     "or floats a pixel",
                     options.elevation.redacted())};
   }
-  // Known without a request: only a description says what a server's numbers mean.
+  // Fails without a request: only a description states what a server's numbers mean.
   if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
   auto tiles = open_any_tiles(heights_options(options));
   if (!tiles) return tiles.error();

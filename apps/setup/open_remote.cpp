@@ -25,12 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a URL template that nobody said more about: finer than most servers; where they end, ancestors stand in.
+// Finest level of a URL template without --max-level. Most servers end earlier; their ancestors replace the missing
+// tiles.
 constexpr int kTemplateMaxLevel = 18;
 constexpr std::size_t kMaxNameBytes = 60;
 constexpr std::uint64_t kMegabyte = 1'000'000;
 
-/// The address without its secrets as a file's name, and a number for the rest: a new key or password is no new source.
+/// Makes a file name from the address without secrets, and a hash of the rest. A new key or password does not make a
+/// new source.
 std::string cache_name(const SceneOptions& options) {
   std::string name;
   for (const char c : options.tile_set.without_query().substr(0, kMaxNameBytes)) {
@@ -72,7 +74,7 @@ Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
 HttpOptions network_options() {
   HttpOptions http;
   http.attempts = 3;
-  // As a person turns the globe: no server should take it for an attack.
+  // A user may turn the globe this fast, but no server should see an attack.
   http.rate_per_host = 200.0;
   http.burst = 100.0;
   return http;
@@ -83,7 +85,7 @@ std::shared_ptr<TileCache> go_without(const Error& why) {
   return nullptr;
 }
 
-/// None, if it is off or its place cannot be written. A file that is something else is refused.
+/// Opens the cache; nullptr if the cache is off or not writable. Refuses a file of another kind.
 Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const RemoteTileSet& set) {
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file(options);
@@ -112,8 +114,8 @@ bool is_template(const SceneOptions& options) {
   return options.tile_set.with_secrets().find("{z}") != std::string::npos;
 }
 
-/// A URL template says nothing of its grid: before the first picture a few tiles are compared, so that a mistaken one
-/// is named rather than drawn. Not for a set that was drawn before: its cache has tiles.
+/// Compares a few tiles of a URL template before the first picture, because a template states no grid. A wrong grid is
+/// reported instead of drawn. Sets drawn before are skipped: their cache has tiles.
 Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
   const auto fetch = [&](const TileId& id) -> Result<std::optional<Image>> {
     const auto bytes = fetch_document(http, tile_url(set, id), set.headers);
@@ -122,7 +124,7 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
     return image ? std::optional<Image>(*std::move(image)) : std::nullopt;
   };
   const auto check = check_grid(fetch, set.info.grid);
-  if (!check) return Done{};  // what cannot be fetched now tells nothing
+  if (!check) return Done{};  // a failed fetch proves nothing
   if (check->verdict == GridCheck::Verdict::fits || check->verdict == GridCheck::Verdict::cannot_tell) return Done{};
   return Error{fmt::format("{}: {}", set.info.name, check->advice)};
 }
@@ -144,7 +146,7 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
-  // The cache has the tiles as the server has them.
+  // The cache holds the tiles in the server's projection.
   auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));

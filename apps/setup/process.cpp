@@ -21,13 +21,13 @@
 namespace terrella {
 namespace {
 
-/// Cleaning up could need the memory that is not there, and other threads go on meanwhile: the process ends at once.
+/// Ends the process at once. Cleaning up could need more memory, and other threads continue meanwhile.
 [[noreturn]] void end_now(const char* why) {
   tell_failure(why);
   _exit(1);
 }
 
-/// An exception that nothing catches, in any thread. Mistakes in the program still abort.
+/// Handles exceptions that no thread catches. Programming errors still abort.
 [[noreturn]] void on_terminate() {
   if (std::current_exception()) {
     try {
@@ -42,11 +42,11 @@ namespace {
   std::abort();
 }
 
-/// Input and output fail, as they would closed; messages go nowhere, since nobody wants them.
+/// Opens closed streams: input and output fail as before, and messages are discarded.
 void open_standard_streams() {
   constexpr std::array kModes{O_WRONLY, O_RDONLY, O_WRONLY};
   for (int stream = 0; stream < 3; ++stream) {
-    // The lowest free number is the stream's own.
+    // open() takes the lowest free number, which is the stream's own.
     if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", kModes[stream]) != stream) _exit(1);
   }
 }
@@ -69,7 +69,7 @@ Status flush_standard_output() {
 }
 
 Status check_memory(std::size_t bytes, const std::string& what) {
-  // Counted against a limit, but takes no memory.
+  // Reserved address space counts against a limit but uses no memory.
   void* const room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED) {
     return Error{fmt::format("{} needs {} MB of memory, which there are not; raise the limit (ulimit -v)", what,
@@ -81,7 +81,7 @@ Status check_memory(std::size_t bytes, const std::string& what) {
 
 void tell_failure(const char* why) noexcept {
   for (const char* text : {"terrella: ", why, "\n"}) {
-    // Nothing is left to do if this fails too.
+    // No remedy is left if this write fails too.
     if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
   }
 }

@@ -7,21 +7,20 @@
 
 namespace terrella {
 
-/// Prepares the process for what the system may do to it; call it first. A file-size limit makes writes fail instead of
-/// ending the program (SIGXFSZ). Closed standard streams are opened, so that no file gets their number: input and
-/// output fail as before, messages go nowhere. An allocation or a new thread that fails in any thread, where nothing
-/// catches it, ends the program with a message and exit code 1. thread: main
+/// Prepares the process for limits of the system; call this first. Writes beyond a file-size limit fail instead of
+/// ending the program (SIGXFSZ). Closed standard streams are opened, so that no file gets their numbers; input and
+/// output still fail, messages are lost. An uncaught failure to allocate or to start a thread ends the program with a
+/// message and exit code 1. thread: main
 void prepare_process();
 
-/// Writes out what waits for standard output. The error says that it could not be written, now or earlier.
-/// thread: main
+/// Flushes standard output. Fails if any write, now or earlier, failed. thread: main
 [[nodiscard]] Status flush_standard_output();
 
-/// Asks the system for so much memory, and gives it back. For what cannot bear that there is none, as OpenGL drivers,
-/// which read through null pointers then. `what` begins the error. thread: any
+/// Allocates and frees this much memory as a test. Protects code that cannot handle failed allocations, such as OpenGL
+/// drivers that dereference null pointers. The error begins with `what`. thread: any
 [[nodiscard]] Status check_memory(std::size_t bytes, const std::string& what);
 
-/// Prints "terrella: WHY" on standard error. Neither allocates nor throws. thread: any
+/// Prints "terrella: WHY" to standard error. Neither allocates nor throws. thread: any
 void tell_failure(const char* why) noexcept;
 
 inline constexpr const char* kOutOfMemory =

@@ -6,12 +6,11 @@
 
 namespace terrella {
 
-/// Tells how far a long job is, on standard error: a bar that is drawn over on a terminal, else a plain line at the
-/// start of every tenth part. What is told is rate-limited, so show() may be called for every row. thread: one at a
-/// time
+/// Shows a long job's progress on standard error: a redrawn bar on a terminal, else a plain line at every tenth part.
+/// Output is rate-limited, so show() may be called for every row. thread: one at a time
 class Progress {
  public:
-  /// `what` is said before the figures, for example "cutting moon.jpg".
+  /// `what` precedes the figures, for example "cutting moon.jpg".
   explicit Progress(std::string what);
   ~Progress();  ///< ends the bar's line
   Progress(const Progress&) = delete;

@@ -8,7 +8,8 @@
 namespace terrella {
 namespace {
 
-/// What is said of TILESET, its rows and its server, is not said of another, and a cache holds one source's tiles.
+/// Adds a layer without TILESET's description and server options, and with its own cache. A cache holds one source's
+/// tiles.
 Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set, const ImageLook& look) {
   if (tile_set.empty()) return Done{};
   SceneOptions layer = options;

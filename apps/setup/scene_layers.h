@@ -5,8 +5,8 @@
 
 namespace terrella {
 
-/// Gives the globe the imagery that lies over TILESET: --night, and --clouds over that. The error names the input.
-/// Throws BrokenInstallation. thread: main
+/// Adds the layers above TILESET to the globe: --night, then --clouds on top. The error names the input. Throws
+/// BrokenInstallation. thread: main
 [[nodiscard]] Status add_image_layers(Globe& globe, const SceneOptions& options);
 
 }  // namespace terrella

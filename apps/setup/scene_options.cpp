@@ -18,16 +18,15 @@ void add_camera_options(CLI::App& command, SceneOptions& options) {
       .add_option_function<std::string>(
           "--camera",
           [&options](const std::string& text) { options.camera = parsed_or_throw("--camera", parse_camera(text)); },
-          "Where the eye is and looks: degrees and metres; straight down and 40 degrees of view unless said. ALT is "
-          "over "
-          "the ellipsoid: an eye in the ground, or under opaque ground without --objects, is put 1 m over it; at most "
-          "as "
-          "far out as the planet is a pixel wide")
+          "Set the eye's place and view, in degrees and metres; the default view is straight down, 40 degrees high. "
+          "ALT "
+          "is the height over the ellipsoid, at most where the planet is a pixel wide. An eye in the ground, or under "
+          "opaque ground without --objects, moves to 1 m above it")
       ->type_name("LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]");
   command
       .add_option_function<std::string>(
           "--size", [&options](const std::string& text) { options.size = parsed_or_throw("--size", parse_size(text)); },
-          "Picture size in pixels")
+          "Set the picture size in pixels")
       ->type_name("WxH")
       ->default_str("1024x1024");
 }
@@ -36,52 +35,56 @@ void add_planet_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option_function<std::string>(
           "--body", [&options](const std::string& text) { options.body = parsed_or_throw("--body", parse_body(text)); },
-          "The planet's figure: a name, or semi-major axis in metres and flattening")
+          "Set the planet's figure by name, or by semi-major axis in metres and flattening")
       ->type_name("earth|moon|mars|sphere|A,F");
-  add_choice<Projection>(command, "--projection", options.projection,
-                         {{"equirectangular", Projection::equirectangular},
-                          {"equal-area", Projection::equal_area},
-                          {"web-mercator", Projection::web_mercator}},
-                         "What the imagery's rows are linear in: latitude, its sine, or what web maps' are");
+  add_choice<Projection>(
+      command, "--projection", options.projection,
+      {{"equirectangular", Projection::equirectangular},
+       {"equal-area", Projection::equal_area},
+       {"web-mercator", Projection::web_mercator}},
+      "Set the imagery's projection; its rows are linear in latitude, in the sine of latitude, or as in web maps");
   add_choice<LatitudeKind>(command, "--latitude", options.latitude,
                            {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
-                           "Which latitude the imagery's rows count: planetographic or planetocentric");
+                           "Set the latitude that the imagery's rows count: planetographic or planetocentric");
 }
 
 void add_drawing_options(CLI::App& command, SceneOptions& options) {
-  command.add_flag("--unlit", options.unlit, "Imagery alone: no light, no sky, black background, no text");
+  command.add_flag("--unlit", options.unlit, "Draw the imagery alone: no light, no sky, no text, black background");
   add_choice<Texturing>(command, "--texturing", options.texturing,
                         {{"vertex", Texturing::vertex},
                          {"paper", Texturing::paper},
                          {"exact", Texturing::exact},
                          {"auto", Texturing::automatic}},
-                        "How the pole bands are drawn")
+                        "Choose the texturing of the pole bands")
       ->default_str("auto");
-  command.add_option("--paper-a", options.paper_a, "Exponent a of --texturing paper")
+  command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
       ->check(number_in(2.0, 8.0))
       ->capture_default_str();
   command
-      .add_option("--band", options.band, "Width b of the pole bands of --texturing paper, as a part of the picture")
+      .add_option("--band", options.band,
+                  "Set the width b of the pole bands for --texturing paper, as a fraction of the picture's height")
       ->check(number_in(0.001, 0.5))
       ->capture_default_str();
-  add_choice<bool>(command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
-                   "Tiles near the poles, of a set that terrella cut: squeezed ones, few, or those of the full grid")
+  add_choice<bool>(
+      command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
+      "Choose the tiles near the poles in a set made by terrella cut: the few squeezed ones, or the full grid")
       ->default_str("squeezed");
   command
-      .add_option("--polar-columns", options.polar_columns,
-                  "Of other sets: the tiles in a row that a patch touching a pole may lie on; it takes coarser ones "
-                  "rather than more")
+      .add_option(
+          "--polar-columns", options.polar_columns,
+          "Limit the tiles in a row under a patch that touches a pole, in sets not made by terrella cut; the patch "
+          "uses coarser tiles instead of more")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command
       .add_option("--detail", options.texels_per_pixel,
-                  "Texels a pixel asked for: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
+                  "Set the texels per pixel: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
       ->check(number_in(0.125, 8.0))
       ->capture_default_str();
   add_choice<DepthMode>(
       command, "--depth", options.depth,
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
-      "How depth is stored")
+      "Choose the depth buffer's encoding")
       ->default_str("reversed");
 }
 
@@ -94,48 +97,50 @@ void add_overlay_options(CLI::App& command, SceneOptions& options) {
               options.overlays.push_back(parsed_or_throw("--overlay", parse_overlay(text)));
             }
           },
-          "Imagery over the imagery, with its opacity from 0 to 1; where it is transparent or lacks, what lies below "
-          "shows. May be given again")
+          "Add a layer of imagery on top, with an opacity from 0 to 1. Transparent pixels and missing tiles show the "
+          "layer below. Repeatable")
       ->type_name("TILESET[:OPACITY]")
       ->allow_extra_args(false);
   add_choice<Projection>(command, "--overlay-projection", options.overlay_projection,
                          {{"equirectangular", Projection::equirectangular},
                           {"equal-area", Projection::equal_area},
                           {"web-mercator", Projection::web_mercator}},
-                         "Of overlays that do not say it themselves, as URL templates do not");
+                         "Set the projection of overlays that do not state it, such as URL templates");
 }
 
 void add_layer_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--night", options.night,
-                  "Imagery that shows where it is night at --time, by its own light; it fades through civil twilight")
+                  "Add self-luminous imagery for the night side at --time; it fades in through civil twilight")
       ->type_name("TILESET");
   command
       .add_option_function<std::string>(
           "--clouds",
           [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
-          "Imagery over all other, white on black, where black is clear; an opacity from 0 to 1 may follow")
+          "Add white-on-black cloud imagery above all other layers; black is clear. The opacity is 0 to 1")
       ->type_name("TILESET[:OPACITY]");
 }
 
 void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option("--elevation", options.elevation,
-                  "Heights that raise the ground: a tile set of 16-bit heights, as terrella cut --elevation and GDAL's "
-                  "gridded coverages are; or a JSON source description of heights on a server, with its \"elevation\"")
+      .add_option(
+          "--elevation", options.elevation,
+          "Raise the ground by a tile set of 16-bit heights, made by terrella cut --elevation or as a GDAL gridded "
+          "coverage. A JSON source description with \"elevation\" names heights on a server")
       ->type_name("TILESET");
-  command.add_option("--exaggeration", options.exaggeration, "How many times as high heights are drawn")
+  command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
       ->check(number_in(0.0, 100.0))
       ->capture_default_str();
 }
 
 void add_translucency_options(CLI::App& command, SceneOptions& options) {
-  command.add_option("--surface-alpha", options.surface.alpha, "How opaque the surface is: 0 not at all, 1 wholly")
+  command
+      .add_option("--surface-alpha", options.surface.alpha, "Set the surface's opacity: 0 is invisible, 1 is opaque")
       ->check(number_in(0.0, 1.0))
       ->capture_default_str();
   add_choice<Blend>(command, "--blend", options.surface.blend,
                     {{"normal", Blend::normal}, {"additive", Blend::additive}},
-                    "How a translucent surface goes over what lies under it")
+                    "Choose how a translucent surface blends with what lies behind")
       ->default_str("normal");
   command
       .add_option_function<std::string>(
@@ -143,25 +148,27 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
           [&options](const std::string& text) {
             options.surface.inner_sphere_below_m = parsed_or_throw("--inner-sphere", parse_length_or_off(text));
           },
-          "How far under the equator the sphere lies that hides the far side of a translucent globe, metres (of Earth; "
-          "in proportion on other bodies)")
+          "Set the depth in metres of the inner sphere under the equator. The sphere hides the far side of a "
+          "translucent "
+          "globe. The depth is for Earth and scales with other bodies")
       ->type_name("METRES_BELOW|off")
       ->default_str("1000000");
-  add_choice<SurfaceFromBelow>(command, "--surface-from-below", options.surface.from_below,
-                               {{"opaque", SurfaceFromBelow::opaque},
-                                {"translucent", SurfaceFromBelow::translucent},
-                                {"selective", SurfaceFromBelow::selective}},
-                               "What an eye under the ground sees of the surface: selective lets through only objects "
-                               "with through_surface")
+  add_choice<SurfaceFromBelow>(
+      command, "--surface-from-below", options.surface.from_below,
+      {{"opaque", SurfaceFromBelow::opaque},
+       {"translucent", SurfaceFromBelow::translucent},
+       {"selective", SurfaceFromBelow::selective}},
+      "Choose how the surface looks from below; selective lets only objects with through_surface "
+      "show through")
       ->default_str("opaque");
   add_choice<HorizonCulling>(
       command, "--horizon-culling", options.surface.horizon_culling,
       {{"on", HorizonCulling::on}, {"off", HorizonCulling::off}, {"auto", HorizonCulling::automatic}},
-      "Leave out what the planet hides; on: from under the ground also its other half")
+      "Skip what the planet hides; 'on' also skips the far half when the eye is under the ground")
       ->default_str("auto");
 }
 
-// The almanac's years are part of what the option takes.
+// Parses a time and refuses years outside the almanac.
 Result<UtcTime> parse_time(std::string_view text) {
   Result<UtcTime> time = parse_utc(text);
   if (!time) return time;
@@ -172,15 +179,16 @@ Result<UtcTime> parse_time(std::string_view text) {
 }
 
 void add_sky_options(CLI::App& command, SceneOptions& options) {
-  add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}}, "Stars, Sun, Moon and atmosphere")
+  add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}},
+                   "Draw stars, Sun, Moon and atmosphere")
       ->default_str("on");
   command
       .add_option_function<std::string>(
           "--time", [&options](const std::string& text) { options.time = parsed_or_throw("--time", parse_time(text)); },
-          "Where Sun, Moon and stars stand, 1950 to 2050: for example 2026-06-21T12:00Z (default: light over the "
+          "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
           "viewer's shoulder)")
       ->type_name("UTC");
-  command.add_option("--objects", options.objects, "Points, lines and areas to draw, over and under the ground")
+  command.add_option("--objects", options.objects, "Draw points, lines and areas, over and under the ground")
       ->type_name("F.geojson");
 }
 
@@ -190,34 +198,33 @@ void add_stereo_options(CLI::App& command, SceneOptions& options) {
                       {"side-by-side", Stereo::side_by_side},
                       {"interlaced", Stereo::interlaced},
                       {"anaglyph", Stereo::anaglyph}},
-                     "Two eyes: the left one's picture left, in the even rows, or in red")
+                     "Render for two eyes; the left eye's picture is on the left, in the even rows, or in red")
       ->default_str("off");
   command
       .add_option("--eye-separation", options.stereo.eye_separation_m,
-                  "How far apart the eyes are, metres (default: a thirtieth of the distance to what is in the middle)")
+                  "Set the distance between the eyes in metres (default: 1/30 of the distance to the picture's centre)")
       ->check(number_in(0.0, 1.0e9))
       ->type_name("METRES");
 }
 
 void add_cache_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option(
-          "--cache", options.cache,
-          "Where tiles from a server are kept, and what a picture given as TILESET is cut into, to be found there the "
-          "next time; heights from a server are kept beside FILE, in NAME-heights.gpkg; off: nowhere (default: "
-          "$XDG_CACHE_HOME/terrella or ~/.cache/terrella)")
+      .add_option("--cache", options.cache,
+                  "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
+                  "TILESET is "
+                  "cut into the cache for later runs. 'off' caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "~/.cache/terrella)")
       ->type_name("FILE|off");
   command
-      .add_option("--cache-size", options.cache_size_mb,
-                  "Largest size of the file that tiles from a server are kept in, megabytes")
+      .add_option("--cache-size", options.cache_size_mb, "Limit the cache file for tiles from servers, in megabytes")
       ->check(whole_number_in(64, 1 << 24))
       ->type_name("MB")
       ->capture_default_str();
-  command.add_option("--memory", options.memory_mb, "Memory for decoded tiles, megabytes")
+  command.add_option("--memory", options.memory_mb, "Limit the memory for decoded tiles, in megabytes")
       ->check(whole_number_in(64, 65536))
       ->type_name("MB")
       ->capture_default_str();
-  command.add_flag("--offline", options.offline, "The cache alone: not one request leaves the machine");
+  command.add_flag("--offline", options.offline, "Use the cache alone and send no request");
 }
 
 }  // namespace
@@ -226,8 +233,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("tileset", options.tile_set,
                   "A GeoPackage, a folder of tiles, a picture of the whole planet (JPEG, PNG, TIFF), a URL template "
-                  "with {z}, {x} and {y}, the address of a WMTS's capabilities, or a JSON source description; "
-                  "the Earth that the program carries unless given")
+                  "with {z}, {x} and {y}, the address of a WMTS capabilities document, or a JSON source description "
+                  "(default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);

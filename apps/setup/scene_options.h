@@ -16,22 +16,22 @@
 
 namespace terrella {
 
-/// One --overlay.
+/// Value of one --overlay.
 struct OverlayOption {
   Url tile_set;
   double opacity = 1.0;
 };
 
-/// What `view` and `render` have in common on the command line. Every value has been checked once the parse is over.
+/// Options shared by `view` and `render`; the parse has checked every value.
 struct SceneOptions {
-  Url tile_set;                  ///< empty: the Earth that the program carries
+  Url tile_set;                  ///< empty: the included Earth
   std::optional<Camera> camera;  ///< absent: the whole globe, see first_camera()
   Viewport size{.width_px = 1024, .height_px = 1024};
-  std::optional<Body> body;                      ///< absent: what the tile set says, else Earth
-  std::optional<Projection> projection;          ///< absent: what the tile set says
-  std::optional<LatitudeKind> latitude;          ///< absent: what the tile set says
-  std::vector<OverlayOption> overlays;           ///< over the tile set, the lowest first
-  std::optional<Projection> overlay_projection;  ///< absent: what they say of themselves
+  std::optional<Body> body;                      ///< absent: the tile set's body, else Earth
+  std::optional<Projection> projection;          ///< absent: as the tile set states
+  std::optional<LatitudeKind> latitude;          ///< absent: as the tile set states
+  std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
+  std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
   bool unlit = false;
   Texturing texturing = Texturing::automatic;
   double paper_a = 4.0;
@@ -41,34 +41,34 @@ struct SceneOptions {
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
   Url elevation;              ///< tile set of heights; empty: none
-  double exaggeration = 1.0;  ///< of heights
-  Url night;                  ///< tile set that shows where it is night; empty: none
-  OverlayOption clouds;       ///< whose brightness is its alpha, over the others; empty: none
+  double exaggeration = 1.0;  ///< factor for heights
+  Url night;                  ///< tile set for the night side; empty: none
+  OverlayOption clouds;       ///< top layer; brightness is alpha; empty: none
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none
   bool sky = true;                   ///< stars, Sun, Moon and atmosphere
-  std::optional<UtcTime> time;       ///< of the sky
-  std::string cache;                 ///< --cache as given; empty: the default place; "off": none
-  std::size_t cache_size_mb = 4096;  ///< of the cache's file, 10^6 bytes each
-  std::size_t memory_mb = 512;       ///< memory for tiles, 2^20 bytes each
-  bool offline = false;              ///< the cache alone
-  RemoteOptions remote;              ///< what is said about a remote TILESET
+  std::optional<UtcTime> time;       ///< time of the sky
+  std::string cache;                 ///< value of --cache; empty: the default file; "off": none
+  std::size_t cache_size_mb = 4096;  ///< limit of the cache's file, in 10^6 bytes
+  std::size_t memory_mb = 512;       ///< limit for decoded tiles, in 2^20 bytes
+  bool offline = false;              ///< use the cache only
+  RemoteOptions remote;              ///< options of a remote TILESET
 };
 
-/// The largest side of a picture or window, pixels.
+/// Largest side of a picture or window, pixels.
 inline constexpr int kMaxSide_px = 16384;
 
 /// Adds TILESET and the options to a subcommand; `options` must outlive the parse. thread: main
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-/// The body to draw: --body, else what the tile set says of itself, else Earth. Fails if the tile set says nonsense.
+/// Returns --body, else the tile set's body, else Earth. Fails if the tile set names an invalid body.
 [[nodiscard]] Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info);
 
-/// The camera to start with: --camera, else straight down over 20°N 0°E from where the whole globe fills the picture.
+/// Returns --camera, else a view straight down on 20°N 0°E with the whole globe filling the picture.
 [[nodiscard]] Camera first_camera(const SceneOptions& options, const Body& body, Viewport picture);
 
-/// The options as the globe takes them. thread: any
+/// Converts the options for the globe. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
 
 }  // namespace terrella

@@ -6,12 +6,12 @@
 
 namespace terrella {
 
-/// Reads "TILESET" or "TILESET:OPACITY", the opacity in [0, 1]; what follows the last colon and is no number belongs to
-/// TILESET. The error names the text. thread: any
+/// Reads "TILESET" or "TILESET:OPACITY", with an opacity in [0, 1]. Text after the last colon belongs to TILESET unless
+/// the text is a number. The error names the text. thread: any
 [[nodiscard]] Result<OverlayOption> parse_overlay(const std::string& text);
 
-/// Lays what --overlay names over the imagery, in the order given, each with a cache of its own. The error names the
-/// overlay. Throws BrokenInstallation. thread: main
+/// Adds the layers of --overlay in the given order, each with its own cache. The error names the overlay. Throws
+/// BrokenInstallation. thread: main
 [[nodiscard]] Status add_overlays(Globe& globe, const SceneOptions& options);
 
 }  // namespace terrella

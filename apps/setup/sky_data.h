@@ -10,20 +10,19 @@
 
 namespace terrella {
 
-/// What the sky is drawn from. What could not be read is empty, and `problems` says why, naming the file: the sky is
-/// then without it.
+/// Data for drawing the sky. Unreadable parts are empty and not drawn; `problems` names their files and the reasons.
 struct SkyData {
   std::vector<Star> stars;
   GreyPicture night_lights;
   std::vector<std::string> problems;
 };
 
-/// Reads the files that the program carries (apps/setup/data_dir.h). thread: any
+/// Reads the included files (apps/setup/data_dir.h). thread: any
 [[nodiscard]] SkyData load_sky_data();
 
-/// The errors name the file. thread: any
+/// Reads a star catalogue. The error names the file. thread: any
 [[nodiscard]] Result<std::vector<Star>> load_stars(const std::filesystem::path& path);
-/// A picture of the whole Earth; its red channel counts.
+/// Reads a picture of the whole Earth; only the red channel is used.
 [[nodiscard]] Result<GreyPicture> load_night_lights(const std::filesystem::path& path);
 
 }  // namespace terrella

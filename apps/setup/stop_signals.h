@@ -5,8 +5,9 @@
 
 namespace terrella {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is noted rather than obeyed; the second one of a kind ends the
-/// program at once. A SIGHUP that was ignored at the start, as under nohup, stays ignored. One at a time. thread: main
+/// Records the first SIGINT, SIGTERM or SIGHUP during its lifetime. The second signal of a kind ends the program at
+/// once. A SIGHUP ignored at the start, as under nohup, stays ignored. Only one instance may exist at a time. thread:
+/// main
 class StopSignals {
  public:
   StopSignals();

@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True for LEVEL/X/Y and the start of what may follow, and for nothing at all.
+/// True for an empty file, or if the first line begins with LEVEL/X/Y.
 bool is_list(const fs::path& path) {
   std::error_code failed;
-  // Devices and pipes have nothing to lose.
+  // Devices and pipes have no contents to lose.
   if (!fs::is_regular_file(path, failed)) return true;
   constexpr std::size_t kLongestId = 64;
   const auto head = read_head(path, kLongestId);

@@ -10,17 +10,18 @@
 
 namespace terrella {
 
-/// A text file with a line for each of many tiles, which begins with LEVEL/X/Y. thread: one at a time
+/// A text file with one line per tile; each line begins with LEVEL/X/Y. thread: one at a time
 class TileListFile {
  public:
-  enum class Mode { begin, append };  ///< begin: an earlier list of that name is replaced
+  enum class Mode { begin, append };  ///< begin: replaces an earlier list of that name
 
-  /// `path` empty: the lines go nowhere. A file that is there and is no such list is refused. The error names the path.
+  /// Opens the list; an empty `path` discards all lines. An existing file of another kind is refused. The error names
+  /// the path.
   [[nodiscard]] static Result<TileListFile> open(const std::filesystem::path& path, Mode mode);
 
-  /// The line is in the file when this returns; if it cannot be written close() tells.
+  /// Writes the line to the file before returning. close() reports failures.
   void add(const TileId& id, const std::string& rest = {});
-  /// An error if any line could not be written.
+  /// Fails if any line could not be written.
   [[nodiscard]] Status close();
 
  private:
@@ -32,7 +33,7 @@ class TileListFile {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
   bool failed_ = false;
-  int error_number_ = 0;  ///< of the first failure
+  int error_number_ = 0;  ///< errno of the first failure
 };
 
 }  // namespace terrella

@@ -5,9 +5,9 @@
 
 namespace terrella {
 
-/// The user's folder for Terrella by the XDG base directory specification: $VARIABLE/terrella, where that names an
-/// absolute path (a relative one is to be ignored), or else ~/`below_home`/terrella; nothing where HOME is not set
-/// either. It need not be there. thread: any, while nobody changes the environment
+/// Returns the user's folder for Terrella by the XDG base directory specification. $VARIABLE/terrella applies if the
+/// variable holds an absolute path; relative paths are ignored. Otherwise the folder is ~/`below_home`/terrella, or
+/// nullopt without HOME. The folder need not exist. thread: any, while nobody changes the environment
 [[nodiscard]] std::optional<std::filesystem::path> user_folder(const char* variable, const char* below_home);
 
 }  // namespace terrella

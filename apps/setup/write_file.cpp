@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 0, or the number of the error.
+/// Returns 0 or errno.
 int write_all(const fs::path& path, std::span<const std::byte> bytes) {
   std::FILE* file = std::fopen(path.c_str(), "wbe");
   if (file == nullptr) return errno;
@@ -30,7 +30,7 @@ Error cannot_write_file(const fs::path& path, int error_number) {
   return Error{fmt::format("{}: cannot be written: {}", path.string(), why_not_written(error_number))};
 }
 
-/// True for a file in a folder, which may lie deep in it, and for the file or folder itself.
+/// True for the folder or file itself, and for files at any depth inside.
 bool lies_in(const fs::path& file, const fs::path& folder) {
   std::error_code failed;
   const fs::path inner = fs::canonical(file, failed);
@@ -56,7 +56,7 @@ Status write_file(const fs::path& path, std::span<const std::byte> bytes) {
   std::error_code failed;
   const fs::file_status now = fs::status(path, failed);
   if (fs::is_directory(now)) return Error{path.string() + ": is a folder; name a file"};
-  // A device's name must not be taken over by a file.
+  // A file must not replace a device.
   if (fs::exists(now) && !fs::is_regular_file(now)) {
     const int error_number = write_all(path, bytes);
     return error_number == 0 ? Status(Done{}) : cannot_write_file(path, error_number);

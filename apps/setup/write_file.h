@@ -10,12 +10,12 @@
 
 namespace terrella {
 
-/// Writes a file so that it appears under its name, and replaces what had that name, only when it is whole. Devices and
-/// pipes are written to as they are. The error names the path. thread: any
+/// Writes a file atomically: the complete file appears under its name and replaces an earlier file. Devices and pipes
+/// are written directly. The error names the path. thread: any
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Refuses to replace what is no picture, and what lies in one of the inputs (files, folders; addresses count for
-/// nothing) or is one by any name. The error says what stands there. thread: any
+/// Refuses to replace a file that is no picture, an input under any name, or a file inside an input folder. Addresses
+/// among the inputs are ignored. The error describes the existing file. thread: any
 [[nodiscard]] Status may_write_picture(const std::filesystem::path& path, const std::vector<std::string>& inputs);
 
 }  // namespace terrella

@@ -1,7 +1,7 @@
 #include "apps/viewer/input.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 
 #include <glm/geometric.hpp>
@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 constexpr Seconds kDoubleClick(0.4);
-constexpr double kTurnStep_px = 24.0;   // at 96 dots per inch: what an arrow with Shift turns and tilts by
+constexpr double kTurnStep_px = 24.0;   // at 96 dots per inch: drag distance that an arrow with Shift stands for
 constexpr double kClickSlack_px = 6.0;  // at 96 dots per inch
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
@@ -87,7 +87,7 @@ Input::Input(Window& window, Ui& ui, Navigator& navigator)
 
 Seconds Input::now() { return Seconds(glfwGetTime()); }
 
-// Events have no time of their own here. Those that came while a frame was drawn may be as old as that frame.
+// GLFW events have no time. Events that arrived during a frame may be as old as that frame.
 void Input::listen(std::optional<double> wait_s) {
   late_ = now() - heard_until_;
   if (wait_s) {
@@ -141,7 +141,7 @@ void Input::listen_to_keys() {
   glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int, int action, int modifiers) {
     input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(key, action));
   });
-  // Letters and signs come as characters: so they are where the keyboard's layout has them.
+  // Letters and symbols arrive as characters, so that they follow the keyboard's layout.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
     input_of(w).dirty_ = true;
     if (!input_of(w).ui_.on_character(character)) input_of(w).on_character(character);
@@ -186,7 +186,7 @@ void Input::on_button(int button, int action, int modifiers) {
   }
 }
 
-// What a panel has taken is not the globe's, but for the function keys and Esc, which closes the panel.
+// The globe gets no key that a panel took, except function keys and Esc, which closes the panel.
 void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
@@ -205,7 +205,7 @@ void Input::on_key(int key, int action, int modifiers, bool taken) {
   }
 }
 
-// As a right drag around the picture's middle would. Nothing while a button is held, or for a key that is no arrow.
+// Acts like a right drag around the picture's middle. Ignores keys while a button is held, and keys other than arrows.
 void Input::tilt_by_key(NavigationKey key) {
   glm::dvec2 by_px(0.0);
   const double step_px = kTurnStep_px * window_.text_scale();

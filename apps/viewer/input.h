@@ -11,7 +11,7 @@
 
 namespace terrella {
 
-/// What a key asks of the viewer beside the navigation.
+/// Actions of keys, apart from navigation.
 enum class ViewerAction {
   toggle_help,
   toggle_graticule,
@@ -32,16 +32,17 @@ enum class ViewerAction {
   leave
 };
 
-/// A bookmark that was asked for: 1 to 9 flies there, with Ctrl it is set to what is seen.
+/// Bookmark request: keys 1 to 9 fly to a bookmark; with Ctrl they store the current view.
 struct BookmarkKey {
   int number = 0;
   bool set = false;
 };
 
-/// Finds double clicks by time and distance.
+/// Detects double clicks by time and distance.
 class ClickPair {
  public:
-  /// True if this press is the second of a pair; a third begins a new one. `slack_px`: how far apart they may be.
+  /// True if this press completes a double click; a third press starts a new pair. `slack_px` is the greatest distance
+  /// between the two.
   [[nodiscard]] bool press(glm::dvec2 at_px, Seconds now, double slack_px);
 
  private:
@@ -52,29 +53,29 @@ class ClickPair {
   std::optional<Press> first_;
 };
 
-/// Listens to a window's events: hands them to the navigator and keeps the actions for the viewer. Lives as long as
-/// the window does. thread: main
+/// Handles a window's events: passes them to the navigator and queues actions for the viewer. Lives as long as the
+/// window. thread: main
 class Input {
  public:
   Input(Window& window, Ui& ui, Navigator& navigator);
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
-  /// Hears the window's events; with a time to wait for, seconds, not before there is one or that time is over.
+  /// Handles pending events. With `wait_s`, first waits up to this many seconds for an event.
   void listen(std::optional<double> wait_s = {});
-  /// What was asked for since the last call, in order.
+  /// Actions since the last call, in order.
   [[nodiscard]] std::vector<ViewerAction> take_actions();
-  /// Where the left button was last pressed and let go without a drag since the last call, framebuffer pixels.
+  /// Positions of left clicks without a drag since the last call, framebuffer pixels.
   [[nodiscard]] std::vector<glm::dvec2> take_clicks();
-  [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< the last one since the last call
-  /// Files and folders that were dropped onto the window since the last call.
+  [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
+  /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
-  /// Whether two clicks are a double click, which flies there.
+  /// Enables or disables flying to a place by double click.
   void set_double_clicks(bool on) { double_clicks_ = on; }
-  /// True if anything happened since the last call that can change the picture.
+  /// True if an event since the last call can change the picture.
   [[nodiscard]] bool take_dirty();
   [[nodiscard]] bool dirty() const { return dirty_; }
-  /// Where the cursor is, framebuffer pixels; nothing while it is outside the window.
+  /// Position of the cursor, framebuffer pixels; nullopt outside the window.
   [[nodiscard]] std::optional<glm::dvec2> cursor_px() const;
   [[nodiscard]] static Seconds now();
 
@@ -88,10 +89,10 @@ class Input {
   void on_character(unsigned character);
 
   Window& window_;
-  Ui& ui_;  ///< hears of everything first
+  Ui& ui_;  ///< receives every event first
   Navigator& navigator_;
-  /// Of the last event. The window would say where the cursor is now, and after a slow frame that is not where a button
-  /// went down.
+  /// Cursor position at the last event. The window only knows the current position, which differs from the position of
+  /// a button press after a slow frame.
   glm::dvec2 pointer_px_;
   ClickPair clicks_;
   bool double_clicks_ = true;
@@ -101,9 +102,9 @@ class Input {
   std::vector<glm::dvec2> clicks_px_;
   std::vector<ViewerAction> actions_;
   bool dirty_ = true;
-  Seconds heard_until_;     ///< when the window's events were last heard
-  Seconds late_{0.0};       ///< how old those may be that are being heard
-  bool repeating_ = false;  ///< the character that follows is a held key's
+  Seconds heard_until_;     ///< time when events were last handled
+  Seconds late_{0.0};       ///< greatest possible age of the events being handled
+  bool repeating_ = false;  ///< the next character comes from a held key
 };
 
 }  // namespace terrella

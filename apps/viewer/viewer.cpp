@@ -1,7 +1,7 @@
 #include "apps/viewer/viewer.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
@@ -18,11 +18,11 @@ namespace terrella {
 namespace {
 
 constexpr std::chrono::seconds kMessageTime(4);
-constexpr std::chrono::milliseconds kCharacterTime(50);  // that one of the message's takes to read
+constexpr std::chrono::milliseconds kCharacterTime(50);  // reading time per character of a message
 constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag turns the globe, the wheel zooms. P opens a panel, F1 lists all keys.";
-constexpr double kLoadingPause_s = 1.0 / 60.0;  // between looks at what has come
-constexpr double kIdlePause_s = 1.0;            // what could not be had is asked for again
+constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
+constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 
 }  // namespace
@@ -66,7 +66,7 @@ KeptSettings Viewer::now_kept() const {
           .stereo = globe.stereo.mode};
 }
 
-// A file that cannot be written is told of once: what is to be kept counts as kept.
+// Saves the settings. A failure is reported once, because the settings then count as saved.
 void Viewer::keep_settings() {
   const KeptSettings now = changed_since(options_.kept, started_, now_kept());
   if (now == saved_) return;
@@ -98,7 +98,7 @@ void Viewer::run() {
   keep_settings();
 }
 
-// Whether another frame would show something else.
+// True if another frame would differ.
 bool Viewer::work() const {
   if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || navigator_.animating() || screenshot_wanted_)
     return true;
@@ -123,7 +123,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
   draw_panels(framebuffer);
-  // A panel that has just been opened is not there yet.
+  // A newly opened panel is not drawn yet.
   if (panel_frames_ == 0 && std::exchange(screenshot_wanted_, false)) save_screenshot(framebuffer);
   glfwSwapBuffers(window_.handle());
   frame_time_ = Clock::now() - start;

@@ -26,24 +26,24 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;                    ///< a line on standard output each time the camera comes to rest
-  std::vector<LayerRow> layers = {};            ///< of the globe: heights, imagery as it lies, objects
-  std::optional<ElevationSource> heights = {};  ///< of the globe
-  SceneOptions files = {};                      ///< how files that are dropped are opened
-  KeptSettings kept = {};                       ///< as in the file
-  KeptSettings start = {};                      ///< with what the command line says instead
-  bool first_run = false;                       ///< a hint is shown
-  std::string message = {};                     ///< to begin with; may be empty
+  bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
+  std::optional<ElevationSource> heights = {};  ///< the globe's heights
+  SceneOptions files = {};                      ///< options for opening dropped files
+  KeptSettings kept = {};                       ///< settings from the file
+  KeptSettings start = {};                      ///< settings from the file, overridden by the command line
+  bool first_run = false;                       ///< true: show a hint
+  std::string message = {};                     ///< first message; may be empty
 };
 
-/// The window's life: events in, frames out. Draws only when something changed, moves or is still loading; otherwise it
-/// sleeps until the next event. thread: main
+/// The window's main loop: handles events and draws frames. Draws only on changes, motion or loading; otherwise sleeps
+/// until the next event. thread: main
 class Viewer {
  public:
-  /// The window must be shown, its context current, and both outlive the viewer.
+  /// The window must be shown and its context current; window and globe must outlive the viewer.
   Viewer(Window& window, Globe& globe, const ViewerOptions& options);
 
-  /// Until the person leaves.
+  /// Runs until the user quits.
   void run();
 
  private:
@@ -105,15 +105,15 @@ class Viewer {
   Ui ui_;
   Navigator navigator_;
   Input input_;
-  std::optional<OffscreenTarget> picture_;  ///< the globe as drawn last: panels over it cost no new one
+  std::optional<OffscreenTarget> picture_;  ///< last drawn globe, so that new panels need no new globe frame
   Viewport picture_size_;
-  FrameStats stats_;             ///< of that
-  std::optional<Camera> above_;  ///< where the eye was before it went under the ground
+  FrameStats stats_;             ///< statistics of `picture_`
+  std::optional<Camera> above_;  ///< eye before it went under the ground
   bool sky_ = true;
   bool help_ = false;
   bool panel_ = false;
   bool panel_opened_ = false;  ///< since the last frame
-  int panel_frames_ = 0;       ///< still to be drawn: a panel shows an event one frame later
+  int panel_frames_ = 0;       ///< frames still to draw: panels show an event one frame late
   ViewSettings settings_;
   bool graticule_ = false;
   bool measuring_ = false;
@@ -124,15 +124,15 @@ class Viewer {
   bool layers_shown_ = false;
   bool layers_opened_ = false;  ///< since the last frame
   DroppedFiles dropped_;
-  std::string problems_;      ///< of files that were dropped one after the other
-  std::string dropped_text_;  ///< as last drawn
+  std::string problems_;      ///< errors of files dropped together
+  std::string dropped_text_;  ///< text of the last frame
   bool picture_panel_shown_ = false;
   PicturePanel picture_panel_;
   std::unique_ptr<PictureJob> picture_job_;
-  KeptSettings started_;  ///< as the run began
-  KeptSettings saved_;    ///< as in the file
+  KeptSettings started_;  ///< settings at the start of the run
+  KeptSettings saved_;    ///< settings in the file
   bool searching_ = false;
-  std::optional<Gazetteer> places_;  ///< read when first searched
+  std::optional<Gazetteer> places_;  ///< loaded at the first search
   PlaceSearch search_;
   bool screenshot_wanted_ = false;
   std::string message_;

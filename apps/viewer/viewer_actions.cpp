@@ -1,7 +1,7 @@
 #include "apps/viewer/viewer.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ void Viewer::act(ViewerAction action) {
   }
 }
 
-// Esc ends one thing at a time: false if there was none.
+// Esc ends one mode or panel at a time; returns false if none was active.
 bool Viewer::leave_something() {
   if (picture_job_ && !picture_job_->drawn()) {
     end_picture("No picture");
@@ -131,13 +131,13 @@ double Viewer::deepest_m() const {
   return -kDeepest * below_m * (e.a_m() / kEarthEquator_m);
 }
 
-// The eye may have flown over the ground since X was pressed.
+// True if the eye is under the ground now; the eye may have flown up since X was pressed.
 bool Viewer::under_ground() const {
   const Geodetic eye = navigator_.camera().eye;
   return eye.height_m < globe_.ground_height_m(eye.lat, eye.lon);
 }
 
-// Under the place where it was, as deep as it was high but over the inner sphere, looking up at the ground.
+// Moves the eye under its place, as deep as it was high but above the inner sphere, looking up at the ground.
 void Viewer::toggle_underground() {
   Camera camera = navigator_.camera();
   const double ground_m = globe_.ground_height_m(camera.eye.lat, camera.eye.lon);

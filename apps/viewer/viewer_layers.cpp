@@ -9,10 +9,10 @@
 namespace terrella {
 namespace {
 
-constexpr double kLayerRoom = 1.3;         // of what a layer spans, in the picture
-constexpr double kNearestLayer_m = 2.0e3;  // a single point spans nothing
+constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
+constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
 
-/// Straight down on the middle, from where all of it is in the picture.
+/// Looks straight down on the middle, from a height that shows the whole rectangle.
 Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect) {
   const double lat_deg = 0.5 * (bounds.south.deg() + bounds.north.deg());
   const double high = bounds.north.rad() - bounds.south.rad();
@@ -69,14 +69,14 @@ Status Viewer::use_heights(const std::optional<ElevationSource>& heights) {
   return Done{};
 }
 
-// Rows of a kind lie in the list as the globe has them.
+// Rows of a kind have the globe's order in the list.
 void Viewer::move_layer(std::size_t row, bool up) {
   const auto ids = layers_[row].kind == LayerKind::objects ? globe_.objects() : globe_.imagery();
   const auto place = std::size_t(std::ranges::find(ids, layers_[row].id) - ids.begin());
   if (up ? place + 1 >= ids.size() : place == 0) return;
   const LayerId neighbour = ids[up ? place + 1 : place - 1];
   const auto other = std::ranges::find(layers_, neighbour, &LayerRow::id);
-  if (other == layers_.end()) return;  // what is measured has no row, and stays over all
+  if (other == layers_.end()) return;  // the measurement has no row and stays on top
   const Status moved = globe_.move(layers_[row].id, up ? place + 1 : place - 1);
   if (!moved) return say(moved.error().message);
   std::swap(layers_[row], *other);
@@ -113,7 +113,7 @@ void Viewer::take_dropped() {
   }
 }
 
-// Of several files each that could not be opened is told of.
+// Reports each file that failed, when several were dropped.
 void Viewer::say_too(const std::string& problem) {
   const bool more = !problems_.empty() && message_ == problems_;
   problems_ = more ? problems_ + "\n" + problem : problem;
@@ -152,7 +152,7 @@ void Viewer::add_layer(OpenedFile file) {
   say(std::move(told));
 }
 
-// Heights, then imagery, then objects.
+// Rows are sorted: heights, then imagery, then objects.
 void Viewer::insert_row(LayerRow row) {
   const auto rank = [](LayerKind kind) { return kind == LayerKind::heights ? 0 : kind == LayerKind::imagery ? 1 : 2; };
   const auto over = std::ranges::find_if(layers_, [&](const LayerRow& r) { return rank(r.kind) > rank(row.kind); });

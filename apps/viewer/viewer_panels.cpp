@@ -1,7 +1,7 @@
 #include "apps/viewer/viewer.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace terrella {
 namespace {
 
 constexpr int kPanelFrames = 3;  // a panel shows an event one frame later
-constexpr double kFoot = 3.4;    // of the text's height, that the panels below take
+constexpr double kFoot = 3.4;    // in text heights, for the panels below
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Viewer::toggle_panel() {
   settings_.exaggeration = options.exaggeration;
 }
 
-// What keys have changed since is in the globe.
+// Reads the globe's settings first, because keys may have changed them.
 void Viewer::draw_settings() {
   const GlobeOptions& options = globe_.options();
   settings_.surface = options.surface;
@@ -43,7 +43,7 @@ void Viewer::draw_settings() {
   if (ask == ViewAsk::layers) toggle_layers();
   if (ask == ViewAsk::picture) toggle_picture_panel();
   if (ask == ViewAsk::help) help_ = !help_;
-  // What is set makes another frame, changed or not.
+  // Setting a value draws a frame, so unchanged values are not set.
   if (settings_.surface != options.surface) globe_.set_surface(settings_.surface);
   if (settings_.stereo != options.stereo) globe_.set_stereo(settings_.stereo);
   if (settings_.sky != sky_) globe_.set_sky(sky_ = settings_.sky);
@@ -59,7 +59,7 @@ void Viewer::show_panels() {
   panel_frames_ = kPanelFrames;
 }
 
-// The panel that was over the others when it opened gets it. Its text field is ready to be written into.
+// Gives the keyboard to the panel on top. Its text field is ready for typing.
 void Viewer::pass_keyboard() {
   const bool to_search = searching_ && !picture_panel_shown_ && !Ui::panel_has_keyboard();
   const char* beside = panel_ ? kViewTitle : kLayersTitle;
@@ -108,7 +108,7 @@ void Viewer::draw_picture(Viewport framebuffer) {
   end_picture(*result ? "Saved " + name : result->error().message);
 }
 
-// Each eye's own lines; the rows of interlaced pictures are too few for two.
+// Each eye gets its own lines; interlaced pictures have too few rows for two sets.
 void Viewer::draw_graticules(const View& view) {
   const Ellipsoid& body = globe_.options().body.ellipsoid;
   const double unit_px = window_.pixels_per_unit().x, text_px = Ui::text_height() * unit_px;

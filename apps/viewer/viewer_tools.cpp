@@ -1,7 +1,7 @@
 #include "apps/viewer/viewer.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
@@ -14,9 +14,9 @@
 namespace terrella {
 namespace {
 
-constexpr double kPlaceHeight = 0.05;  // in radii, over a place that was found
+constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
 
-// Without the list of places the globe is there all the same.
+// Loads the list of places; without the list the globe still works.
 Gazetteer load_places() {
   try {
     Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
@@ -28,7 +28,7 @@ Gazetteer load_places() {
 
 }  // namespace
 
-// What was measured goes when measuring ends.
+// Ends or starts measuring; ending removes the measurement.
 void Viewer::toggle_measuring() {
   measuring_ = !measuring_;
   input_.set_double_clicks(!measuring_);
@@ -39,7 +39,7 @@ void Viewer::toggle_measuring() {
 void Viewer::measure_at(glm::dvec2 px) {
   auto place = pick(globe_.view(window_.framebuffer()), globe_.ground(), px);
   if (!place) return say("There is no ground to measure from");
-  if (!globe_.has_relief()) place->height_m = 0.0;  // what rounding leaves would be under the ground
+  if (!globe_.has_relief()) place->height_m = 0.0;  // rounding could put the place under the ground
   measure_.add(*place);
   draw_measure();
 }
@@ -57,7 +57,7 @@ void Viewer::draw_measure() {
   if (!drawn) say(drawn.error().message);
 }
 
-// The file is read anew each time: another window may have set one. A damaged one is left as it is.
+// Reads the file each time, because another window may have set a bookmark. A damaged file is left unchanged.
 void Viewer::use(const BookmarkKey& key) {
   const auto file = bookmarks_file();
   if (file) {

@@ -1,7 +1,7 @@
 #include "apps/viewer/window.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
@@ -28,12 +28,12 @@ void hint_context() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_SAMPLES, kSamples);
-  // The globe keeps its own depth and stencil; what the window has would only cost memory.
+  // The globe has its own depth and stencil; window buffers would only waste memory.
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
-/// No larger than the screen leaves room for.
+/// Reduces a size to the screen's work area.
 Viewport fitted(Viewport size) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor == nullptr) return size;
@@ -111,7 +111,7 @@ glm::dvec2 Window::cursor_px() const {
 }
 
 glm::dvec2 Window::to_px(glm::dvec2 at) const {
-  // Window systems name a pixel by its corner; the middle of it is half a unit on.
+  // Window systems name a pixel by its corner; its middle is half a unit further.
   return (at + 0.5) * pixels_per_unit();
 }
 

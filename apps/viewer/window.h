@@ -11,12 +11,12 @@ struct GLFWwindow;
 
 namespace terrella {
 
-/// A window with an OpenGL 4.5 core context, which is current from then on. One at a time.
-/// thread: main for every call
+/// A window with an OpenGL 4.5 core context, current after creation. Only one instance may exist at a time. thread:
+/// main for every call
 class Window {
  public:
-  /// Made hidden; show() shows it. Fails without a display or without OpenGL 4.5, and the message says which and what
-  /// to do instead.
+  /// Creates a hidden window; show() shows it. Fails without a display or OpenGL 4.5; the message states the cause and
+  /// an alternative.
   [[nodiscard]] static Result<std::unique_ptr<Window>> create(const std::string& title, Viewport size);
   ~Window();
   Window(const Window&) = delete;
@@ -24,16 +24,16 @@ class Window {
 
   void show();
   void toggle_full_screen();
-  /// Its size, in its own coordinates, when it does not fill the screen.
+  /// Size in the window's own coordinates when not in full screen.
   [[nodiscard]] Viewport windowed() const;
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
   /// Pixels of the framebuffer; 0 × 0 while the window is minimised.
   [[nodiscard]] Viewport framebuffer() const;
-  /// A cursor's place in the window's own coordinates as framebuffer pixels, pixel centres at halves.
+  /// Converts a position from the window's own coordinates to framebuffer pixels, with pixel centres at halves.
   [[nodiscard]] glm::dvec2 to_px(glm::dvec2 at) const;
-  /// Where the cursor is now, framebuffer pixels.
+  /// Current cursor position, framebuffer pixels.
   [[nodiscard]] glm::dvec2 cursor_px() const;
-  /// How much larger than at 96 dots per inch text must be, in framebuffer pixels.
+  /// Text scale relative to 96 dots per inch, in framebuffer pixels.
   [[nodiscard]] float text_scale() const;
   /// Framebuffer pixels per unit of the window's own coordinates.
   [[nodiscard]] glm::dvec2 pixels_per_unit() const;
@@ -44,7 +44,7 @@ class Window {
     int x = 0, y = 0, width = 0, height = 0;
   };
   GLFWwindow* window_;
-  Placement windowed_;  ///< where to go back to from full screen
+  Placement windowed_;  ///< placement to restore after full screen
 };
 
 }  // namespace terrella

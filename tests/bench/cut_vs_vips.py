@@ -3,7 +3,7 @@
 
   tests/bench/cut_vs_vips.py build/terrella data/earth/blue_marble_4096x2048.jpg
 
-Ratios under 1 mean that terrella is faster. The figures of the project's README come from its last line.
+Ratios under 1 mean that terrella is faster. The figures of the project's README are from the last line.
 """
 
 import argparse

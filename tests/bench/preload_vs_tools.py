@@ -3,10 +3,10 @@
 
   tests/bench/preload_vs_tools.py build/terrella
 
-Prints a Markdown table of medians. Tools that are not installed are left out and named; the packages are `curl`, `wget2`,
-`aria2` and `mapproxy`. TMPDIR says where the tiles and what the tools write lie: /dev/shm leaves the disk out of it.
+Prints a Markdown table of medians. Missing tools are named and skipped; the packages are `curl`, `wget2`, `aria2` and
+`mapproxy`. TMPDIR holds the tiles and the tools' outputs; /dev/shm excludes the disk from the measurement.
 curl, wget2 and aria2c write plain files; terrella and mapproxy-seed write a GeoPackage. Latency is added with `tc netem`
-where that is permitted, else by a small proxy in front of nginx that holds back each read; which of the two is said.
+if permitted, else by a small proxy in front of nginx that delays each read; the output names the method.
 """
 
 import argparse

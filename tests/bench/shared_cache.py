@@ -1,5 +1,5 @@
-"""A preloader and two viewers on one cache at the same time, whose limit is half of what comes in: no error, no word of
-a lock, a file within 5 % of its limit, and a sound database at the end. Run from the repository's root:
+"""Runs a preloader and two viewers on one cache with a limit of half the incoming tiles. Requires no error, no message
+about a lock, a file within 5 % of its limit, and an intact database at the end. Run from the repository's root:
 
   TERRELLA_SOURCE=. python3 tests/bench/shared_cache.py build/terrella --seconds 300"""
 

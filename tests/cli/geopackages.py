@@ -1,4 +1,4 @@
-"""GeoPackages, good and hostile, made with the standard library's SQLite."""
+"""Makes valid and hostile GeoPackages with the standard library's SQLite."""
 
 import math
 import sqlite3

@@ -1,4 +1,4 @@
-"""Pictures with a georeference, made by GDAL's programs, and where GDAL says that their pixels lie."""
+"""Makes georeferenced pictures with GDAL's programs, and locates their pixels with GDAL."""
 
 import pathlib
 import re

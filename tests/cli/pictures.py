@@ -1,4 +1,4 @@
-"""Small pictures as bytes, made with the standard library alone."""
+"""Makes small pictures as bytes, with the standard library alone."""
 
 import struct
 import zlib

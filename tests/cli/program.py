@@ -1,4 +1,4 @@
-"""Runs the program under test and checks what it says."""
+"""Runs the program under test and checks its output."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Compiles every block of C++ in documents, those of one document as one program: readme_code.py DOCUMENT… -- COMPILER [OPTION…]"""
+"""Compiles the C++ blocks of each document as one program: readme_code.py DOCUMENT… -- COMPILER [OPTION…]"""
 
 import pathlib
 import re

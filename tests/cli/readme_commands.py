@@ -1,4 +1,4 @@
-"""Every option in a document's command lines is one that the program knows: readme_commands.py PROGRAM DOCUMENT…"""
+"""Checks that the program has every option in the documents' command lines: readme_commands.py PROGRAM DOCUMENT…"""
 
 import functools
 import pathlib

@@ -1,4 +1,4 @@
-"""terrella bench: the files that it writes, and wrong names."""
+"""Tests of terrella bench: output files and wrong names."""
 
 import csv
 import json

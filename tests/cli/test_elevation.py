@@ -1,4 +1,4 @@
-"""Heights that are damaged, missing, unknown, of another grid or no heights at all: each message names file and tile."""
+"""Faulty heights: damaged, missing, unknown, on another grid, or no heights at all. Each message names file and tile."""
 
 import json
 import resource

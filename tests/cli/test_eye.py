@@ -1,4 +1,4 @@
-"""Where the eye may be: in the ground, under it, mountains included, and as far out as the planet is a pixel wide."""
+"""Allowed places of the eye: in and under the ground, with mountains, and out to where the planet is a pixel wide."""
 
 import sys
 import unittest

@@ -1,6 +1,6 @@
-"""What a picture says of its place: it is drawn there, or refused with what it says and the GDAL command that helps.
+"""Georeferenced pictures are drawn in their place, or refused with their claim and a GDAL command that helps.
 
-gdaltransform is the judge of where pixels lie. Each refusal's command is run, and what it makes must be drawn right.
+gdaltransform gives the true places of pixels. Each refusal's command is run, and its result must be drawn correctly.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Pictures and descriptions that cannot be shown or cut: exit code 1, the file named, what is wrong and what to do."""
+"""Unusable pictures and descriptions: exit code 1, and a message with the file, its fault and a remedy."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""--night and --clouds: imagery over TILESET, and whom what is on screen is owed to."""
+"""--night and --clouds: layers over TILESET, and the attribution of visible layers."""
 
 import json
 import unittest

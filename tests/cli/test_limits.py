@@ -1,4 +1,4 @@
-"""What the system denies: room for results, sizes of files, memory. A message and exit code 1, never a signal."""
+"""Limits of the system: disk space, file sizes, memory. The program ends with a message and exit code 1, not by a signal."""
 
 import json
 import os

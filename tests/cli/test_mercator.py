@@ -1,4 +1,4 @@
-"""Tiles of web maps: served, over the carried Earth, preloaded, said to be what they are not."""
+"""Tiles in Web Mercator: from a server, over the included Earth, preloaded, and with a wrong projection stated."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""--objects: what is wrong in a file is said by file and feature, what is good is drawn, and the exit code tells."""
+"""--objects: faults are reported by file and feature, valid objects are drawn, and the exit code shows the faults."""
 
 import base64
 import json

@@ -1,4 +1,4 @@
-"""Outputs that cannot be written: exit code 1, the output named, no half of it left."""
+"""Outputs that cannot be written: exit code 1, a message that names the output, and no partial file."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""`render` from a server: cold, warm, offline and with a server that misbehaves."""
+"""`render` from a server: cold, warm, offline and with a faulty server."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""Outputs that would take the place of something: only what may be made again is replaced."""
+"""Outputs over existing files: only files that can be made again are replaced."""
 
 import json
 import os

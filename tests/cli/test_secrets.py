@@ -1,5 +1,5 @@
-"""User, password, keys in addresses and headers go to the server that they are for, and nowhere else: not to the screen,
-not into a file, not to another server."""
+"""User names, passwords, keys in addresses and headers only reach their own server: not the screen, a file or another
+server."""
 
 import base64
 import contextlib

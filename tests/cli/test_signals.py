@@ -1,4 +1,4 @@
-"""Signals that ask the program to end: its own exit code, a message, nothing half done left behind."""
+"""Termination signals: the program's own exit code, a message, and no partial output."""
 
 import json
 import os

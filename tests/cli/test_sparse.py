@@ -1,4 +1,4 @@
-"""`info --verify` of tile sets with few of the places of a deep grid: the time is that of the tiles."""
+"""`info --verify` of sparse tile sets on deep grids: the time depends on the tiles, not on the grid."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""What files and servers say of themselves reaches a terminal as text, whatever it holds: never as commands to it."""
+"""Text from files and servers reaches a terminal as plain text, never as control sequences."""
 
 import http.server
 import json

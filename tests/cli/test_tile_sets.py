@@ -1,4 +1,4 @@
-"""Tile sets that are broken or hostile: a message that names them, never a crash, a hang or a wild allocation."""
+"""Broken and hostile tile sets: a message that names the set; never a crash, a hang or a huge allocation."""
 
 import shutil
 import sqlite3

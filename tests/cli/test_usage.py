@@ -1,4 +1,4 @@
-"""Wrong command lines: exit code 2, the option named, nothing done."""
+"""Wrong command lines: exit code 2, a message that names the option, and no other effect."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""The examples draw what they say, without a display and in a window."""
+"""The examples draw as described, without a display and in a window."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""A forwarding proxy on loopback: GET of whole addresses, and CONNECT for https. Until standard input ends. Prints one line
-of JSON: its port, and the log: one line a request, with the method and what it was for."""
+"""A forwarding proxy on loopback: GET of whole addresses, and CONNECT for https. Runs until standard input ends. Prints
+one line of JSON: its port and its log. The log has one line per request, with the method and the target."""
 
 import http.server
 import json

@@ -1,4 +1,4 @@
-"""A server on loopback that misbehaves as it is told, for tests of what asks it. README.md lists the faults."""
+"""A server on loopback that misbehaves on demand, for tests of its clients. README.md lists the faults."""
 
 import argparse
 import email.utils

@@ -1,6 +1,6 @@
-"""Runs an nginx on loopback with a configuration of its own in a temporary folder, until standard input ends or SIGTERM
-comes. Prints one line of JSON: the ports of http and https (the latter with HTTP/2), the certificate to trust for https,
-and the access log: one line a request, with the number of the connection, the protocol, the status and the path."""
+"""Runs nginx on loopback with its own configuration in a temporary folder, until standard input ends or SIGTERM arrives.
+Prints one line of JSON: the ports of http and https (the latter with HTTP/2), the certificate to trust for https, and the
+access log. The log has one line per request: number of the connection, protocol, status and path."""
 
 import argparse
 import json

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Plants faults in a copy of the source, one after the other, and shows that tests fail of each.
+"""Plants faults in a copy of the source, one after another, and shows that tests notice each fault.
 
 Example:  tests/mutation/planted_faults.py --work /tmp/faults
           tests/mutation/planted_faults.py --only asin
           tests/mutation/planted_faults.py --check
 
-The copy is built once without a fault, and its tests must pass; then each fault is planted, the test program that it
-concerns is built again and must fail, and the fault is taken out. Some minutes on two cores. Exit code 0: every fault
-was noticed; 1: one was not, or the copy without faults fails. --check builds nothing: it says in a moment if each fault
-still has its place in the source, which changes.
+The copy is first built without a fault, and its tests must pass. Then each fault is planted, its test program is built
+again and must fail, and the fault is removed. A run takes some minutes on two cores. Exit code 0: every fault was
+noticed; 1: a fault was not noticed, or the copy without faults fails. --check builds nothing and checks quickly that each
+fault still has its place in the source.
 """
 import argparse
 import pathlib

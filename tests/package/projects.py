@@ -1,4 +1,4 @@
-"""What tests of the package share: a project as a user writes it, from the document and outside/, and the picture that it draws."""
+"""Shared parts of the package's tests: a user's project, made from the document and outside/, and its picture."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Installs the build to an empty prefix, moves it, and uses it where the source tree cannot be reached."""
+"""Installs the build to an empty prefix, moves the prefix, and uses it without access to the source tree."""
 
 import concurrent.futures
 import os

@@ -1,4 +1,4 @@
-"""Applications that build the library as a part of their own build: FetchContent and add_subdirectory."""
+"""Applications that build the library within their own build: FetchContent and add_subdirectory."""
 
 import json
 import pathlib

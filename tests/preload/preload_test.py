@@ -1,4 +1,4 @@
-"""What the tests of `terrella preload` have in common."""
+"""Shared parts of the tests of `terrella preload`."""
 
 import json
 import os

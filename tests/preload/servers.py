@@ -1,4 +1,4 @@
-"""The servers of tests/http, running, and small pyramids of tiles for them to serve."""
+"""Runs the servers of tests/http, and makes small tile pyramids for them."""
 
 import collections
 import contextlib

@@ -1,4 +1,4 @@
-"""Preloading from a server that misbehaves: every fault is named, nothing is stored that is no tile."""
+"""Preloading from a faulty server: every fault is named, and only tiles are stored."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""What a preload promises of its cache: all of it is there and stays there, levels can be added, nothing is lost."""
+"""Promises of a preload about its cache: all tiles are stored and stay, levels can be added, and nothing is lost."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Preloading from a real server: what is stored, resumed, refreshed, sharded, told."""
+"""Preloading from a real server: storing, resuming, refreshing, shards and reports."""
 
 import json
 import os

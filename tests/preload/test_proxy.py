@@ -1,4 +1,4 @@
-"""Preloading through a proxy that the environment names, as everything that uses libcurl does."""
+"""Preloading through a proxy from the environment, as in every program with libcurl."""
 
 import pathlib
 import unittest

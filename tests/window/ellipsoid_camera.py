@@ -1,4 +1,4 @@
-"""A camera over the WGS 84 ellipsoid, written apart from the engine: what its window is judged by.
+"""A camera over the WGS 84 ellipsoid, independent of the engine, as a reference for the window.
 
 Latitude, longitude, heading, pitch and field of view in degrees, lengths in metres, pixels from the upper left corner.
 """

@@ -1,4 +1,4 @@
-"""A display of our own, the viewer in it, and a hand that sends real key and pointer events to it."""
+"""Runs the viewer in a private display, and sends real key and pointer events to the viewer."""
 
 import os
 import queue

@@ -1,4 +1,4 @@
-"""The whole way of somebody who never saw the window: help, turning, a place, a distance, a file, a picture, and again."""
+"""A new user's whole session: help, turning, a place, a distance, a file, a picture, and a second run."""
 
 import json
 import time

@@ -1,4 +1,4 @@
-"""A view that needs nothing new costs next to nothing."""
+"""An unchanged view uses almost no processor time."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Every key, and what one sees of it."""
+"""Every key and its visible effect."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Panels by real mouse and keyboard: layers, what is dropped, pictures of any size, what is kept."""
+"""Panels by real mouse and keyboard: layers, dropped files, pictures of any size, kept settings."""
 
 import json
 import struct

@@ -1,4 +1,4 @@
-"""Drags, wheel and double clicks: what was under the cursor is where the gesture says it must be."""
+"""Drags, wheel and double clicks: the place under the cursor ends where the gesture requires."""
 
 import unittest
 

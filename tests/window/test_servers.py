@@ -1,4 +1,4 @@
-"""Tiles that a server does not give for now: the window asks again after half a minute, whatever kind they are."""
+"""Temporarily unavailable tiles: the window retries tiles of every kind after half a minute."""
 
 import collections
 import json

@@ -1,4 +1,4 @@
-"""What a person does who wants to know how far it is: find a place, measure, save a picture."""
+"""A user's way to a distance: search a place, measure, save a picture."""
 
 import unittest
 

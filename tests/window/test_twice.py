@@ -1,4 +1,4 @@
-"""Everything that keys do, twice in one session: what is done the first time must not disable the second."""
+"""Every key's action twice in one session: the first use must not disable the second."""
 
 import time
 import unittest

@@ -2,9 +2,9 @@
 
 namespace terrella::bench {
 
-/// An OpenGL 4.5 core context without a surface, current on the thread that made it until destruction. The engine's own
-/// is not used: the baseline must not change with what it is compared with. Throws std::runtime_error if there is no
-/// such GL.
+/// An OpenGL 4.5 core context without a surface. The context is current on its creating thread until destruction. This
+/// class is independent of the engine, because the baseline must not change with the code under comparison. Throws
+/// std::runtime_error if OpenGL 4.5 is unavailable.
 class HeadlessGl {
  public:
   HeadlessGl();

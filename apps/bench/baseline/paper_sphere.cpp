@@ -38,7 +38,7 @@ in vec2 texture_uv;
 layout(location = 0) out vec4 colour;
 void main() { colour = texture(planet, texture_uv); })";
 
-// As printed, with a guard where (6) divides by zero.
+// As printed in the paper, with a guard where (6) divides by zero.
 constexpr const char* kBandsShader = R"(#version 450 core
 layout(binding = 0) uniform sampler2D planet;
 layout(location = 1) uniform vec2 a_and_band;
@@ -120,7 +120,7 @@ void PaperSphere::make_programs() {
     for (const GLuint shader :
          {compiled(GL_VERTEX_SHADER, kVertexShader), compiled(GL_FRAGMENT_SHADER, kFragmentShaders[k])}) {
       glAttachShader(programs_[k], shader);
-      glDeleteShader(shader);  // it lives as long as the program does
+      glDeleteShader(shader);  // the shader lives as long as the program
     }
     glLinkProgram(programs_[k]);
     GLint linked = GL_FALSE;

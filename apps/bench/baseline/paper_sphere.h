@@ -9,25 +9,25 @@
 
 namespace terrella::bench {
 
-/// How the sphere is textured.
+/// Texturing of the sphere.
 struct PaperLook {
   enum class Method {
-    plain,  ///< interpolated u, v; the texture unit's own choice of level
-    bands,  ///< the paper's: u, v and the level by (5) and (6) for each fragment of a pole band, plain elsewhere
-    exact,  ///< u, v and their derivatives for each fragment; the texture unit's choice from these
+    plain,  ///< interpolated u, v; the texture unit chooses the level
+    bands,  ///< paper 1's method: u, v and level by (5) and (6) for each fragment of a pole band, plain elsewhere
+    exact,  ///< u, v and their derivatives for each fragment; the texture unit chooses the level from these
   };
   Method method = Method::plain;
-  double a = 4.0;           ///< of (6)
+  double a = 4.0;           ///< a of (6)
   double band = 0.05;       ///< b of (5)
-  double anisotropy = 1.0;  ///< of the texture unit, 1 to 16; `bands` has no use for it inside the bands
+  double anisotropy = 1.0;  ///< anisotropy of the texture unit, 1 to 16; unused by `bands` inside the bands
 };
 
-/// Paper 1's sphere; plain, it is the 1.0 of this project's benchmarks: the cube sphere with n = 48, one RGBA8 texture
-/// with mipmaps, trilinear, no lighting, one draw call into a 1024×1024 RGBA8 target with 24-bit depth. It needs a
-/// current OpenGL 4.5 core context, which must outlive it. thread: the context's.
+/// Paper 1's sphere. Its plain look defines 1.0 in this project's benchmarks: the cube sphere with n = 48, one RGBA8
+/// texture with mipmaps, trilinear, unlit. One draw call fills a 1024×1024 RGBA8 target with 24-bit depth. Needs a
+/// current OpenGL 4.5 core context, which must outlive the object. thread: the context's.
 class PaperSphere {
  public:
-  /// Uploads the picture (equirectangular) and makes its mipmaps.
+  /// Uploads the equirectangular picture and creates its mipmaps.
   explicit PaperSphere(const truth::Picture& picture, int n = 48, int size_px = 1024);
   ~PaperSphere();
   PaperSphere(const PaperSphere&) = delete;
@@ -35,13 +35,13 @@ class PaperSphere {
 
   /// Clears the target and draws the sphere. Returns when the command is issued.
   void draw(const truth::TruthCamera& camera, double radius_m, const PaperLook& look = {}) const;
-  /// What draw() does first.
+  /// Clears the target, as draw() does first.
   void clear() const;
   [[nodiscard]] int triangles() const { return index_count_ / 3; }
   [[nodiscard]] int vertices() const { return vertex_count_; }
-  /// Median time of a frame, clear to glFinish, in milliseconds; two more frames warm it up. frames ≥ 1.
+  /// Median frame time from clear to glFinish in milliseconds, after two warm-up frames. frames ≥ 1.
   [[nodiscard]] double frame_ms(const truth::TruthCamera& camera, double radius_m, int frames) const;
-  /// What was drawn last, top row first.
+  /// The last drawn picture, top row first.
   [[nodiscard]] truth::Picture read_back() const;
 
  private:
@@ -57,7 +57,8 @@ class PaperSphere {
   std::uint32_t framebuffer_ = 0, colour_ = 0, depth_ = 0;
 };
 
-/// Clip space of the unit sphere's coordinates, for a camera over a sphere of this radius, square picture.
+/// Matrix from the unit sphere's coordinates to clip space, for a camera over a sphere of this radius and a square
+/// picture.
 [[nodiscard]] glm::mat4 clip_from_unit_sphere(const truth::TruthCamera& camera, double radius_m);
 
 }  // namespace terrella::bench

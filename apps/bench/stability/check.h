@@ -11,27 +11,27 @@
 
 namespace terrella::bench {
 
-/// One figure of the self-test. What is not held to a limit is told all the same.
+/// One figure of the self-test. Figures without a limit are reported too.
 struct Check {
   std::string test;                                      ///< "jitter"
   std::string subject = {};                              ///< "tilted"
-  double at = std::numeric_limits<double>::quiet_NaN();  ///< 10, of an eye so high; NaN: nowhere in particular
+  double at = std::numeric_limits<double>::quiet_NaN();  ///< 10 for an eye at that height; NaN: no particular place
   std::string at_unit = {};
   double error = 0.0;
   std::string unit = {};
-  double limit = std::numeric_limits<double>::quiet_NaN();  ///< the error must be at most this; NaN: no limit
-  double ms = 0.0;                                          ///< that measuring it took
+  double limit = std::numeric_limits<double>::quiet_NaN();  ///< greatest allowed error; NaN: no limit
+  double ms = 0.0;                                          ///< time of the measurement
   [[nodiscard]] bool passed() const { return !(error > limit) && error == error; }
 };
 using Checks = std::vector<Check>;
 
-/// What the checks have in common.
+/// Options shared by the checks.
 struct StabilityOptions {
-  ShaderFunctions functions = ShaderFunctions::driver;  ///< that the shaders use
+  ShaderFunctions functions = ShaderFunctions::driver;  ///< trigonometric functions of the shaders
   bool quick = false;
 };
 
-/// Fills in the time. `measure` returns the error.
+/// Adds the time to a check. `measure` returns the error.
 [[nodiscard]] inline Check timed(Check check, const std::function<double()>& measure) {
   const auto start = std::chrono::steady_clock::now();
   check.error = measure();
@@ -39,8 +39,8 @@ struct StabilityOptions {
   return check;
 }
 
-/// Each appends its figures; an error is a program that cannot be built. They need a current context, but for the
-/// geodetic ones, and leave its state changed. thread: main
+/// Each function appends its figures. An error means that a shader program failed to build. All but the geodetic checks
+/// need a current context and change its state. thread: main
 Status check_functions(const StabilityOptions& options, Checks& checks);
 Status check_depth(const StabilityOptions& options, Checks& checks);
 Status check_jitter(const StabilityOptions& options, Checks& checks);

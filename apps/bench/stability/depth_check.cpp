@@ -11,10 +11,10 @@ namespace terrella::bench {
 namespace {
 
 constexpr int kSide_px = 64;
-// As the renderer sets it for an eye 10 m over the ground: the nearest that a wide view is likely to have.
+// The renderer's near plane for an eye 10 m over the ground: the nearest plane likely in a wide view.
 constexpr double kNear_m = 1.0;
-// Reversed depth is a float of near over distance: it has a float's digits at every distance, and vertices have no
-// more.
+// Reversed depth is near over distance as a float. The relative precision is a float's at every distance, as for
+// vertices.
 constexpr double kMostReversedPart = 1.0e-6;
 
 struct Mode {
@@ -24,7 +24,7 @@ struct Mode {
 constexpr Mode kModes[] = {
     {DepthMode::reversed, "reversed"}, {DepthMode::logarithmic, "logarithmic"}, {DepthMode::standard, "standard"}};
 
-/// Two leaning surfaces, one behind the other, drawn in both orders.
+/// Draws two slanted surfaces, one behind the other, in both orders.
 class DepthPair {
  public:
   DepthPair(DepthMode mode, gl::Program program)
@@ -52,11 +52,11 @@ class DepthPair {
     glUseProgram(program_.name());
   }
 
-  /// Whether every pixel shows the nearer one, whichever is drawn first.
+  /// True if every pixel shows the nearer surface in both drawing orders.
   [[nodiscard]] bool told_apart(double distance_m, double apart_m) const {
     const Camera camera{.eye = {.lat = {}, .lon = {}, .height_m = 10.0 * kNear_m}};
     const View view = make_view(camera, earth().ellipsoid, {kSide_px, kSide_px});
-    // As far as the planet reaches, or as what is drawn does.
+    // The far plane covers the planet or the drawn surfaces, whichever reaches further.
     const FrameBlock block = frame_of_camera(view, kNear_m, std::max(2.5 * earth().ellipsoid.a_m(), 4.0 * distance_m));
     glNamedBufferSubData(frame_.name(), 0, sizeof(block), &block);
     return nearer_wins(distance_m, distance_m + apart_m) && nearer_wins(distance_m + apart_m, distance_m);
@@ -84,7 +84,7 @@ class DepthPair {
   gl::VertexArray nothing_ = gl::make_vertex_array();
 };
 
-// Halves of halves of the distance, until two surfaces flicker.
+// Shrinks the gap from the whole distance by sqrt(0.5) a step, until the two surfaces flicker.
 double smallest_told_apart_m(const DepthPair& pair, double distance_m) {
   double told_m = HUGE_VAL;
   for (double part = 1.0; part > 1e-9 && pair.told_apart(distance_m, part * distance_m); part *= std::sqrt(0.5)) {
@@ -110,7 +110,8 @@ void check_mode(const Mode& mode, const DepthPair& pair, const StabilityOptions&
     if (reversed) check.limit = kMostReversedPart * distance_m;
     checks.push_back(timed(check, [&] { return smallest_told_apart_m(pair, distance_m); }));
   }
-  // From farther it flickers. More is better, so that it has no limit; the gap seen from 1000 km has.
+  // Distance beyond which a metre flickers. More is better, so this figure has no limit; the gap seen from 1000 km has
+  // one.
   const Check metre{.test = "depth, how far a metre is seen", .subject = mode.name, .unit = "m"};
   checks.push_back(timed(metre, [&] { return farthest_metre_m(pair); }));
 }

@@ -17,7 +17,7 @@ void add_functions(const std::string& test, const FunctionErrors& errors, double
 
 }  // namespace
 
-// All of both are told; those that the shaders are to use must be good enough.
+// Reports both sets of functions; only the set used by the shaders has limits.
 Status check_functions(const StabilityOptions& options, Checks& checks) {
   for (const ShaderFunctions functions : {ShaderFunctions::driver, ShaderFunctions::own}) {
     const auto start = std::chrono::steady_clock::now();

@@ -12,13 +12,13 @@
 namespace terrella::bench {
 namespace {
 
-// What the header of Ellipsoid promises within 5000 km of the surface.
+// Bound promised by Ellipsoid's header within 5000 km of the surface.
 constexpr double kMostRoundTrip_m = 1.0e-8;
 constexpr double kReach_m = 5.0e6;
 constexpr double kMostPick_px = 0.1;
 constexpr double kUlp = 0x1p-52;
 
-/// Seeded, so that every run measures the same.
+/// Random places with a fixed seed, so that every run measures the same.
 class Places {
  public:
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
@@ -59,7 +59,7 @@ double worst_round_trip_m(int count) {
   return worst;
 }
 
-// On the axis latitude and height are known to the last digit, and at the centre the height is the polar radius's.
+// On the axis latitude and height are known exactly; at the centre the height is minus the polar radius.
 double worst_on_axis_ulps() {
   const Ellipsoid& e = earth().ellipsoid;
   double worst = 0.0;
@@ -76,7 +76,7 @@ double worst_on_axis_ulps() {
   return worst;
 }
 
-/// How far from the pixel the place lies that was picked there; 0 where there is none to pick.
+/// Distance between the pixel and the place picked there, in pixels; 0 if the pixel shows no ground.
 double pick_error_px(const View& view, glm::dvec2 pixel_px) {
   const auto place = pick(view, earth().ellipsoid, pixel_px);
   if (!place) return 0.0;
@@ -84,7 +84,7 @@ double pick_error_px(const View& view, glm::dvec2 pixel_px) {
   return back ? glm::distance(*back, pixel_px) : HUGE_VAL;
 }
 
-// Down to the horizon, below the horizontal.
+// Angle from the horizontal down to the horizon.
 double dip_deg(double height_m) {
   return Angle::radians(std::acos(1.0 / (1.0 + height_m / earth().ellipsoid.a_m()))).deg();
 }
@@ -96,7 +96,7 @@ View view_from(Places& places, double height_m, double pitch_deg) {
   return make_view(camera, earth().ellipsoid, {1024, 1024});
 }
 
-// The picture's middle is on the ground, and from afar not much else.
+// Picks places in the picture's middle, which shows ground even from afar.
 double worst_pick_px(double height_m, int count) {
   Places places;
   double worst = 0.0;
@@ -110,10 +110,10 @@ double worst_pick_px(double height_m, int count) {
   return worst;
 }
 
-/// The last pixel before the sky, upwards from one on the ground, to a thousandth; none if there is no ground or no
-/// sky.
+/// Finds the last pixel before the sky, upwards from a ground pixel, to a thousandth. Returns nullopt without ground or
+/// without sky.
 std::optional<glm::dvec2> last_on_ground(const View& view, double x_px) {
-  const auto middle_px = project(view, Ecef{});  // of the planet, from afar
+  const auto middle_px = project(view, Ecef{});  // the planet's middle, from afar
   double ground = view.viewport.height_px, sky = 0.0;
   if (middle_px) ground = std::min(ground, middle_px->y);
   const auto hits = [&](double y) { return pick(view, earth().ellipsoid, {x_px, y}).has_value(); };

@@ -12,11 +12,11 @@ namespace {
 constexpr Viewport kWayPicture{1024, 1024};
 constexpr double kMostJitter_px = 0.05;
 constexpr double kMostVertexOff_px = 0.25;
-// Of a pixel on the ground: steps that no vertex should show.
+// Fraction of a pixel on the ground per step; no vertex should show such steps.
 constexpr double kStep = 0.001;
 
-// From afar the globe still fills the picture, and through a long lens a sixth of its width does. There floats show: at
-// a million kilometres one steps by 64 m, a thirtieth of that lens's pixel.
+// Fields of view. The usual lens shows the whole globe from afar; the long lens shows a sixth of its width and reveals
+// float errors. At a million kilometres a float's step is 64 m, 1/30 of a pixel of the long lens.
 enum class Lens { usual, long_one };
 
 Camera camera_from(double height_m, double pitch_deg, Lens lens) {
@@ -29,12 +29,13 @@ Camera camera_from(double height_m, double pitch_deg, Lens lens) {
           .fov_y = Angle::degrees(fov_deg)};
 }
 
-/// Where vertices are on the screen by the GPU and by double, the difference in pixels.
+/// Differences in pixels between vertex positions by the GPU and in double.
 class ScreenErrors {
  public:
   ScreenErrors(const PatchScene& scene, PatchProbe& probe) : scene_(scene), probe_(probe) {}
 
-  /// One for each vertex in the picture as it was first, whichever it is now; what lies behind the eye is left out.
+  /// Errors of the vertices that were in the picture at the start, wherever they are now; vertices behind the eye are
+  /// skipped.
   std::vector<glm::dvec2> at(const View& view) {
     if (seen_.empty()) find_seen(view);
     const std::vector<glm::vec4> clip = probe_.positions(view);
@@ -67,7 +68,7 @@ struct Worst {
   double off_px = 0.0, step_px = 0.0;
 };
 
-// The eye moves in steps; what a vertex's error changes by from one step to the next is its jitter.
+// Moves the eye in steps. Jitter is the change of a vertex's error between two steps.
 Worst worst_of_way(const Camera& camera, PatchProbe& probe, int steps) {
   PatchScene scene(camera, kWayPicture, kMaxTileLevel);
   probe.load(scene);

@@ -27,7 +27,7 @@ Result<gl::Program> window_program(ShaderFunctions functions) {
       {depth_define(DepthMode::reversed), functions_define(functions)});
 }
 
-// What has no fragment stage records its vertices alone.
+// A program without a fragment stage only records vertices.
 Result<gl::Program> feedback_program() {
   return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}}, {depth_define(DepthMode::reversed)},
                        {"gl_Position"});

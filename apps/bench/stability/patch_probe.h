@@ -14,24 +14,24 @@
 
 namespace terrella::bench {
 
-/// What the engine would draw of a view, without tiles: its patches, their vertices, and what programs know of them.
+/// The engine's patches for a view without tiles, with their vertices and shader values.
 struct PatchScene {
   PatchTree tree;
   View view;
   std::vector<SelectedPatch> patches;
-  std::vector<PatchVertex> vertices;  ///< of all patches, one after the other
+  std::vector<PatchVertex> vertices;  ///< vertices of all patches in sequence
 
-  /// Selects as the engine does; `max_level` is the finest tile level.
+  /// Selects patches as the engine does; `max_level` is the finest tile level.
   PatchScene(const Camera& camera, Viewport size, int max_level, const Body& body = earth());
   [[nodiscard]] std::size_t vertices_per_patch() const;
-  /// Of a patch's vertex, as near as its two floats have it, ECEF.
+  /// ECEF position of a patch's vertex, as exact as its two floats.
   [[nodiscard]] glm::dvec3 position_m(std::size_t vertex) const;
 };
 
-/// A pixel's window point by both ways of texturing, and whose.
+/// A pixel's window point by both ways of texturing, and its patch.
 struct WindowPixel {
   glm::vec4 points;    ///< interpolated; exact
-  unsigned patch = 0;  ///< number of the patch from 1; 0: none was drawn
+  unsigned patch = 0;  ///< number of the patch from 1; 0: no patch at this pixel
 };
 
 /// Runs the engine's own vertex program on a scene's patches. thread: main (of the context)
@@ -39,11 +39,11 @@ class PatchProbe {
  public:
   [[nodiscard]] static Result<PatchProbe> create(ShaderFunctions functions);
 
-  /// Puts the scene's patches on the GPU; `scene` must stay.
+  /// Uploads the scene's patches to the GPU; `scene` must stay.
   void load(PatchScene& scene);
-  /// gl_Position of every vertex as the program makes it for an eye.
+  /// Computes gl_Position of every vertex by the program for an eye.
   [[nodiscard]] std::vector<glm::vec4> positions(const View& view);
-  /// Every pixel of the scene's view, rows from the bottom.
+  /// Returns every pixel of the scene's view, rows from the bottom.
   [[nodiscard]] std::vector<WindowPixel> window_pixels();
 
  private:
@@ -56,7 +56,7 @@ class PatchProbe {
   gl::Program feedback_program_, window_program_;
   gl::VertexArray array_;
   gl::Buffer vertices_, indices_, frame_, feedback_;
-  gl::Texture pixel_;  ///< what is only recorded is drawn here: a context without a window has nowhere else
+  gl::Texture pixel_;  ///< dummy target: a context without a window has no framebuffer of its own
   gl::Framebuffer somewhere_;
   PatchIndices triangles_;
   std::vector<PatchDraw> draws_;

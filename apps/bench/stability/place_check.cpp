@@ -15,7 +15,7 @@ constexpr double kMostPlaceOff_px = 0.25;
 // Texels here are about as large as pixels.
 constexpr double kMostOff_texels = 0.25;
 
-/// How many vertices that patches share come out at two places.
+/// Counts shared vertices of patches that have two positions.
 int split_vertices(const PatchScene& scene, PatchProbe& probe) {
   using Bits = std::array<std::uint32_t, 6>;
   const std::vector<glm::vec4> clip = probe.positions(scene.view);
@@ -39,7 +39,7 @@ Camera straight_down(double lat_deg, double lon_deg, double height_m) {
           .heading = Angle::degrees(20.0)};
 }
 
-// Texels of this level are about as large as pixels.
+// Height at which texels of this level are about as large as pixels.
 double height_for(int level) {
   TileGrid grid;
   const double texel_m = Angle::degrees(tile_span_deg(grid, level)).rad() * earth().ellipsoid.a_m() / grid.tile_px;

@@ -8,7 +8,7 @@
 namespace terrella::bench {
 namespace {
 
-/// Judges pixel by pixel against the ray through it, in double.
+/// Compares each pixel with the ray through it, in double.
 class PlaceJudge {
  public:
   explicit PlaceJudge(const PatchScene& scene) : scene_(scene), size_(scene.view.viewport) {}
@@ -34,7 +34,7 @@ class PlaceJudge {
       if (!near_limb(pixel_px)) ++errors.holes;
       return;
     }
-    if (near_limb(pixel_px)) return;  // a fragment's place there is anybody's guess: the surface is seen from its side
+    if (near_limb(pixel_px)) return;  // the surface is seen edge-on, so a fragment's place is undefined
     const SelectedPatch& patch = scene_.patches[pixel.patch - 1];
     const double interpolated = off_texels(patch, *place, {pixel.points.x, pixel.points.y});
     const double exact = off_texels(patch, *place, {pixel.points.z, pixel.points.w});
@@ -46,7 +46,7 @@ class PlaceJudge {
     ++errors.judged;
   }
 
-  // Texels of the patch's level; those along a parallel as much narrower as it is shorter than the equator.
+  // Error in texels of the patch's level. Texels shrink along a parallel as the parallel is shorter than the equator.
   [[nodiscard]] double off_texels(const SelectedPatch& patch, const Geodetic& place, glm::dvec2 point) const {
     const PatchNode& node = *patch.node;
     const TileGrid& grid = scene_.tree.grid();
@@ -57,7 +57,7 @@ class PlaceJudge {
     return std::hypot(off.x * std::cos(place.lat.rad()), off.y) * grid.tile_px;
   }
 
-  // Where on the screen the place lies that is drawn at this pixel, from the pixel.
+  // Distance on the screen between this pixel and the place drawn at this pixel.
   [[nodiscard]] double off_px(const SelectedPatch& patch, glm::dvec2 point, glm::dvec2 pixel_px) const {
     const TileWindow& window = patch.node->window;
     const double span_deg = tile_span_deg(scene_.tree.grid(), window.level);
@@ -69,7 +69,7 @@ class PlaceJudge {
     return drawn ? glm::distance(*drawn, pixel_px) : HUGE_VAL;
   }
 
-  // Within a pixel and a half of where rays begin to miss.
+  // True within 1.5 pixels of rays that miss.
   [[nodiscard]] bool near_limb(glm::dvec2 pixel_px) const {
     const std::array<glm::dvec2, 4> around{{{1.5, 0.0}, {-1.5, 0.0}, {0.0, 1.5}, {0.0, -1.5}}};
     return std::ranges::any_of(around, [&](glm::dvec2 step) {

@@ -4,17 +4,17 @@
 
 namespace terrella::bench {
 
-/// How far from their places a picture's pixels are textured. The truth is the ray through the pixel's middle, in
-/// double. Within a pixel and a half of the limb, where the surface is seen from its side, nothing is judged.
+/// Texturing errors of a picture's pixels. The truth is the ray through the pixel's middle, in double. Pixels within
+/// 1.5 pixels of the limb, where the surface is seen edge-on, are skipped.
 struct PlaceErrors {
-  double interpolated_texels = 0.0;  ///< of patches that the engine draws so
-  double exact_texels = 0.0;         ///< of coordinates for each fragment, on all patches
-  double drawn_px = 0.0;             ///< of what the engine draws, on the screen
-  int holes = 0;                     ///< pixels of the globe where there is none
+  double interpolated_texels = 0.0;  ///< error of patches that the engine draws with interpolation
+  double exact_texels = 0.0;         ///< error of per-fragment coordinates, on all patches
+  double drawn_px = 0.0;             ///< screen error of the engine's drawing
+  int holes = 0;                     ///< pixels of the globe without a drawn patch
   int judged = 0;
 };
 
-/// Draws the scene. thread: main (of the context)
+/// Draws the scene and measures the errors. thread: main (of the context)
 [[nodiscard]] PlaceErrors place_errors(PatchScene& scene, PatchProbe& probe);
 
 }  // namespace terrella::bench

@@ -11,7 +11,7 @@ namespace {
 constexpr Viewport kTwicePicture{512, 512};
 constexpr std::chrono::seconds kPatience{60};
 
-/// Tiles whose every texel is another, the same in every run.
+/// Tiles with a different value in every texel, identical in every run.
 class SpeckledTiles : public TileSource {
  public:
   SpeckledTiles() {
@@ -59,7 +59,7 @@ struct Place {
 
 }  // namespace
 
-// Two globes, one after the other: nothing of the first is there for the second.
+// Draws two globes in sequence; the second finds nothing of the first.
 Status check_same_pixels(const StabilityOptions& options, Checks& checks) {
   const auto camera = [](double lat_deg, double lon_deg, double height_m, double pitch_deg) {
     return Camera{.eye = {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m},

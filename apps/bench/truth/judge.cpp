@@ -31,7 +31,8 @@ struct Spot {
   bool near_border;
 };
 
-// Where borders crowd together, at the limb and the pole, they would be compared with the surroundings of other places.
+// True where tile borders are far apart. Near the limb and the pole they crowd together and would be compared with
+// surroundings elsewhere.
 bool border_is_open(const Spot& s) { return s.incidence_deg < kBorderIncidence_deg && s.abs_lat_deg < kPoleBand_deg; }
 
 bool contains(Zone zone, const Spot& s) {
@@ -77,7 +78,7 @@ PixelError pixel_error(const Picture& shot, const TruthImage& truth, std::size_t
   return error;
 }
 
-// Cells of 10° of incidence by 10° of latitude: within one, a renderer's error is much the same everywhere.
+// Cells of 10° of incidence by 10° of latitude; a renderer's error varies little within a cell.
 constexpr double kCell_deg = 10.0;
 constexpr std::size_t kCells = 100;
 std::size_t cell_of(const Spot& s) {
@@ -104,7 +105,7 @@ struct ZoneSums {
     const double levels = 3.0 * static_cast<double>(count);
     return {std::sqrt(sum / levels), max, count, signed_sum / levels};
   }
-  // The RMS that these errors would have if they were spread over the cells as the other zone's pixels are.
+  // RMS of these errors, weighted by the other zone's pixels per cell.
   [[nodiscard]] double rms_weighted_like(const ZoneSums& other) const {
     double sum = 0.0;
     double weight = 0.0;

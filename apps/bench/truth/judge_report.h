@@ -7,9 +7,9 @@
 
 namespace terrella::truth {
 
-/// A line a zone that is in the picture: name, RMS, maximum, bias, pixels; then the limb.
+/// Formats a line per zone in the picture: name, RMS, maximum, bias, pixels; then the limb.
 [[nodiscard]] std::string as_table(const Judgement& judgement);
-/// {"zones": {NAME: {"rms", "max", "bias", "pixels"}}, "limb": {"pixels", "off"}, "outside": {...}}
+/// Formats {"zones": {NAME: {"rms", "max", "bias", "pixels"}}, "limb": {"pixels", "off"}, "outside": {...}}
 [[nodiscard]] nlohmann::json as_json(const Judgement& judgement);
 
 }  // namespace terrella::truth

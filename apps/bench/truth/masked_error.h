@@ -5,16 +5,16 @@
 
 namespace terrella::truth {
 
-/// Where the paper's pole bands are well in view: covered in full, latitude over 81° north or south, incidence under
+/// Fully covered pixels with a clear view of the paper's pole bands: latitude over 81° north or south, incidence under
 /// 81°.
 [[nodiscard]] Mask pole_band_mask(const TruthImage& truth);
-/// Covered in full, latitude under 60°, incidence under 81°.
+/// Fully covered pixels with latitude under 60° and incidence under 81°.
 [[nodiscard]] Mask mid_latitude_mask(const TruthImage& truth);
 
-/// Covered in full, incidence under 81°.
+/// Fully covered pixels with incidence under 81°.
 [[nodiscard]] Mask clear_mask(const TruthImage& truth);
 
-/// The error over the pixels that a mask has and that the body covers in full. The three must be of one size.
+/// The error over fully covered pixels within a mask. Shot, truth and mask must have the same size.
 [[nodiscard]] ZoneError masked_error(const Picture& shot, const TruthImage& truth, const Mask& mask);
 
 }  // namespace terrella::truth

@@ -18,12 +18,12 @@ struct Octave {
   double spacing_texels;  // lattice width, in texels at the equator
   float amplitude_levels;
 };
-// Calibrated, see the header. The finest octave is what a filter may blur and must not alias.
+// Calibrated, see the header. A filter may blur the finest octave but must not alias.
 constexpr std::array<Octave, 6> kOctaves{{{2.0, 17}, {4.0, 17}, {8.0, 16}, {16.0, 18}, {32.0, 24}, {64.0, 34}}};
 constexpr float kMeanLevel = 127.5F;
 
 struct Rgb {
-  std::array<float, 4> c{};  // the fourth is padding, so that one register holds it
+  std::array<float, 4> c{};  // the fourth is padding, so that one register holds all
 };
 
 Rgb mix(const Rgb& a, const Rgb& b, float t) {
@@ -40,7 +40,7 @@ std::uint32_t scramble(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
-// Ten bits of one hash a channel: independent of each other, each uniform in [-1, 1].
+// Takes ten bits of one hash per channel: independent, each uniform in [-1, 1].
 Rgb lattice_value(int x, int y, int z, std::uint32_t seed) {
   const std::uint32_t h =
       scramble(static_cast<std::uint32_t>(x) * 0x9e3779b1U + static_cast<std::uint32_t>(y) * 0x85ebca77U +
@@ -51,7 +51,7 @@ Rgb lattice_value(int x, int y, int z, std::uint32_t seed) {
 
 float smooth(float t) { return t * t * (3.0F - 2.0F * t); }
 
-// Value noise of one octave along a walk: it keeps the cell of the last point, since neighbours mostly share it.
+// Value noise of one octave along a walk. The last point's cell is cached, since neighbours mostly share the cell.
 class OctaveWalk {
  public:
   OctaveWalk(const glm::mat3& lattice_from_unit, float amplitude, std::uint32_t seed)
@@ -90,7 +90,7 @@ class OctaveWalk {
   std::array<Rgb, 8> corner_{};
 };
 
-// Each octave's lattice is turned its own way: a lattice along the axes would make the pole and the equator special.
+// Rotates each octave's lattice differently; an axis-aligned lattice would favour the pole and the equator.
 std::vector<OctaveWalk> make_octaves(const NoisePlanetOptions& options) {
   std::mt19937 engine(options.seed);
   const auto uniform = [&engine] { return static_cast<float>(engine()) * 0x1p-31F - 1.0F; };
@@ -99,7 +99,7 @@ std::vector<OctaveWalk> make_octaves(const NoisePlanetOptions& options) {
   for (const Octave& octave : kOctaves) {
     glm::quat turn(1.0F, 0.0F, 0.0F, 0.0F);
     do {
-      // One by one: the order in which a call's arguments are worked out is the compiler's.
+      // Separate statements, because the compiler chooses the evaluation order of a call's arguments.
       turn.z = uniform();
       turn.y = uniform();
       turn.x = uniform();

@@ -38,7 +38,7 @@ Picture read_png(const std::filesystem::path& file) {
 }
 
 struct JpegErrors {
-  jpeg_error_mgr base;  // first, so that libjpeg's pointer to it is a pointer to this
+  jpeg_error_mgr base;  // first member, so that libjpeg's pointer to the base is a pointer to this struct
   std::jmp_buf back;
   std::array<char, JMSG_LENGTH_MAX> message;
 };
@@ -49,7 +49,8 @@ struct JpegErrors {
   std::longjmp(errors->back, 1);
 }
 
-// Holds no object with a destructor: longjmp would pass it by. False: `errors` says why.
+// Decodes without any object that has a destructor, because longjmp skips destructors. Returns false with the reason in
+// `errors`.
 bool decode_jpeg(std::FILE* in, Picture& picture, JpegErrors& errors) {
   jpeg_decompress_struct info{};
   info.err = jpeg_std_error(&errors.base);
@@ -117,7 +118,7 @@ std::uint64_t fingerprint(const Picture& picture) {
     std::uint64_t word = 0;
     std::memcpy(&word, picture.rgb.data() + at, 8);
     mix(word);
-    hash ^= hash >> 29;  // FNV over words carries upwards only: bring the high bits down
+    hash ^= hash >> 29;  // FNV over words carries upwards only; this mixes in the high bits
   }
   for (; at < picture.rgb.size(); ++at) mix(picture.rgb[at]);
   return hash;

@@ -7,7 +7,7 @@
 
 namespace terrella::truth {
 
-/// An 8-bit RGB picture, rows from the top, no padding. Gamma-encoded values as they stand in the file.
+/// An 8-bit RGB picture, rows from the top, no padding. Values are gamma-encoded as in the file.
 struct Picture {
   int width = 0;
   int height = 0;
@@ -19,15 +19,15 @@ struct Picture {
   }
 };
 
-/// Reads a PNG or a JPEG (told apart by their first bytes). Grey becomes RGB, alpha is laid over black.
-/// Throws std::runtime_error that names the file and what is wrong with it: the ground truth is a test tool, and its
-/// callers have nothing better to do with a picture that cannot be read than to end.
+/// Reads a PNG or a JPEG, told apart by their first bytes. Grey becomes RGB, alpha is blended over black. Throws
+/// std::runtime_error that names the file and its fault. An exception suits this test tool, because its callers can
+/// only end.
 [[nodiscard]] Picture read_picture(const std::filesystem::path& file);
 
-/// Writes an RGB PNG, quickly rather than small. Throws std::runtime_error.
+/// Writes an RGB PNG, fast rather than small. Throws std::runtime_error.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
-/// A fingerprint of size and pixels (FNV-1a over 64-bit words); equal pictures have equal ones.
+/// Computes a fingerprint of size and pixels (FNV-1a over 64-bit words); equal pictures have equal fingerprints.
 [[nodiscard]] std::uint64_t fingerprint(const Picture& picture);
 
 }  // namespace terrella::truth

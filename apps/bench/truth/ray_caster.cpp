@@ -120,7 +120,7 @@ TruthImage cast(const Picture& source, const RowRule& rows, const Spheroid& body
                  .lon_deg = std::vector<float>(pixels, kNan),
                  .incidence_deg = std::vector<float>(pixels, kNan)};
   const Scene scene{source, rows, body, PixelRays(body, camera, options.width, options.height), options.rays_per_side};
-  // Rows are taken one by one: a picture half of sky would leave a worker with a fixed share idle.
+  // Workers take rows one by one. With fixed shares, a worker with rows of sky would be idle.
   std::atomic<int> next_row{0};
   const auto work = [&] {
     for (int y = next_row++; y < options.height; y = next_row++) {

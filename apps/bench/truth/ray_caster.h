@@ -10,8 +10,8 @@
 
 namespace terrella::truth {
 
-/// The command line's camera: heading clockwise from north; pitch up from the horizontal, and at -90° heading says
-/// which way is up in the picture; vertical field of view. Degrees and metres.
+/// The command line's camera, in degrees and metres. Heading is clockwise from north. Pitch is up from the horizontal;
+/// at -90° heading sets the picture's up direction. The field of view is vertical.
 struct TruthCamera {
   Place eye{.lat_deg = 0.0, .lon_deg = 0.0, .height_m = 1.0e7};
   double heading_deg = 0.0;
@@ -19,7 +19,7 @@ struct TruthCamera {
   double fov_deg = 40.0;
 };
 
-/// How the source picture's rows relate to latitude.
+/// Relation between the source picture's rows and latitude.
 struct RowRule {
   bool equal_area = false;  ///< rows linear in the sine (Lambert's cylinder) instead of in the latitude
   bool centric = false;     ///< rows count planetocentric instead of geodetic latitude
@@ -29,24 +29,25 @@ struct TruthOptions {
   int width = 1024;
   int height = 1024;
   int rays_per_side = 8;  ///< 8: 64 rays a pixel, at the centres of an 8×8 grid; the pixel is a box
-  int threads = 2;        ///< the result does not depend on it
+  int threads = 2;        ///< the result does not depend on the number
 };
 
-/// What an ideal renderer would show, unrounded, and where each pixel lies. Arrays are row by row from the top.
+/// The unrounded picture of an ideal renderer, and each pixel's place. Arrays run row by row from the top.
 struct TruthImage {
   int width = 0;
   int height = 0;
   int rays_per_pixel = 0;
   std::vector<float> rgb;           ///< 3 a pixel, 0…255, mean in gamma-encoded space; rays that miss are black
   std::vector<std::uint16_t> hits;  ///< rays of the pixel that met the body
-  std::vector<float> lat_deg;       ///< of the pixel's centre, geodetic; NaN if that ray misses
+  std::vector<float> lat_deg;       ///< geodetic, at the pixel's centre; NaN if that ray misses
   std::vector<float> lon_deg;
-  std::vector<float> incidence_deg;  ///< between the geodetic normal and the direction to the eye; NaN likewise
+  std::vector<float>
+      incidence_deg;  ///< between the geodetic normal and the direction to the eye; NaN if that ray misses
 
   [[nodiscard]] bool covered(std::size_t pixel) const { return hits[pixel] == rays_per_pixel; }
 };
 
-/// The ray of a position in the picture (pixel centres at halves, y down), not normalised: one unit along the view
+/// Rays through positions in the picture (pixel centres at halves, y down), not normalised: one unit along the view
 /// axis.
 class PixelRays {
  public:

@@ -6,8 +6,8 @@
 namespace terrella::truth {
 
 /// An ellipsoid of revolution about z: semi-major axis and flattening (WGS84: 6378137 m, 1/298.257223563). Earth-fixed
-/// frame: +x 0°N 0°E, +z the north pole, metres. This is the ground truth's own mathematics, in double, shared with
-/// nothing that it judges.
+/// frame: +x 0°N 0°E, +z the north pole, metres. The ground truth has its own mathematics in double and shares no code
+/// with its subjects.
 struct Spheroid {
   double a_m = 6378137.0;
   double f = 1.0 / 298.257223563;
@@ -21,7 +21,7 @@ struct Place {
   double height_m = 0.0;
 };
 
-/// East, north and up at a place; at a pole the longitude says which way is north (as on the meridian just before it).
+/// East, north and up at a place. At a pole the longitude defines north, as on the meridian just before the pole.
 struct LocalFrame {
   glm::dvec3 east, north, up;
 };
@@ -30,15 +30,15 @@ struct LocalFrame {
 /// Earth-fixed position of a place. Error: a few ulp of the radius.
 [[nodiscard]] glm::dvec3 position_m(const Spheroid& body, const Place& place);
 
-/// Where a ray first meets the surface.
+/// First intersection of a ray with the surface.
 struct Hit {
   glm::dvec3 position_m;
   glm::dvec3 normal;  ///< geodetic, unit, outward
   double distance;    ///< along the ray, in units of the direction's length; > 0
 };
 
-/// The first point in front of the eye; from inside, the far wall. Nothing if the ray passes by. The discriminant is
-/// that of the ray's closest point to the centre, so that a far eye loses no digits at the limb.
+/// Returns the first point in front of the eye; from inside, the far wall. Returns nullopt if the ray misses. The
+/// discriminant uses the ray's closest point to the centre, so that a far eye loses no digits at the limb.
 [[nodiscard]] std::optional<Hit> first_hit(const Spheroid& body, const glm::dvec3& eye_m, const glm::dvec3& direction);
 
 /// Geodetic latitude and longitude of a geodetic normal, radians; accurate at the poles.

@@ -10,7 +10,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::int64_t kNoTile = -1;
 
-// A number for the tile that a place is in. Row latitude: 90° times the sine where rows are of equal area.
+// Number of the tile at a pixel. The row latitude is 90° times the sine for equal-area rows.
 std::int64_t tile_number(const TruthImage& truth, std::size_t at, const Spheroid& body, const RowRule& rows,
                          double span_deg) {
   if (std::isnan(truth.lat_deg[at])) return kNoTile;

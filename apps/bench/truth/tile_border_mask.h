@@ -15,11 +15,11 @@ struct Mask {
   std::vector<std::uint8_t> set;
 };
 
-/// The mask and all within `reach_px` of it, counted along rows and columns (a square).
+/// Extends a mask by `reach_px` along rows and columns (a square).
 [[nodiscard]] Mask grown(const Mask& mask, int reach_px);
 
-/// Pixels one of whose eight neighbours shows another tile: a border passes within a pixel of their centre. Pixels
-/// whose centre misses the body are never set and are nobody's neighbour.
+/// Marks pixels that have a different tile among their eight neighbours; a border passes within a pixel of their
+/// centre. Pixels whose centre misses the body are never set and never count as neighbours.
 [[nodiscard]] Mask tile_border_mask(const TruthImage& truth, const Spheroid& body, const RowRule& rows,
                                     const TileBorders& borders);
 

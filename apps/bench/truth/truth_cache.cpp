@@ -12,7 +12,7 @@
 namespace terrella::truth {
 namespace {
 
-// To be raised with every change of what the ray caster computes.
+// Increase this with every change of the ray caster's results.
 constexpr int kRayCasterVersion = 1;
 
 template <typename T>
@@ -58,7 +58,7 @@ void store(const std::filesystem::path& file, const std::string& key, const Trut
   put(out, image.lon_deg);
   put(out, image.incidence_deg);
   out.close();
-  std::error_code ignored;  // a picture that could not be remembered is cast again
+  std::error_code ignored;  // a picture that could not be cached is cast again
   if (out) {
     std::filesystem::rename(unfinished, file, ignored);
   } else {

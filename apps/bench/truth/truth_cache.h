@@ -8,16 +8,16 @@
 
 namespace terrella::truth {
 
-/// A source picture with its fingerprint, which is worth working out once.
+/// A source picture with its fingerprint, computed once.
 struct Source {
   Picture picture;
   std::uint64_t fingerprint = 0;
 };
 [[nodiscard]] Source make_source(Picture picture);
 
-/// `cast`, remembered in files of a folder (about 27 MB each at 1024×1024); the file's name is a hash of all that the
-/// picture depends on, and the full list of it stands in the file. An unreadable or foreign file is cast anew. An empty
-/// folder name remembers nothing. thread: any; two processes may share a folder, since a file appears complete.
+/// Calls `cast` and caches the result in files of a folder, about 27 MB each at 1024×1024. The file's name is a hash of
+/// all inputs; the file contains their full list. An unreadable or foreign file is cast anew. An empty folder name
+/// disables the cache. Two processes may share a folder, because files appear complete. thread: any
 [[nodiscard]] TruthImage cast_cached(const Source& source, const RowRule& rows, const Spheroid& body,
                                      const TruthCamera& camera, const TruthOptions& options,
                                      const std::filesystem::path& folder);

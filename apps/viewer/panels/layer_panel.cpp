@@ -7,7 +7,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kLayersWidth = 21.0F;  // of the text's height
+constexpr float kLayersWidth = 21.0F;  // in text heights
 
 const char* word_of(LayerKind kind) {
   switch (kind) {

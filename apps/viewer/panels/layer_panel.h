@@ -12,18 +12,18 @@ namespace terrella {
 
 enum class LayerKind { imagery, objects, heights };
 
-/// A layer as the panel has it.
+/// One row of the layer panel.
 struct LayerRow {
-  LayerId id = LayerId::none;  ///< of heights: none
+  LayerId id = LayerId::none;  ///< none for heights
   LayerKind kind = LayerKind::imagery;
   std::string name = {};
-  std::optional<GeoRect> bounds = {};  ///< not of the whole planet, and known
-  int finest_level = 0;                ///< of imagery
-  ImageLook look = {};                 ///< of objects `shown` and opacity count, of heights `shown`
+  std::optional<GeoRect> bounds = {};  ///< set if known and smaller than the planet
+  int finest_level = 0;                ///< imagery only
+  ImageLook look = {};                 ///< objects use `shown` and opacity, heights use `shown`
 };
 
 enum class LayerAsk { none, raise, lower, remove, look_at };
-/// What the person asked for beside what `rows` say.
+/// User's request that is not stored in `rows`.
 struct LayerWish {
   LayerAsk ask = LayerAsk::none;
   std::size_t row = 0;
@@ -31,17 +31,17 @@ struct LayerWish {
 
 inline constexpr const char* kLayersTitle = "Layers, the highest first";
 
-/// The panel, beside the right edge, the highest layer (the last row) first; between Ui::begin_frame() and
-/// Ui::end_frame(). `just_opened` gives it the keyboard. Changes looks and the graticule as the person does.
-/// thread: main
+/// Draws the panel at the right edge, between Ui::begin_frame() and Ui::end_frame(). The highest layer, the last row,
+/// comes first. `just_opened` gives the panel the keyboard. Stores the user's changes to looks and graticule. thread:
+/// main
 [[nodiscard]] LayerWish draw_layers(std::vector<LayerRow>& rows, bool& graticule, bool just_opened);
 
-/// Where all of it is; crosses ±180° if that is shorter. Nothing if there is nothing, or it spans most of the planet.
-/// thread: any
+/// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
+/// the planet. thread: any
 [[nodiscard]] std::optional<GeoRect> bounds_of(const ObjectScene& scene);
-/// The same of bounds that may be the planet's.
+/// Returns the bounds, or nullopt if they span most of the planet.
 [[nodiscard]] std::optional<GeoRect> if_a_part(const GeoRect& bounds);
-/// From the west edge to the east edge, (0°, 360°].
+/// Width from the west edge to the east edge, (0°, 360°].
 [[nodiscard]] Angle width_of(const GeoRect& bounds);
 
 }  // namespace terrella

@@ -3,14 +3,14 @@
 namespace terrella {
 namespace {
 
-constexpr float kTipWidth = 18.0F;  // of the text's height
+constexpr float kTipWidth = 18.0F;  // in text heights
 
 }  // namespace
 
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
-  // Beside the panel: over it, it would hide what comes next.
+  // Beside the panel, where the tip does not hide the next items.
   const ImVec2 panel = ImGui::GetWindowPos();
   const bool left = panel.x + 0.5F * ImGui::GetWindowWidth() < 0.5F * ImGui::GetIO().DisplaySize.x;
   const float side = left ? panel.x + ImGui::GetWindowWidth() : panel.x;

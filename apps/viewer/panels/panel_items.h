@@ -7,14 +7,14 @@
 
 namespace terrella {
 
-// What panels are made of; between Ui::begin_frame() and Ui::end_frame(). thread: main
+// Parts of panels, for use between Ui::begin_frame() and Ui::end_frame(). thread: main
 
 inline constexpr ImGuiWindowFlags kPanelWindow = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
-/// Shown while the item before is under the cursor, or has the keyboard and a key has moved that on.
+/// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);
-/// The head of a group, with a line under it.
+/// Draws the title of a group and a line below.
 void group(const char* name);
 void slide(const char* name, double& value, double from, double to, const char* format,
            ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp);

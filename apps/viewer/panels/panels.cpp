@@ -13,9 +13,9 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
-constexpr float kMargin = 0.8F;         // of the text's height, between panels and the window's edge
-constexpr float kFootOfMessage = 3.6F;  // of the text's height: over the status line
-constexpr float kPlainText_px = 15.0F;  // the text's height at 96 dots per inch
+constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
+constexpr float kFootOfMessage = 3.6F;  // in text heights, above the status line
+constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
 constexpr float kUnderFirstRow = 2.8F;
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
@@ -53,8 +53,8 @@ ImVec2 to_ui(glm::dvec2 px, double unit_px) {
   return {static_cast<float>(px.x / unit_px), static_cast<float>(px.y / unit_px)};
 }
 
-/// Starts a panel of a given inner size, held by a corner: pivot (0, 1) is its lower left one. ImGui's own fitting
-/// takes a frame to follow the text, and the viewer may draw only one.
+/// Starts a panel of a given inner size at a corner; pivot (0, 1) is the lower left. ImGui's own fitting follows the
+/// text one frame late, and the viewer may draw only one frame.
 void begin_panel(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
@@ -62,7 +62,7 @@ void begin_panel(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
   ImGui::Begin(name, nullptr, kFixed);
 }
 
-/// How wide a line is drawn that is `width_px` wide at 96 dots per inch, in units of the window.
+/// Converts a line width at 96 dots per inch to units of the window.
 float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
 
 float margin() { return kMargin * ImGui::GetFontSize(); }
@@ -78,7 +78,7 @@ void draw_text(const Field& field) {
   ImGui::PopStyleColor();
 }
 
-/// A panel with one line of text; none if there is no text.
+/// Draws a panel with one line of text; empty text draws nothing.
 void draw_row(const char* name, std::vector<Field> fields, ImVec2 at, ImVec2 pivot) {
   std::erase_if(fields, [](const Field& field) { return field.text.empty(); });
   if (fields.empty()) return;
@@ -93,7 +93,7 @@ void draw_row(const char* name, std::vector<Field> fields, ImVec2 at, ImVec2 piv
   ImGui::End();
 }
 
-/// Text of several lines if need be, over all panels, above a place in its middle; nothing if there is no text.
+/// Draws wrapped text over all panels, centred above a position; empty text draws nothing.
 void draw_paragraph(const std::string& text, ImVec2 at) {
   if (text.empty()) return;
   const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
@@ -162,7 +162,7 @@ void draw_help() {
   }
   const float gap = 1.8F * ImGui::GetFontSize();
   const ImVec2 room{kRoomForHelp * size.x - 2.0F * padding.x, kRoomForHelp * size.y - 2.0F * padding.y};
-  // In a small window all of it, in small letters.
+  // A small window shows the whole list in small letters.
   const float scale = std::min({1.0F, room.x / (keys + gap + whats), room.y / (rows * ImGui::GetFontSize())});
   const float text = scale * ImGui::GetFontSize(), second = scale * (keys + gap);
   const float line = std::clamp(room.y / rows, text, kAiry * text);

@@ -8,7 +8,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kPictureWidth = 22.0F;  // of the text's height
+constexpr float kPictureWidth = 22.0F;  // in text heights
 
 }  // namespace
 

@@ -9,8 +9,8 @@ namespace terrella {
 namespace {
 
 constexpr std::size_t kMostFound = 8;
-constexpr float kSearchWidth = 22.0F;  // of the text's height
-constexpr float kTop = 3.6F;           // under the attribution
+constexpr float kSearchWidth = 22.0F;  // in text heights
+constexpr float kTop = 3.6F;           // below the attribution
 
 }  // namespace
 

@@ -8,27 +8,28 @@
 
 namespace terrella {
 
-/// "46.02100° N   7.74900° E"; `step_deg`, what one pixel covers, decides the decimals (0 to 7). thread: any
+/// Formats a position, for example "46.02100° N   7.74900° E". `step_deg`, the width of a pixel, sets the number of
+/// decimals (0 to 7). thread: any
 [[nodiscard]] std::string place_text(const Geodetic& place, double step_deg);
-/// "12 m", "3.4 km", "384,000 km": three significant digits.
+/// Formats a length with three significant digits: "12 m", "3.4 km", "384,000 km".
 [[nodiscard]] std::string length_text(double length_m);
 
-/// "12 m²", "3.4 km²", "384,000 km²".
+/// Formats an area with three significant digits: "12 m²", "3.4 km²", "384,000 km²".
 [[nodiscard]] std::string area_text(double area_m2);
 
-/// A bar whose length on the ground is a round number.
+/// A bar with a round length on the ground.
 struct ScaleBar {
   double length_m;
   double width_px;
 };
-/// The longest bar of 1, 2 or 5 times a power of ten that is at most `most_px` wide at the picture's centre, across the
-/// line of sight; nothing if the centre shows no ground.
+/// Returns the longest bar of 1, 2 or 5 times a power of ten that is at most `most_px` wide. The bar lies at the
+/// picture's centre, across the line of sight. Returns nullopt if the centre shows no ground.
 [[nodiscard]] std::optional<ScaleBar> scale_bar(const View& view, const Ground& ground, double most_px);
 
-/// Degrees of arc that a pixel at the picture's centre covers; at least what it covers straight below the eye.
+/// Degrees of arc covered by a pixel at the picture's centre, at least those of a pixel straight below the eye.
 [[nodiscard]] double pixel_step_deg(const View& view, const Ground& ground);
 
-/// "LAT,LON,ALT,HEADING,PITCH,FOV" as --camera takes it; reads back as the same camera to the last bits.
+/// Formats a camera as "LAT,LON,ALT,HEADING,PITCH,FOV" for --camera. Parsing returns the same camera to the last bits.
 [[nodiscard]] std::string camera_text(const Camera& camera);
 
 }  // namespace terrella

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kText_px = 15.0F;
 
-// Where distributions put DejaVu Sans; without it ImGui's own small font serves.
+// Paths of DejaVu Sans in common distributions; the fallback is ImGui's own small font.
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                                   "/usr/share/fonts/TTF/DejaVuSans.ttf"};
@@ -47,7 +47,8 @@ void set_style(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-// Where the window's units are larger than pixels the font is made at pixel size and shown at unit size.
+// Fits text to the window. Where the window's units exceed pixels, the font is rendered at pixel size and displayed at
+// unit size.
 void fit_to(const Window& window) {
   const float unit_px = static_cast<float>(window.pixels_per_unit().x);
   load_font(window.text_scale());
@@ -57,7 +58,7 @@ void fit_to(const Window& window) {
 
 bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
 
-/// Letters do something with Ctrl only.
+/// True for keys that panels use; letters only act with Ctrl.
 bool panels_act_on(int key) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool letter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
@@ -107,7 +108,7 @@ void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(panel_has_keyb
 void Ui::rescale(const Window& window) {
   ImGui::GetIO().Fonts->Clear();
   fit_to(window);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // made anew at the next frame's begin
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // recreated at the start of the next frame
 }
 
 bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {
@@ -135,8 +136,9 @@ bool Ui::on_character(unsigned character) {
   return keeps;
 }
 
-// ImGui looks at keys once a frame. It gets one change of a key that panels act on, and nothing after that, so that it
-// misses no key that is let go at once or pressed twice, and a character comes before or after Backspace as written.
+// Passes waiting events to ImGui, which reads keys once a frame. A frame gets at most one change of a key that panels
+// use, and no later event. ImGui therefore misses no quick release or double press, and characters keep their order
+// with Backspace.
 void Ui::hand_over_waiting() {
   if (field_ready_) text_expected_ = false;
   bool acts = false;

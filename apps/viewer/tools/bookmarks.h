@@ -9,15 +9,16 @@
 
 namespace terrella {
 
-/// Views that a person wants to come back to, nine of them, kept in a file between runs. thread: one
+/// Nine stored views of the user, kept in a file between runs. thread: one
 class Bookmarks {
  public:
   static constexpr int kMost = 9;
 
-  /// Of a file that is not there: none. Fails if it cannot be read or is no file of bookmarks; a bookmark that is no
-  /// camera is left out.
+  /// Loads a file; a missing file gives no bookmarks. Fails if the file cannot be read or has another format. Invalid
+  /// cameras are skipped.
   [[nodiscard]] static Result<Bookmarks> load(const std::filesystem::path& file);
-  /// Makes the folder if need be. What another run has kept since is lost. Fails with a message that names the file.
+  /// Saves the bookmarks and creates the folder if needed. Overwrites changes that another run has saved since. The
+  /// error names the file.
   [[nodiscard]] Status save(const std::filesystem::path& file) const;
 
   /// `number` in [1, kMost].
@@ -28,7 +29,8 @@ class Bookmarks {
   std::array<std::optional<Camera>, kMost> cameras_;
 };
 
-/// $XDG_CONFIG_HOME/terrella/bookmarks.json, or ~/.config/terrella/bookmarks.json; nothing where neither is known.
+/// Returns $XDG_CONFIG_HOME/terrella/bookmarks.json or ~/.config/terrella/bookmarks.json; nullopt if neither folder is
+/// known.
 [[nodiscard]] std::optional<std::filesystem::path> bookmarks_file();
 
 }  // namespace terrella

@@ -22,7 +22,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-// Both descriptions of sources and GeoJSON end in .json; only the latter says so of itself.
+// Tells GeoJSON from source descriptions, as both end in .json; only GeoJSON names its type.
 bool is_geojson(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".geojson") return true;

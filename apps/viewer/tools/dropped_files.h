@@ -13,32 +13,32 @@
 
 namespace terrella {
 
-/// What a file that was dropped holds.
+/// Contents of a dropped file.
 struct OpenedFile {
   std::filesystem::path path;
   std::variant<std::shared_ptr<TileSource>, ElevationSource, ObjectFile> what;
 };
 
-/// Opens a picture (which is cut into the cache), a tile set of pictures or heights, GeoJSON, or a glTF model, which
-/// then stands at `place`. `options`: the cache's. The error names the file and the reason. thread: any, one at a time
+/// Opens a picture (cut into the cache), a tile set of pictures or heights, GeoJSON, or a glTF model. A model stands at
+/// `place`. `options` sets the cache. The error names the file and the reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
 
-/// Opens files one after the other on a thread of its own, while the window goes on. thread: main
+/// Opens files one after another on a background thread while the window continues. thread: main
 class DroppedFiles {
  public:
   explicit DroppedFiles(SceneOptions options) : options_(std::move(options)) {}
-  ~DroppedFiles();  ///< leaves off what is being cut
+  ~DroppedFiles();  ///< cancels the cutting in progress
   DroppedFiles(const DroppedFiles&) = delete;
   DroppedFiles& operator=(const DroppedFiles&) = delete;
 
   void add(std::filesystem::path path, const Geodetic& place);
-  /// The next one that is open, or could not be opened; nothing while none is.
+  /// Returns the next opened file or error; nullopt if none is ready.
   [[nodiscard]] std::optional<Result<OpenedFile>> poll();
-  [[nodiscard]] bool ready() const;  ///< poll() would give one
+  [[nodiscard]] bool ready() const;  ///< true if poll() would return a file or error
   [[nodiscard]] bool busy() const { return running_.valid(); }
-  [[nodiscard]] std::string text() const;  ///< what is being done, and how far it is; empty: nothing
-  void leave_off();                        ///< what is being cut, and what waits
+  [[nodiscard]] std::string text() const;  ///< current job and its progress; empty if idle
+  void leave_off();                        ///< cancels the cutting in progress and all waiting files
 
  private:
   struct Waiting {

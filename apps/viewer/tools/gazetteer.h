@@ -13,7 +13,7 @@ namespace terrella {
 struct NamedPlace {
   std::string name;     ///< UTF-8
   std::string country;  ///< may be empty
-  std::string folded;   ///< the name as it is looked for: ASCII letters, lower case
+  std::string folded;   ///< name as used in searches: lower-case ASCII letters
   Geodetic place;
   double people = 0.0;
 };
@@ -21,17 +21,17 @@ struct NamedPlace {
 /// Places by name. thread: any
 class Gazetteer {
  public:
-  /// A GeoJSON of points with the properties of Natural Earth's populated places (name, nameascii, adm0name, pop_max).
-  /// Fails if it cannot be read, or if no feature of it is such a place; one that is not is left out.
+  /// Loads a GeoJSON file of points with the properties of Natural Earth's populated places: name, nameascii, adm0name,
+  /// pop_max. Fails if the file cannot be read or contains no place. Invalid features are skipped.
   [[nodiscard]] static Result<Gazetteer> load(const std::filesystem::path& file);
 
-  /// Those whose name begins with the text, the largest first, then those that have it further in; at most `most`. None
-  /// for a text of blanks.
+  /// Finds at most `most` places. Names that begin with the text come first, then names that contain the text; both are
+  /// sorted by population, largest first. A blank text finds nothing.
   [[nodiscard]] std::vector<const NamedPlace*> find(std::string_view text, std::size_t most) const;
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:
-  std::vector<NamedPlace> places_;  ///< the largest first
+  std::vector<NamedPlace> places_;  ///< largest population first
 };
 
 }  // namespace terrella

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, Stereo>, 4> kStereoWords{{{"off
                                                                            {"interlaced", Stereo::interlaced},
                                                                            {"anaglyph", Stereo::anaglyph}}};
 
-/// Takes fields one by one; the first that is wrong is remembered.
+/// Reads fields one by one and keeps the first fault.
 class FieldReader {
  public:
   explicit FieldReader(const Json& json) : json_(json) {}

@@ -10,32 +10,32 @@
 
 namespace terrella {
 
-/// What the viewer keeps between runs.
+/// Settings that the viewer keeps between runs.
 struct KeptSettings {
-  int width_px = 0, height_px = 0;  ///< of the window; 0: the program's own
+  int width_px = 0, height_px = 0;  ///< size of the window; 0: the program's default
   bool panel = false;
   bool layers = false;
   bool graticule = false;
   bool sky = true;
-  double opacity = 1.0;  ///< of the surface, [0, 1]
+  double opacity = 1.0;  ///< opacity of the surface, [0, 1]
   double exaggeration = 1.0;
   Stereo stereo = Stereo::off;
   bool operator==(const KeptSettings&) const = default;
 };
 
 struct LoadedSettings {
-  KeptSettings settings;  ///< what could not be read is as it is by itself
+  KeptSettings settings;  ///< unreadable entries have their defaults
   bool first_run = false;
-  std::string complaint;  ///< names the file and what is wrong; then a copy of the file is beside it. May be empty
+  std::string complaint;  ///< names the file and its fault, after a copy of the file was saved beside it; may be empty
 };
 
-/// Of a file that is not there: a first run's. thread: one
+/// Loads the settings; a missing file means a first run. thread: one
 [[nodiscard]] LoadedSettings load_settings(const std::filesystem::path& file);
-/// Makes the folder if need be; what the file has under other names stays. Fails with a message that names the file.
+/// Saves the settings and creates the folder if needed. Unknown entries in the file stay. The error names the file.
 [[nodiscard]] Status save_settings(const std::filesystem::path& file, const KeptSettings& settings);
-/// What was kept, with what has changed from the run's `start` to `now`: the command line's own is for one run.
+/// Returns `kept` with the changes between `start` and `now`. Values from the command line apply to one run only.
 [[nodiscard]] KeptSettings changed_since(KeptSettings kept, const KeptSettings& start, const KeptSettings& now);
-/// settings.json in the user's folder; nothing where there is none.
+/// settings.json in the user's folder; nullopt without such a folder.
 [[nodiscard]] std::optional<std::filesystem::path> settings_file();
 
 }  // namespace terrella

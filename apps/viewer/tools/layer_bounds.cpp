@@ -33,7 +33,7 @@ std::optional<GeoRect> if_a_part(const GeoRect& bounds) {
   return bounds;
 }
 
-// All but the widest gap between neighbours along the parallel.
+// Leaves out the widest gap between neighbours along the parallel.
 std::optional<GeoRect> bounds_of(const ObjectScene& scene) {
   const std::vector<Geodetic> places = places_of(scene);
   if (places.empty()) return {};

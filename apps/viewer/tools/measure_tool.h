@@ -8,18 +8,18 @@
 
 namespace terrella {
 
-/// Places set one after the other, what lies between them, and how that is drawn and said. Pure values; thread: any
+/// A sequence of places with the path between them, as text and as drawn objects. Pure values; thread: any
 class MeasureTool {
  public:
   [[nodiscard]] const std::vector<Geodetic>& places() const { return places_; }
   void add(const Geodetic& place) { places_.push_back(place); }
-  void take_back();  ///< the last place; nothing if there is none
+  void take_back();  ///< removes the last place, if any
   void clear() { places_.clear(); }
 
-  /// What to do, or how long the way is, and from three places on how large the area is that they enclose.
+  /// An instruction or the path's length; from three places on also the enclosed area.
   [[nodiscard]] std::string text(const Ellipsoid& ellipsoid) const;
-  /// The places as markers, the way between them, from three places on the way back, thinner, and the area; the length
-  /// at the last place. `scale`: of markers and lines, 1 at 96 dots per inch.
+  /// Objects for drawing: markers at the places, the path, and the length at the last place. From three places on, the
+  /// closing edge (thinner) and the area are added. `scale` is the size of markers and lines, 1 at 96 dots per inch.
   [[nodiscard]] ObjectScene scene(const Ellipsoid& ellipsoid, float scale = 1.0F) const;
 
  private:

@@ -1,7 +1,7 @@
 #include "apps/viewer/tools/picture_job.h"
 
 #include <epoxy/gl.h>
-// epoxy before GLFW, which otherwise brings its own gl.h
+// epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 #include <fmt/core.h>
 
@@ -66,7 +66,7 @@ bool PictureJob::draw(Globe& globe, Viewport window) {
   return drawn();
 }
 
-// As large as fits, in the middle.
+// Shows the picture centred, as large as fits.
 void PictureJob::show(Viewport window) const {
   const double scale = std::min(double(window.width_px) / size_.width_px, double(window.height_px) / size_.height_px);
   const int width = std::max(1, int(scale * size_.width_px)), height = std::max(1, int(scale * size_.height_px));

@@ -11,25 +11,26 @@
 
 namespace terrella {
 
-/// The largest side that OpenGL takes here, and the program. thread: main, with the context current
+/// Largest picture side that OpenGL and the program allow. thread: main, with the context current
 [[nodiscard]] int largest_picture_side_px();
 
-/// A picture of its own size that is drawn frame by frame until all of it is there, and then written.
-/// thread: main, with the context current
+/// A picture of any size, drawn over several frames until complete and then written. thread: main, with the context
+/// current
 class PictureJob {
  public:
-  /// Fails if the picture is larger than kMostPicturePixels or there is no memory for it.
+  /// Fails if the picture exceeds kMostPicturePixels or memory is insufficient.
   [[nodiscard]] static Result<std::unique_ptr<PictureJob>> start(const Globe& globe, const std::filesystem::path& file,
                                                                  Viewport size);
 
-  /// Draws a frame; true once the picture is whole and being written. Shows it in the window's framebuffer, small.
+  /// Draws a frame and shows it, reduced, in the window's framebuffer. Returns true once the complete picture is being
+  /// written.
   bool draw(Globe& globe, Viewport window);
   [[nodiscard]] bool drawn() const { return written_.valid(); }
-  [[nodiscard]] bool ready() const;  ///< draw() or result() has something to do
-  /// What came of it, once it is written.
+  [[nodiscard]] bool ready() const;  ///< true if draw() or result() has work to do
+  /// Result of writing, once finished.
   [[nodiscard]] std::optional<Status> result();
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] std::string text() const;  ///< how far it is
+  [[nodiscard]] std::string text() const;  ///< progress as text
 
  private:
   PictureJob(const Globe& globe, std::filesystem::path file, Viewport size)
@@ -44,7 +45,7 @@ class PictureJob {
   std::future<Status> written_;
 };
 
-/// Such a picture takes about 3 GB while it is drawn.
+/// A picture of this size needs about 3 GB while it is drawn.
 inline constexpr long kMostPicturePixels = 16384L * 8192L;
 
 }  // namespace terrella

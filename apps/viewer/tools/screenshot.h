@@ -8,7 +8,8 @@
 
 namespace terrella {
 
-/// "terrella-YYYYmmdd-HHMMSS.png" by local time; a number is added if the folder has one of that second already.
+/// Returns "terrella-YYYYmmdd-HHMMSS.png" in local time. A number is added if the folder already has a file of that
+/// second.
 [[nodiscard]] std::filesystem::path screenshot_name(const std::filesystem::path& folder,
                                                     std::chrono::system_clock::time_point when);
 

@@ -14,7 +14,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kWidth = 23.0F;  // of the text's height
+constexpr float kWidth = 23.0F;  // in text heights
 constexpr double kDeepest_km = 6000.0, kShallowest_km = 150.0;
 constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours{12}};
 

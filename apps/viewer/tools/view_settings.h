@@ -10,29 +10,29 @@ namespace terrella {
 
 inline constexpr const char* kViewTitle = "View";
 
-/// What the panel shows and changes.
+/// Values that the panel shows and changes.
 struct ViewSettings {
   SurfaceLook surface;
   StereoLook stereo;
-  bool under_ground = false;  ///< changed: X is asked for
-  bool has_sky = false;       ///< the globe can draw one
+  bool under_ground = false;  ///< a change has the effect of key X
+  bool has_sky = false;       ///< true if the globe can draw a sky
   bool sky = false;
   std::optional<UtcTime> time;     ///< none: light over the viewer's shoulder
-  std::string time_text;           ///< as it is being written
-  std::string time_problem;        ///< what is wrong with it; may be empty
-  std::optional<UtcTime> written;  ///< what `time_text` was last made of
+  std::string time_text;           ///< text as typed so far
+  std::string time_problem;        ///< fault in the text; may be empty
+  std::optional<UtcTime> written;  ///< time last written to `time_text`
   bool has_relief = false;
   double exaggeration = 1.0;
 };
 
-/// The time as its field has it; empty without one. thread: any
+/// Text of a time for its field; empty without a time. thread: any
 [[nodiscard]] std::string time_field(std::optional<UtcTime> time);
 
-/// Another panel that is asked for.
+/// Request for another panel.
 enum class ViewAsk { none, layers, picture, help };
 
-/// The panel, beside the left edge, with a word on each of its parts; between Ui::begin_frame() and Ui::end_frame().
-/// `just_opened` gives it the keyboard. Changes `settings` as the person does. thread: main
+/// Draws the panel with its tips at the left edge, between Ui::begin_frame() and Ui::end_frame(). `just_opened` gives
+/// the panel the keyboard. Stores the user's changes in `settings`. thread: main
 ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened);
 
 }  // namespace terrella
