@@ -29,7 +29,7 @@ double room_bytes(const PreloadCommand& command) {
 std::string levels_that_fit(const PreloadCommand& command, const TilePlan& plan, const RoomNeed& need, double a_tile) {
   std::string fit;
   std::int64_t tiles = 0;
-  const std::vector<LevelCount> levels = plan.counts();
+  const std::vector<LevelCount>& levels = plan.counts();
   for (const LevelCount& level : levels) {
     tiles += level.tiles;
     const double bytes = need.pinned_bytes + file_bytes(tiles, a_tile);

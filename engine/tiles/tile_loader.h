@@ -57,7 +57,7 @@ template <class Decoded>
 class Loader {
  public:
   ~Loader();  ///< joins the workers and drops waiting tiles
-  Loader(Loader&&) = default;
+  Loader(Loader&&) noexcept = default;
   Loader& operator=(Loader&&) = delete;
 
   /// Sets the whole list of wanted tiles and replaces the previous list. Cancels tiles that are no longer listed and

@@ -15,8 +15,11 @@ namespace {
 
 std::optional<std::string> shader_text(std::string_view name) {
   if (const char* folder = std::getenv("TERRELLA_SHADER_DIR")) {
-    std::ifstream file(std::filesystem::path(folder) / name);
-    if (file) return (std::ostringstream() << file.rdbuf()).str();
+    std::error_code error;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+      if (entry.path().filename() != name) continue;
+      if (std::ifstream file(entry.path()); file) return (std::ostringstream() << file.rdbuf()).str();
+    }
   }
   for (const EmbeddedShader& shader : embedded_shaders()) {
     if (shader.name == name) return std::string(shader.text);

@@ -17,9 +17,10 @@ struct ShaderStage {
 };
 
 /// Compiles and links a program from the embedded files. If the environment variable TERRELLA_SHADER_DIR names a
-/// folder, reads the files from there at each call. `defines` become #defines before the text. `feedback` lists the
-/// outputs of the vertex stage that transform feedback records, in order. For debuggers, the program is labelled with
-/// the last file of its last stage. The error names the file and contains the compiler's message. thread: main
+/// folder, reads the files from that folder and those in it at each call. `defines` become #defines before the text.
+/// `feedback` lists the outputs of the vertex stage that transform feedback records, in order. For debuggers, the
+/// program is labelled with the last file of its last stage. The error names the file and contains the compiler's
+/// message. thread: main
 [[nodiscard]] Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                                                 std::initializer_list<std::string_view> defines,
                                                 std::initializer_list<const char*> feedback = {});
