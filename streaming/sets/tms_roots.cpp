@@ -21,7 +21,7 @@ void widen(std::optional<Range>& range, std::int64_t value) {
   range = range ? Range{std::min(range->first, value), std::max(range->last, value)} : Range{value, value};
 }
 
-/// The least and greatest number among the names in a folder, endings apart.
+/// Smallest and largest number among the names in a folder, without endings.
 std::optional<Range> numbers_in(const fs::path& folder) {
   std::optional<Range> range;
   std::error_code ignored;
