@@ -129,7 +129,7 @@ Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, Cut
   return Error{fmt::format("{}; or resample it: {}", plan.error().message, input.resample_command)};
 }
 
-/// Runs before any work, because the output may already be known as one that must stay.
+/// Checks the output before any work, because it may be known already that the output must stay.
 Result<OutputClaim> claim_output(const CutOptions& options) {
   if (options.output.empty()) return Error{"no output is named; give a file that ends in .gpkg, or a folder"};
   const auto key = cut_key(options);

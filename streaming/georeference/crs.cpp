@@ -13,7 +13,7 @@
 namespace terrella {
 namespace {
 
-/// PROJ treats ellipsoids this similar as one body, and transforms between their datums.
+/// Largest relative difference of two ellipsoids that PROJ treats as one body. It transforms between their datums.
 constexpr double kOneBody = 0.005;
 
 ProjHandle wrap(PJconsts* object) { return ProjHandle(object); }

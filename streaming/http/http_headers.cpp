@@ -70,7 +70,7 @@ void read_directive(std::string_view directive, ReplyFields& fields) {
   if (same_name(name, "no-cache")) fields.no_cache = true;
   if (!same_name(name, "max-age") || equals == std::string_view::npos) return;
   const std::int64_t age = seconds_of(unquoted(trimmed(directive.substr(equals + 1)))).value_or(0);
-  // Of two values the shorter counts, because extra requests do less harm.
+  // The shorter of two values counts, because extra requests do less harm.
   fields.max_age_s = std::min(age, fields.max_age_s.value_or(age));
 }
 

@@ -108,7 +108,7 @@ void MercatorJob::climb() {
   }
 }
 
-/// Failure if nothing lies under the tile, so that the drawn ancestors replace it; also a broken stored tile.
+/// Failure of the whole tile, so that its ancestors are drawn: no stored tile lies under it, or one is broken.
 std::optional<TileFailure> MercatorJob::failure_of_all() const {
   std::optional<TileFailure> worst;
   bool any = false;

@@ -126,7 +126,7 @@ struct TileRange {
 /// True if the tiles with this span cover the bounds: all columns, and only rows of the bounds, counted from the
 /// south-west.
 bool lie_over(const TileRange& tiles, const GeoRect& bounds, double span) {
-  constexpr double kSliver = 1e-6;  // of a tile
+  constexpr double kSliver = 1e-6;  // fraction of a tile
   const auto first = [&](double offset_deg) { return std::llround(std::floor(offset_deg / span + kSliver)); };
   const auto last = [&](double offset_deg) { return std::llround(std::ceil(offset_deg / span - kSliver)) - 1; };
   return tiles.first_column == first(bounds.west.deg() + 180.0) &&

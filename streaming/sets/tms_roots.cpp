@@ -36,7 +36,7 @@ std::optional<Range> numbers_in(const fs::path& folder) {
 
 /// Tiles of a span that cover [low, high] degrees, counted from `origin`.
 Range tiles_over(double low_deg, double high_deg, double origin_deg, double span_deg) {
-  constexpr double kSliver = 1e-6;  // of a tile
+  constexpr double kSliver = 1e-6;  // fraction of a tile
   return {static_cast<std::int64_t>(std::floor((low_deg - origin_deg) / span_deg + kSliver)),
           static_cast<std::int64_t>(std::ceil((high_deg - origin_deg) / span_deg - kSliver)) - 1};
 }

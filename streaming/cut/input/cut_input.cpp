@@ -42,7 +42,7 @@ bool lies_on_nodes(const Placement& place, const PictureFile& picture) {
          near(place.pixel_height_deg * height, step * height);
 }
 
-/// Bounds of one picture, and if it is a planet sampled at nodes.
+/// Bounds of one picture. Also tells if the picture is a planet sampled at nodes.
 struct SaidPlace {
   std::optional<GeoRect> bounds;
   bool nodes = false;

@@ -14,7 +14,7 @@ namespace {
 /// about ten.
 constexpr int kMaxScans = 100;
 
-/// libjpeg's error state, with the jump target. longjmp leaves the C frames of its callbacks.
+/// libjpeg's error state, with the jump target. longjmp jumps over the C frames of its callbacks.
 struct ErrorState {
   jpeg_error_mgr manager;
   std::jmp_buf way_out;

@@ -188,7 +188,7 @@ Result<MosaicLayout> by_places(const std::vector<MosaicPart>& parts) {
   return done;
 }
 
-// ---- what parts say beside the layout
+// ---- places stated by parts
 
 /// Corner of the mosaic by the places stated by its parts; none if no part states a place. All statements must agree.
 Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& parts, const MosaicLayout& layout) {

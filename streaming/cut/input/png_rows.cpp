@@ -11,7 +11,7 @@ namespace {
 
 constexpr png_alloc_size_t kMaxChunkBytes = 8UL << 20;
 
-/// longjmp leaves the C frames of libpng's callbacks.
+/// longjmp jumps over the C frames of libpng's callbacks.
 [[noreturn]] void on_row_error(png_structp png, png_const_charp message) {
   auto* text = static_cast<char*>(png_get_error_ptr(png));
   std::snprintf(text, 128, "%s", message);

@@ -8,8 +8,8 @@
 namespace terrella {
 namespace {
 
-/// longjmp leaves the C frames of libpng's callbacks. Only on_write() grows the vector, and throws only if memory runs
-/// out.
+/// longjmp jumps over the C frames of libpng's callbacks. Only on_write() grows the vector, and throws only if memory
+/// runs out.
 void on_write(png_structp png, png_bytep bytes, std::size_t size) {
   auto* out = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
   const auto* first = reinterpret_cast<const std::byte*>(bytes);
