@@ -36,7 +36,7 @@ FileError system_error(const std::filesystem::path& path, int code) {
 
 using Bytes = Result<std::vector<std::byte>, FileError>;
 
-/// Reads `size` bytes, or fewer where the file ends before.
+/// Reads `size` bytes, or fewer if the file ends before.
 Bytes read_bytes(const OpenFile& file, const std::filesystem::path& path, std::size_t size) {
   std::vector<std::byte> bytes(size);
   std::size_t filled = 0;
@@ -51,12 +51,12 @@ Bytes read_bytes(const OpenFile& file, const std::filesystem::path& path, std::s
   return bytes;
 }
 
-/// The size of a regular file.
+/// Size of a regular file.
 Result<std::size_t, FileError> size_of(const OpenFile& file, const std::filesystem::path& path) {
   if (file.descriptor() < 0) return system_error(path, errno);
   struct stat status {};
   if (fstat(file.descriptor(), &status) != 0) return system_error(path, errno);
-  // A pipe or a device under a tile's name would block a worker for ever.
+  // A pipe or device in place of a tile would block a worker forever.
   if (!S_ISREG(status.st_mode)) return FileError{FileProblem::unreadable, path.string() + ": not a regular file"};
   return static_cast<std::size_t>(status.st_size);
 }

@@ -10,7 +10,7 @@ bool JsonBuilder::count() {
   return problem_ == Problem::none;
 }
 
-// A container does not move while it is open: its own container grows only after it.
+// A container does not move while it is open, because its parent grows only after it is closed.
 json* JsonBuilder::place(json value) {
   if (open_.empty()) {
     document_ = std::move(value);

@@ -17,7 +17,7 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
   enum class Problem { none, syntax, number, too_deep, too_much };
   struct Limits {
     std::size_t depth = 0;  ///< nesting: number of containers around a value
-    /// values, keys, and begins and ends of containers, counted since the last value that was dropped
+    /// Values, keys, and begins and ends of containers, counted since the last value that was dropped.
     std::size_t pieces = 0;
   };
   /// Called for each complete value with at most two containers around it. Returns true to keep the value. `member` is

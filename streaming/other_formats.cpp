@@ -31,7 +31,7 @@ constexpr std::array kFormats = {
     FormatStart{"GRIB", "GRIB"sv},
     FormatStart{"FITS", "SIMPLE  ="sv},
 };
-/// Formats that begin with text, somewhere in the first bytes.
+/// Formats recognised by text somewhere in the first bytes.
 constexpr std::array kTextFormats = {FormatStart{"a GDAL VRT", "<VRTDataset"sv}, FormatStart{"PDS", "PDS_VERSION_ID"sv},
                                      FormatStart{"PDS", "Product_Observational"sv},
                                      FormatStart{"an ISIS cube", "IsisCube"sv}, FormatStart{"an ESRI grid", "ncols"sv}};

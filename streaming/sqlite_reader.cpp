@@ -30,7 +30,8 @@ SqlError sql_error(sqlite3* database, int code) {
           database != nullptr ? sqlite3_errmsg(database) : "out of memory"};
 }
 
-/// The schema is not ours: functions with side effects must not run from it, and broken pages must be noticed.
+/// Secures a connection to an untrusted file: disables functions with side effects in its schema, and detects broken
+/// pages.
 int distrust(sqlite3* database, std::size_t max_value_bytes) {
   sqlite3_extended_result_codes(database, 0);
   sqlite3_busy_timeout(database, kBusyTimeoutMs);

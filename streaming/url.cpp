@@ -11,7 +11,7 @@ constexpr std::string_view kEndsSentence = ".,:;)";
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// The place of `part`, which is in lower case, in a text of any case.
+/// Finds `part`, which is in lower case, in a text of any case.
 std::size_t find_letters(std::string_view text, std::string_view part, std::size_t from) {
   const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(from, text.size()));
   const auto found =
@@ -19,8 +19,8 @@ std::size_t find_letters(std::string_view text, std::string_view part, std::size
   return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
 }
 
-/// The place of the host, of user and password if there are any; npos for a path. Nobody writes a path that begins with
-/// "http:": that is an address with a slash too few.
+/// Position of the host, or of user and password before it; npos for a path. Nobody writes a path that begins with
+/// "http:", so that text is an address with a missing slash.
 std::size_t authority_of(std::string_view text) {
   const std::size_t scheme = text.find("://");
   if (scheme != std::string_view::npos) return scheme + 3;
@@ -30,17 +30,17 @@ std::size_t authority_of(std::string_view text) {
   return std::min(text.find_first_not_of('/', text.find(':') + 1), text.size());
 }
 
-/// True for a description itself in the place of its file's name.
+/// True if the text is a JSON description instead of its file's name.
 bool is_json(std::string_view text) { return text.starts_with('{') && text.find('"') != std::string_view::npos; }
 
-/// False if what follows the host's colon is no port: a password that holds a "/", "?" or "#" looks like that.
+/// False if the text after the host's colon is no port. A password that contains "/", "?" or "#" looks like that.
 bool has_good_port(std::string_view host) {
   const std::size_t bracket = host.rfind(']');
   const std::size_t colon = host.find(':', bracket == std::string_view::npos ? 0 : bracket);
   return colon == std::string_view::npos || host.find_first_not_of("0123456789", colon + 1) == std::string_view::npos;
 }
 
-/// Parameters of WMTS and WMS requests (OGC 07-057, 06-042) say which picture is meant, and no more.
+/// Parameters of WMTS and WMS requests (OGC 07-057, 06-042) select the picture and are not secret.
 bool is_public(std::string_view parameter) {
   constexpr std::string_view kPublic[] = {
       "service", "request",     "version",       "layer",      "layers",     "style",   "styles",

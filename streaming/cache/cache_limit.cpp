@@ -7,16 +7,16 @@ namespace {
 
 constexpr std::uint64_t kLogBytes = 32UL << 20;
 constexpr std::uint64_t kBatchBytes = 8UL << 20;
-/// The log may grow by a batch and by pages of indexes beyond its share before it is written back.
+/// Before it is written back, the log may exceed its share by one batch and some pages of indexes.
 constexpr std::uint64_t kLogShare = 64;
 constexpr std::uint64_t kBatchShare = 128;
 constexpr std::uint64_t kLeastLogBytes = 128UL << 10;
 constexpr std::uint64_t kLeastBatchBytes = 64UL << 10;
-/// Pages of indexes and of the map of pages that a transaction may add beside its tiles.
+/// Pages of indexes and of the page map that a transaction may add to its tiles.
 constexpr std::int64_t kSpare = 8;
-/// Of side tables and indexes, for each tile.
+/// Bytes in side tables and indexes for each tile.
 constexpr std::uint64_t kRowBytes = 100;
-/// Pages hold a few tiles each, so their ends stay empty (streaming/cache/README.md, "Figures").
+/// Pages hold a few tiles each, so the ends of pages stay empty (streaming/cache/README.md, "Figures").
 constexpr double kPagesFilled = 1.08;
 
 }  // namespace

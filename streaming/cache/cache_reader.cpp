@@ -10,7 +10,8 @@
 namespace terrella {
 namespace {
 
-/// One statement, so that tile and absence are of one moment: while one replaces the other there is never neither.
+/// A single statement reads tile and absence at the same moment. While one replaces the other, a reader therefore never
+/// misses both.
 std::string find_sql(const char* data) {
   return fmt::format(
       "SELECT {}, t.id, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used FROM tiles t "
@@ -20,7 +21,7 @@ std::string find_sql(const char* data) {
       data);
 }
 
-/// The same for rows below one another, which stand side by side in the index that the table of tiles has anyway.
+/// The same for the rows of a column, which are adjacent in the existing index of the tile table.
 constexpr const char* kColumnSql =
     "SELECT NULL, t.id, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used, t.tile_row FROM tiles t "
     "LEFT JOIN terrella_cache_tiles s ON s.id = t.id WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row BETWEEN "
@@ -41,7 +42,7 @@ FoundRecord record_of(const SqliteQuery& query) {
   record.stored_unix_s = query.integer(6).value_or(0);
   record.expires_unix_s = query.integer(7);
   found.used = query.integer(8);
-  // A tile that another program put in has no side row.
+  // A tile stored by another program has no side row.
   record.pinned = found.row && query.integer(6) && !found.used;
   return found;
 }

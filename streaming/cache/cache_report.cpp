@@ -17,16 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxProblems = 100;
-/// Counting goes over all rows of a table, which may be hundreds of millions.
+/// A count visits all rows of a table, maybe hundreds of millions.
 constexpr std::int64_t kCountSteps = std::numeric_limits<std::int64_t>::max();
 
-/// A file that was cut off, or has pages of noise.
+/// Error for a truncated file, or one with random pages.
 Error damaged(const fs::path& path, const SqlError& error) {
   return Error{fmt::format("{}: the cache is damaged or was cut off: {}; preload it again, or leave it out",
                            path.string(), error.message)};
 }
 
-/// The first error of a chain of questions is kept; those after it are not asked.
+/// Asks a chain of questions. Keeps the first error and then skips the remaining questions.
 class Questions {
  public:
   explicit Questions(const fs::path& path) : path_(path) {
@@ -38,7 +38,7 @@ class Questions {
     }
   }
 
-  /// Calls for each row until the call returns false.
+  /// Calls `row` for each row until `row` returns false.
   template <class Row>
   void ask(const std::string& sql, const Row& row, std::optional<std::int64_t> parameter = {}) {
     if (error_) return;
@@ -85,7 +85,7 @@ std::uint64_t used_bytes(Questions& questions) {
   return static_cast<std::uint64_t>((numbers[0] - numbers[1]) * numbers[2]);
 }
 
-/// What to say of a file that cannot be read as a cache; nothing if it can.
+/// Error for a file that cannot be read as a cache; nothing if it can.
 std::optional<Error> find_fault(const fs::path& path) {
   const std::string name = path.string();
   const Error no_cache{name + ": is not a cache; caches are what `preload` and `view` fill from a source"};
@@ -153,7 +153,7 @@ Result<CacheReport> read_cache_report(const fs::path& path, std::int64_t now_uni
 Result<CacheReport> verify_cache(const fs::path& path, std::int64_t now_unix_s) {
   Result<CacheReport> report = read_cache_report(path, now_unix_s);
   if (!report) return report;
-  // The check is one step of SQLite's machine that takes as long as it takes: no limit on a row's time applies.
+  // The check is one long step of SQLite's virtual machine, so it must run without a limit on the time for a row.
   WriteResult<SqliteWriter> database = SqliteWriter::open(path, SqliteWriter::Mode::read);
   if (!database) return Error{fmt::format("{}: cannot be read: {}", path.string(), database.error().message)};
   std::vector<std::string>& problems = report->problems.emplace();

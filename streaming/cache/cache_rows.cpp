@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 // clang-format off
-/// In the order of CacheRows::Which.
+/// Indexed by CacheRows::Which.
 constexpr std::array kSql = {
     "INSERT OR IGNORE INTO tiles (zoom_level, tile_column, tile_row, tile_data) VALUES (?1, ?2, ?3, ?4)",
     "SELECT id FROM tiles WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3",
@@ -43,7 +43,7 @@ constexpr std::array kSql = {
 };
 // clang-format on
 
-/// Absences go in larger steps than tiles: they are small.
+/// Absences are small and are deleted in larger steps than tiles.
 constexpr int kAbsencesPerTile = 16;
 
 void bind_place(SqliteStatement& statement, const TileId& id) {
@@ -105,8 +105,8 @@ WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std
 WriteStatus CacheRows::put_absence(const TileId& id, const CacheRecord& record) {
   const auto there = row_of(id);
   if (!there) return there.error();
-  // A tile that is here is kept: one answer of a server is no reason to lose it. It is asked for again after the
-  // absence's life; what could not be asked for now says nothing at all.
+  // A stored tile is kept: one answer of a server is no reason to lose it. The tile is requested again after the
+  // absence's lifetime. A failed request gives no information.
   if (*there) return *record.absence == Absence::failed ? WriteStatus(Done{}) : expire(**there, record.expires_unix_s);
   SqliteStatement& put = statements_[kPutAbsence];
   bind_place(put, id);
@@ -128,7 +128,7 @@ WriteStatus CacheRows::expire(std::int64_t row, std::optional<std::int64_t> expi
 WriteResult<std::int64_t> CacheRows::pin(const TileId& first, const PinRun& run) {
   if (!run.pinned && first.level == root_level_) return std::int64_t{0};
   if (run.pinned) {
-    // A preload that goes on where it stopped finds everything pinned.
+    // In a resumed preload all tiles are pinned already.
     const WriteResult<std::int64_t> unpinned = number(kAnyUnpinned);
     if (!unpinned || *unpinned == 0) return unpinned;
   }
@@ -189,7 +189,7 @@ WriteResult<std::int64_t> CacheRows::evict(int most) {
   for (const std::int64_t row : rows) {
     if (WriteStatus deleted = delete_tile(row); !deleted) return deleted.error();
   }
-  // With no tile left to go, absences go by themselves.
+  // Without tiles to evict, absences are evicted alone.
   if (rows.empty()) until = std::numeric_limits<std::int64_t>::max();
   statements_[kDropOldAbsences].bind(1, until);
   statements_[kDropOldAbsences].bind(2, std::int64_t{most} * kAbsencesPerTile);

@@ -24,7 +24,7 @@ constexpr std::array kSideTables = {
     "CREATE TABLE terrella_cache (key TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE terrella_cache_tiles (id INTEGER PRIMARY KEY, etag TEXT NOT NULL, last_modified TEXT NOT NULL, "
     "stored INTEGER NOT NULL, expires INTEGER, used INTEGER)",
-    // Root tiles have no last use: they are never evicted, so they need not stand in the index.
+    // Root tiles have no last use, because they are never evicted. The index omits them.
     "CREATE INDEX terrella_cache_tiles_used ON terrella_cache_tiles (used) WHERE used IS NOT NULL",
     "CREATE TABLE terrella_cache_absences (zoom_level INTEGER NOT NULL, tile_column INTEGER NOT NULL, "
     "tile_row INTEGER NOT NULL, kind TEXT NOT NULL, why TEXT NOT NULL, etag TEXT NOT NULL, last_modified TEXT NOT NULL, "
@@ -47,8 +47,8 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Every table that is written to must be word for word ours, with no trigger or index of others' on it: what stands
-/// there (expressions, defaults, virtual tables) would run with each tile.
+/// Checks that the definitions of all written tables are exactly Terrella's, without foreign triggers or indexes. Other
+/// definitions (expressions, defaults, virtual tables) would run with each write.
 WriteResult<bool> tables_are_ours(SqliteWriter& database) {
   std::string expected = quoted(tile_table_sql("tiles"));
   for (const char* sql : kSideTables) expected += ", " + quoted(sql);
@@ -80,17 +80,17 @@ WriteStatus write_file(const fs::path& part, const TileSetInfo& info, const std:
   return write_cache_schema(*database, info, source_key);
 }
 
-/// Gives the file its name unless there is one of that name; 0 or errno.
+/// Gives the file its name unless that name exists. Returns 0 or errno.
 int give_name(const fs::path& part, const fs::path& path) {
   if (link(part.c_str(), path.c_str()) == 0) return 0;
   if (errno == EEXIST) return 0;
-  // File systems of memory cards know no second names.
+  // File systems of memory cards do not support hard links.
   std::error_code failed;
   if (!fs::exists(path, failed)) fs::rename(part, path, failed);
   return failed.value();
 }
 
-/// Neither views nor virtual tables: what stands there would run with each write.
+/// Refuses views and virtual tables, because their code would run with each write.
 WriteResult<bool> descriptions_are_tables(SqliteWriter& database) {
   const auto tables = database.integer(
       "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND sql LIKE 'CREATE TABLE %' AND name IN "
@@ -99,7 +99,7 @@ WriteResult<bool> descriptions_are_tables(SqliteWriter& database) {
   return *tables == 3;
 }
 
-/// In a transaction: another process may have extended it since it was looked at.
+/// Call in a transaction: another process may have extended the file since it was checked.
 WriteStatus add_levels(SqliteWriter& database, const TileGrid& grid) {
   const auto text = database.text(fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
   if (!text) return text.error();
@@ -192,7 +192,7 @@ WriteResult<FileKind> kind_of(SqliteWriter& database) {
   const WriteResult<bool> ours = tables_are_ours(database);
   if (!ours) return ours.error();
   if (!*ours) {
-    // A later version may have other tables; its own word for that is believed, since nothing is written then.
+    // A later version may have other tables. Its own version number is trusted, because nothing is written then.
     const auto version = database.text("SELECT value FROM terrella_cache WHERE key = 'version'");
     const bool newer = version && version->size() < 9 && std::atoi(version->c_str()) > kCacheVersion;
     return newer ? FileKind::newer : FileKind::tampered;

@@ -12,9 +12,9 @@ namespace terrella {
 
 /// Names of the side tables of a cache; README.md describes the columns.
 inline constexpr const char* kCacheTable = "terrella_cache";  ///< key, value: 'version', 'source'
-/// one row for each tile, keyed by the tile's id
+/// One row for each tile, keyed by the tile's id.
 inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";
-/// places without a tile, and the reason
+/// Places without a tile, and the reason.
 inline constexpr const char* kCacheAbsencesTable = "terrella_cache_absences";
 inline constexpr int kCacheVersion = 1;
 inline constexpr std::int64_t kCachePageBytes = 4096;

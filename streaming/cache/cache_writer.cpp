@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kPatience{60'000};
-/// A log that cannot be written back for so long has a reader that sleeps: then it grows.
+/// If the log cannot be written back for this long, a reader is asleep; the log then grows.
 constexpr std::chrono::seconds kLogPatience{10};
 constexpr int kEvictedAtATime = 32;
-/// Moving a page to the front of the file is a write of it: a step is small against a batch.
+/// Moving a page to the front of the file writes it. A step is small compared with a batch.
 constexpr std::int64_t kPagesGivenBackAtATime = 128;
 
 std::uint64_t log_bytes(const fs::path& path) {
@@ -47,7 +47,7 @@ WriteResult<std::unique_ptr<CacheWriter>> CacheWriter::make(SqliteWriter databas
   if (!page_bytes) return page_bytes.error();
   writer->page_bytes_ = *page_bytes;
   writer->budget_ = cache_budget(max_bytes, *page_bytes);
-  // A log that begins anew is cut short, so that its size says how much stands in it.
+  // A restarted log is truncated, so its size gives the amount of data in it.
   if (auto limited = file.integer("PRAGMA journal_size_limit = 0"); !limited) return limited.error();
   WriteResult<CacheRows> rows = CacheRows::prepare(file, root_level);
   if (!rows) return rows.error();
@@ -74,7 +74,7 @@ Status CacheWriter::write(const CacheBatch& batch, std::vector<bool>& no_room) {
   if (done) {
     done = write_rows(batch, std::time(nullptr), no_room);
     if (done) done = commit_->run();
-    // SQLite has rolled back by itself after some errors; saying it again does no harm.
+    // SQLite has already rolled back after some errors. A second rollback does no harm.
     if (!done) static_cast<void>(rollback_->run());
   }
   if (!done) return cache_error(path_, done.error());
@@ -146,7 +146,7 @@ WriteResult<bool> CacheWriter::fits(const CacheChange& change) {
   return *over == 0;
 }
 
-/// In steps, one for each batch: the file is over its limit only after the limit was lowered.
+/// Shrinks the file by one step per batch. The file exceeds its limit only after the limit was lowered.
 WriteStatus CacheWriter::give_back_pages() {
   if (budget_.file_pages == 0) return Done{};
   const WriteResult<std::int64_t> pages = first_number(*page_count_);
@@ -156,9 +156,10 @@ WriteStatus CacheWriter::give_back_pages() {
   return database_.run(fmt::format("PRAGMA incremental_vacuum({})", step));
 }
 
-/// A passive checkpoint waits for nobody. It leaves the log as long as it is while somebody reads from it; when that
-/// has gone on for too long, readers are waited for, and they are short. Nothing more is written while another process
-/// writes the log back, which on a slow disk would let it grow to many times its share.
+/// Writes the log back when it is long. A passive checkpoint waits for nobody, but cannot shorten the log while a
+/// reader uses it. If the log gets much longer, wait for the readers, which are quick. Meanwhile nothing more is
+/// written, even if another process writes the log back. Otherwise the log could grow to many times its share on a slow
+/// disk.
 void CacheWriter::keep_log_short() {
   const std::uint64_t log = log_bytes(path_);
   if (log < budget_.log_bytes) return;
@@ -172,7 +173,7 @@ void CacheWriter::keep_log_short() {
 
 bool CacheWriter::checkpoint(const char* mode, std::chrono::milliseconds patience) {
   database_.wait_for_locks(patience);
-  // It may fail (another process does it, the disk is full): then the next one does it, nothing is lost.
+  // The checkpoint may fail (another process does it, the disk is full). The next one succeeds and nothing is lost.
   const WriteResult<std::int64_t> busy = database_.integer(fmt::format("PRAGMA wal_checkpoint({})", mode));
   database_.wait_for_locks(kPatience);
   return busy && *busy == 0;

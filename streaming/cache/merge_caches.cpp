@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kRowsPerReport = 256;
 
 // clang-format off
-/// Tiles in the order of the file, so that they are read in one go.
+/// Tiles in the order of the file, for a single sequential read.
 constexpr const char* kTilesSql =
     "SELECT zoom_level, tile_column, tile_row, tile_data, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used, "
     "s.id IS NOT NULL AND s.used IS NULL FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id ORDER BY t.id";
@@ -36,7 +36,7 @@ constexpr const char* kAbsencesSql =
     "FROM terrella_cache_absences";
 // clang-format on
 
-/// True if a record takes the place of what is known of it: a tile that of any absence, else the later one.
+/// True if a record replaces the known record of its place: a tile replaces any absence, else the later record wins.
 bool wins(const CacheRecord& record, const CacheRows::Known& known) {
   if (!record.absence) return !known.tile_stored || record.stored_unix_s >= *known.tile_stored;
   if (known.tile_stored) return false;
@@ -66,7 +66,7 @@ Row row_of(const SqliteQuery& query) {
   return row;
 }
 
-/// The file that is being made; it goes with its owner unless it got its name.
+/// The result while it is made. The destructor deletes the file unless it got its final name.
 class MergedFile {
  public:
   explicit MergedFile(const fs::path& output) : output_(output), part_(merge_part_name(output)) {
@@ -128,7 +128,7 @@ class MergedFile {
   }
 
  private:
-  /// Nobody else knows the file, and a broken one is thrown away: no journal.
+  /// No journal: no other process knows the file, and a broken one is deleted.
   WriteStatus write_head(const CacheReport& first) {
     WriteResult<SqliteWriter> database = SqliteWriter::open(part_, SqliteWriter::Mode::existing);
     if (!database) return database.error();
@@ -175,7 +175,8 @@ Status copy_rows(const fs::path& cache, const char* sql, MergedFile& merged, Mer
   return Done{};
 }
 
-/// All must be of one source; the total of their rows is added up. Returns the first, with the levels of all.
+/// Checks that all inputs belong to one source, and adds up their rows. Returns the first report with the levels of
+/// all.
 Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64_t& rows) {
   std::optional<CacheReport> first;
   for (const fs::path& cache : caches) {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPartEnding = ".part";
-constexpr std::string_view kJournalEnding = "-journal";  // SQLite's
+constexpr std::string_view kJournalEnding = "-journal";  // SQLite's ending
 
 fs::path part_folder(const fs::path& output) {
   return output.parent_path().empty() ? fs::path(".") : output.parent_path();
@@ -30,7 +30,7 @@ std::string part_prefix(const fs::path& output) {
   return fmt::format(".{}.{}.", output.filename().string(), host.data());
 }
 
-/// Whose part, or journal of a part, a file name is; nothing if it is no part of that prefix.
+/// Process id in the name of a part or of its journal; nothing if the name is no part with that prefix.
 std::optional<pid_t> part_owner(std::string_view name, std::string_view prefix) {
   if (name.ends_with(kJournalEnding)) name.remove_suffix(kJournalEnding.size());
   if (!name.starts_with(prefix) || !name.ends_with(kPartEnding)) return std::nullopt;
@@ -39,12 +39,12 @@ std::optional<pid_t> part_owner(std::string_view name, std::string_view prefix) 
   name.remove_suffix(kPartEnding.size());
   pid_t process = 0;
   const auto [end, failed] = std::from_chars(name.data(), name.data() + name.size(), process);
-  // Zero and below are not processes but groups of them.
+  // Numbers of zero and below are process groups, not processes.
   if (failed != std::errc() || end != name.data() + name.size() || process <= 0) return std::nullopt;
   return process;
 }
 
-/// A process of another user counts as alive: it answers EPERM.
+/// Treats a process of another user (EPERM) as alive.
 bool is_dead(pid_t process) { return kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace

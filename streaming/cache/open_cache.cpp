@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxSetAside = 10'000;
-/// Two processes may find the same damage, or one another's new file; each round ends with a file that is there.
+/// Two processes may find the same damage, or each other's new file. Each round ends with an existing file.
 constexpr int kMaxRounds = 8;
 
-/// What a look at the file ends in: a database, a refusal, or damage.
+/// Result of checking the file: a database, a refusal, or damage.
 struct Look {
   std::optional<SqliteWriter> database;
   std::optional<CacheOpenError> refused;
@@ -41,14 +41,15 @@ Look failed(const fs::path& path, const WriteError& error) {
   return error.problem == WriteProblem::damaged ? damaged(error.message) : refused(cache_error(path, error), true);
 }
 
-/// The file's number on its file system: what was looked at is what is renamed.
+/// Inode number of the file, which ensures that exactly the checked file is renamed.
 std::optional<ino_t> number_of(const fs::path& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return std::nullopt;
   return status.st_ino;
 }
 
-/// Empty: sound. Bounded by the size of what is read: SQLite 3.40 cannot be told to stop a check.
+/// Returns an empty text for a sound file. The size of the checked part bounds the time, because SQLite 3.40 cannot
+/// interrupt a check.
 WriteResult<std::string> find_damage(SqliteWriter& database, const fs::path& path) {
   std::error_code error;
   const bool small = fs::file_size(path, error) <= kMaxQuickCheckBytes;
@@ -74,7 +75,7 @@ std::optional<Error> kind_refusal(FileKind kind, const fs::path& path) {
   return std::nullopt;
 }
 
-/// Another source's tiles are worth keeping: they are refused, not set aside.
+/// Refuses another source's tiles instead of setting them aside, because they are worth keeping.
 Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo& info, const std::string& key) {
   const auto source = database.text("SELECT value FROM terrella_cache WHERE key = 'source'");
   if (!source) return failed(path, source.error());
@@ -104,7 +105,7 @@ Look check_source(SqliteWriter database, const fs::path& path, const TileSetInfo
   return look;
 }
 
-/// Nothing is written to the file before it is known to be ours and sound.
+/// Writes nothing to the file before it is known to be Terrella's and sound.
 Look look_at(const fs::path& path, const TileSetInfo& info, const std::string& source_key,
              const std::function<void()>& on_locked) {
   if (!is_sqlite_file(path)) return damaged("not an SQLite database");
@@ -121,7 +122,7 @@ Look look_at(const fs::path& path, const TileSetInfo& info, const std::string& s
   return check_source(*std::move(database), path, info, source_key);
 }
 
-/// Renames the file and what belongs to it. Empty: it was no longer there, or no longer the one that was looked at.
+/// Renames the file and its log. Returns an empty path if the file was gone, or was no longer the checked file.
 Result<fs::path> set_aside(const fs::path& path, std::optional<ino_t> looked_at) {
   for (int n = 1; n <= kMaxSetAside; ++n) {
     const fs::path aside = path.string() + fmt::format(".damaged-{}", n);
@@ -160,7 +161,7 @@ bool same_source(const std::string& a, const std::string& b) {
   json one = json::parse(a, nullptr, false);
   json other = json::parse(b, nullptr, false);
   if (!one.is_object() || !other.is_object()) return false;
-  // What is said of each level: the shorter list must be how the longer one begins.
+  // For lists of levels, the shorter list must be a prefix of the longer one.
   for (const char* list : {"levels", "shifts"}) {
     if (!one[list].is_array() || !other[list].is_array()) return false;
     if (one[list].size() > other[list].size()) std::swap(one[list], other[list]);

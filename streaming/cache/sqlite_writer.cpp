@@ -14,10 +14,10 @@ namespace terrella {
 namespace {
 
 constexpr std::chrono::milliseconds kDefaultPatience{60'000};
-/// From here on a person is told what is waited for.
+/// Waits from this length on are reported to the user.
 constexpr std::chrono::seconds kLongWait{1};
-/// A writer that is busy without pause frees the lock for a moment only, several hundred times a second: short looks
-/// find it, SQLite's own pauses of up to 100 ms may not.
+/// A constantly busy writer frees the lock only for moments, several hundred times a second. Short intervals find such
+/// a moment; SQLite's own pauses of up to 100 ms may not.
 constexpr std::chrono::microseconds kBetweenLooks{700};
 
 int on_busy(void* context, int tried) {
@@ -58,7 +58,7 @@ int distrust(sqlite3* database) {
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
-  // Debian's SQLite overwrites what is deleted with zeros unless told that nobody minds.
+  // Debian's SQLite overwrites deleted data with zeros unless this is switched off.
   return sqlite3_exec(database,
                       "PRAGMA cell_size_check=ON; PRAGMA mmap_size=0; PRAGMA temp_store=MEMORY; "
                       "PRAGMA secure_delete=OFF; PRAGMA synchronous=NORMAL; PRAGMA wal_autocheckpoint=0; "
@@ -82,7 +82,7 @@ void SqliteStatement::bind(int index, const std::optional<std::int64_t>& value) 
 }
 
 void SqliteStatement::bind(int index, std::string_view value) {
-  // A null pointer would be NULL, not an empty text.
+  // A null pointer would bind NULL instead of an empty text.
   sqlite3_bind_text64(statement_.get(), index, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC,
                       SQLITE_UTF8);
 }
@@ -96,7 +96,7 @@ void SqliteStatement::bind(int index, std::span<const std::byte> value) {
 }
 
 WriteResult<bool> SqliteStatement::step() {
-  // sqlite3_system_errno() does not know of what happens in COMMIT.
+  // sqlite3_system_errno() does not see failures in COMMIT.
   errno = 0;
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;

@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A use is written down again only when the last one that is known is this old.
+/// A use is recorded only if the last recorded one is this old.
 constexpr std::int64_t kUseGrain_s = 30;
-/// After this long without work the log is emptied into the file.
+/// After this long without work the log is written back and emptied.
 constexpr std::chrono::seconds kIdle{2};
 
 void apply(const Renewal& renewal, CacheRecord& record) {
@@ -39,7 +39,7 @@ CacheRecord without_bytes(const CacheRecord& record) {
           .pinned = record.pinned};
 }
 
-/// What a place will have once the queue is written, where that does not depend on the file.
+/// Record of a place after the queue is written, if that does not depend on the file.
 CacheRecord record_of(const PendingRecord& pending, bool whole) {
   CacheRecord record = whole ? *pending.record : without_bytes(*pending.record);
   if (pending.renewal && record.absence != Absence::failed) apply(*pending.renewal, record);
@@ -81,7 +81,7 @@ class SqliteTileCache : public TileCache {
   [[nodiscard]] Status peek_column(
       int level, std::int64_t x, std::int64_t first_y, std::int64_t last_y,
       const std::function<void(std::int64_t y, const CacheRecord& record)>& call) override {
-    // Before the file, as in look_up().
+    // Asks the queue before the file, as in look_up().
     if (queue_.has_pending_in(level, x, first_y, last_y)) {
       return TileCache::peek_column(level, x, first_y, last_y, call);
     }
@@ -126,14 +126,14 @@ class SqliteTileCache : public TileCache {
 
  private:
   [[nodiscard]] Result<std::optional<CacheRecord>> look_up(const TileId& id, bool whole) {
-    // Before the file: what leaves the queue meanwhile is in the file by then.
+    // Asks the queue before the file: a change that leaves the queue meanwhile is in the file by then.
     const std::optional<PendingRecord> pending = queue_.pending(id);
     const CacheRecord* absence =
         pending && pending->record && pending->record->absence ? pending->record.get() : nullptr;
     if (pending && pending->record && absence == nullptr) return std::optional(record_of(*pending, whole));
     Result<std::optional<FoundRecord>> found = readers_.find(id, whole);
     if (!found) return found.error();
-    // An absence that waits to be written does not take the place of a tile.
+    // A queued absence does not replace a tile.
     if (absence != nullptr && (!*found || (*found)->record.absence)) return std::optional(record_of(*pending, whole));
     if (!*found) return std::optional<CacheRecord>();
     if (whole) note_use(**found);
@@ -186,7 +186,7 @@ class SqliteTileCache : public TileCache {
   const std::unique_ptr<CacheWriter> writer_;
   WriteQueue queue_;
   CacheReaders readers_;
-  std::thread thread_;  ///< last: it uses all the others
+  std::thread thread_;  ///< last member, because the thread uses all others
 };
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A transaction costs as much as some ten tiles, so the first tile waits this long for others.
+/// A transaction costs as much as about ten tiles. The first tile therefore waits this long for others.
 constexpr std::chrono::milliseconds kLinger{20};
-/// Uses alone are no reason to write more often than this.
+/// Shortest interval between writes that contain only uses.
 constexpr std::chrono::seconds kUsesWait{10};
 constexpr std::size_t kMaxUses = 4096;
 
@@ -30,7 +30,7 @@ void WriteQueue::push(CacheChange change) {
   if (changes_.size() == 1 || changes_.size() >= limits_.batch_tiles) work_.notify_one();
 }
 
-/// The same rules as CacheRows::put() and renew(): what is found now is what will be found.
+/// Applies the rules of CacheRows::put() and renew(), so that readers find now the record that will be written.
 void WriteQueue::merge_pending(const CacheChange& change) {
   if (change.pin) return;
   PendingRecord& pending = pending_[change.id];
@@ -46,7 +46,7 @@ void WriteQueue::merge_pending(const CacheChange& change) {
     pending.renewal = {stored, record.expires_unix_s};
     return;
   }
-  // A renewal before an absence is of what is in the file, where there may be a tile.
+  // A renewal queued before an absence applies to the file, which may have a tile.
   if (!record.absence) pending.renewal.reset();
   if (pending.renewal && record.absence != Absence::failed) pending.renewal->expires_unix_s = record.expires_unix_s;
   pending.record = change.record;

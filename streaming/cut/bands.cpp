@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What strips may take in memory together where a picture's width lets them, bytes; those under construction can
-/// always be had.
+/// Most memory for all strips together, bytes, if the picture's width permits. The strips in progress always get their
+/// memory.
 constexpr std::size_t kStripBytes = 190UL << 20;
-/// Strips that wait for an encoder while the next ones are filled.
+/// Number of strips that wait for an encoder while the next ones are filled.
 constexpr std::size_t kStripsAhead = 2;
 /// Small pictures may run further ahead, bytes.
 constexpr std::size_t kAlwaysAllowedBytes = 48UL << 20;
@@ -33,7 +33,7 @@ std::size_t pool_bytes(const BandWork& work, const PyramidPart& part) {
   return std::max(building, std::min(wished, kStripBytes));
 }
 
-/// A band's pyramids, one a piece, and where their tiles and rows go.
+/// The pyramids of a band, one for each piece, and the outputs for their tiles and rows.
 class BandMaker {
  public:
   BandMaker(const BandWork& work, const PyramidPart& part, StripPool& strips, RecordLogWriter& tiles,
@@ -90,7 +90,7 @@ std::int64_t rows_in(const BandWork& work) { return work.plan.finest.y1 - work.p
 
 Status stopped(const BandWork& work) { return Error{fmt::format("{}: cutting was stopped", work.output.string())}; }
 
-/// Rows [from, to) of the picture.
+/// Streams the rows [from, to) of the picture.
 Status stream_rows(const BandWork& work, RowReader& reader, std::int64_t from, std::int64_t to, BandMaker& maker) {
   const std::int64_t total = rows_in(work);
   for (std::int64_t y = from; y < to; ++y) {
@@ -103,7 +103,7 @@ Status stream_rows(const BandWork& work, RowReader& reader, std::int64_t from, s
 }
 
 struct RowRange {
-  std::int64_t from, to;  ///< of the picture
+  std::int64_t from, to;  ///< rows of the picture
 };
 
 RowRange rows_of_band(const BandWork& work, std::int64_t band) {
@@ -128,7 +128,7 @@ Status make_band(const BandWork& work, RowReader& reader, std::int64_t band, Str
     if (Status streamed = stream_rows(work, reader, rows.from, rows.to, maker); !streamed) return streamed;
     if (Status finished = maker.finish(); !finished) return finished;
   }
-  // A band whose rows have their name has its tiles too.
+  // If the rows of a band have their final name, its tiles have theirs too.
   if (Status whole = (*tiles)->finish(); !whole) return whole;
   return (*kept)->finish();
 }
@@ -172,7 +172,7 @@ Status put_rows(const fs::path& path, const std::vector<std::unique_ptr<Pyramid>
   }
 }
 
-/// Levels above the bands' own.
+/// Makes the levels above the bands' own.
 Status make_coarse_levels(const BandWork& work, const std::vector<fs::path>& bands, TileWriter& writer,
                           TileCounts& counts) {
   const PyramidPart part{

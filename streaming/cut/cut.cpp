@@ -46,7 +46,7 @@ TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutIn
           .elevation = input.elevation};
 }
 
-/// One call of cut(), its pictures opened and its output checked.
+/// One call of cut() with its pictures opened and its output checked.
 struct Job {
   const CutOptions& options;
   OutputClaim claim;
@@ -120,7 +120,7 @@ Result<CutSummary> join_shards(const Job& job) {
 
 fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
 
-/// `placed` becomes the options with the bounds that the pictures say.
+/// `placed` becomes the options with the bounds stated by the pictures.
 Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, CutOptions& placed) {
   placed = options;
   if (!placed.bounds) placed.bounds = input.bounds;
@@ -129,7 +129,7 @@ Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, Cut
   return Error{fmt::format("{}; or resample it: {}", plan.error().message, input.resample_command)};
 }
 
-/// Before any work: what the output would replace may be known to stay.
+/// Checks the output before any work, because it may be known already that the output must stay.
 Result<OutputClaim> claim_output(const CutOptions& options) {
   if (options.output.empty()) return Error{"no output is named; give a file that ends in .gpkg, or a folder"};
   const auto key = cut_key(options);

@@ -27,7 +27,7 @@ Result<std::string> cache_name(const CutOptions& options) {
 
 Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
   if (options.images.size() != 1) return Error{"one picture is cut into the cache at a time"};
-  // What a file beside the picture says is no part of the picture's own size and time.
+  // Files beside the picture can change the place without changing the picture's own size and time.
   const auto said = said_bounds(options);
   if (!said) return said.error();
   CutOptions placed = options;
@@ -37,7 +37,7 @@ Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache
   CutOptions into = options;
   into.output = cache_dir / *name;
   std::error_code failed;
-  // A file has this name only when it is whole.
+  // A file with this name is always complete.
   if (fs::is_regular_file(into.output, failed)) return into.output;
   fs::create_directories(cache_dir, failed);
   if (failed) return Error{fmt::format("{}: cannot be made: {}", cache_dir.string(), failed.message())};

@@ -13,7 +13,7 @@
 namespace terrella {
 namespace {
 
-/// A change of what the cutter makes makes old files unknown.
+/// Increase this number if the cutter's output changes; older files are then no longer found.
 constexpr int kKeyVersion = 3;
 
 std::string number_text(const std::optional<double>& number) { return number ? fmt::format("{:a}", *number) : "-"; }

@@ -11,7 +11,8 @@
 namespace terrella {
 namespace {
 
-/// How far the picture's edge may be off the pixels of its own grid, pixels: what degrees with six decimals leave.
+/// Largest distance of the picture's edge from the pixels of its own grid, pixels: the error of degrees with six
+/// decimals.
 constexpr double kAlignment_px = 0.01;
 
 std::string name_of(const CutOptions& options) {
@@ -29,7 +30,7 @@ Status check_options(const CutOptions& options) {
   return Done{};
 }
 
-/// The coarsest root that needs no more than two tiles round the planet.
+/// Chooses the coarsest root that needs at most two tiles round the planet.
 Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name) {
   constexpr double kRounding = 1.0 - 1e-9;
   int level = 0;
@@ -39,7 +40,7 @@ Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name)
                            pixel_deg, level + 1, kMaxTileLevel + 1)};
 }
 
-/// Rows are squeezed most at the finest level, next to a pole.
+/// True if the grid has reduced rows. Reduction is strongest at the finest level next to a pole.
 bool has_reduced_rows(const CutPlan& plan) {
   TileGrid grid = plan.grid;
   grid.reduced = true;
@@ -63,7 +64,7 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
 
 Result<CutPlan> plan_planet(const PictureInfo& picture, const CutOptions& options) {
   const std::int64_t width = picture.width_px;
-  // Half the width of an odd one is no whole number of rows: either neighbour will do.
+  // Half of an odd width is no whole number of rows. Either neighbour is accepted.
   if (std::abs(width - 2 * picture.height_px) > 1) {
     return Error{fmt::format(
         "{0}: {1}x{2} pixels are not 2:1, so it is not a picture of a whole planet. Resize it to {3}x{4} if it "
@@ -82,7 +83,7 @@ struct Degrees {
   double west, south, east, north;
 };
 
-/// Rounds away what the way through radians has left. East of a picture that crosses ±180° is beyond 180°.
+/// Removes rounding errors of the conversion from radians. A picture that crosses ±180° gets an east beyond 180°.
 Degrees in_degrees(const GeoRect& rect) {
   const auto tidy = [](Angle angle) { return std::round(angle.deg() * 1e11) / 1e11; };
   const double turn = rect.east < rect.west ? 360.0 : 0.0;
@@ -99,7 +100,8 @@ Status check_bounds(const Degrees& b, const std::string& name) {
                   name, b.west, b.south, b.east, b.north)};
 }
 
-/// The pixel size that the bounds say, made a whole part of 360° if that moves no edge of the picture noticeably.
+/// Pixel size that follows from the bounds. Adjusted to a whole fraction of 360° if that moves no edge of the picture
+/// noticeably.
 double pixel_size_deg(const Degrees& b, std::int64_t width_px) {
   const double said = (b.east - b.west) / static_cast<double>(width_px);
   const double whole = 360.0 / std::round(360.0 / said);
@@ -122,7 +124,7 @@ Status check_alignment(const Degrees& b, const PixelRect& rect, double pixel_deg
                   name, x_off, y_off, nearest_bounds(rect, pixel_deg))};
 }
 
-/// A picture that crosses ±180° goes on at column 0 there, and no tile may be reached from both sides.
+/// Checks a picture that crosses ±180°: it continues there at column 0, and no tile may be reached from both sides.
 Status check_crossing(CutPlan& plan, const std::string& name) {
   const double turn = 360.0 / plan.pixel_deg;
   plan.turn_px = std::llround(turn);
@@ -155,7 +157,7 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   if (Status sane = check_bounds(b, name); !sane) return sane.error();
   const double pixel_deg = pixel_size_deg(b, picture.width_px);
   const auto height = static_cast<double>(picture.height_px);
-  // An odd whole planet has half a row too few or too many (plan_planet()).
+  // A whole planet of odd width has half a row too few or too many (plan_planet()).
   const bool planet = b.west == -180.0 && b.east == 180.0 && b.south == -90.0 && b.north == 90.0;
   if (planet) return plan_planet(picture, options);
   if (std::abs(height * pixel_deg - (b.north - b.south)) > kAlignment_px * pixel_deg) {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The tables of gpkg_schema.cpp, and SQLite's own.
+/// Finds a table that is neither in gpkg_schema.cpp nor SQLite's own.
 constexpr const char* kForeignTable =
     "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name NOT LIKE 'sqlite\\_%' ESCAPE '\\' AND "
     "name "
@@ -27,7 +27,7 @@ constexpr const char* kForeignTable =
     "'gpkg_2d_gridded_coverage_ancillary', 'gpkg_2d_gridded_tile_ancillary', 'tiles', 'terrella_tileset', "
     "'terrella_squeezed_tiles') ORDER BY name";
 
-/// What the claim finds under its name. `what` completes the sentence "OUT.gpkg: is …".
+/// Error about the existing output. `what` completes the sentence "OUT.gpkg: is …".
 Error stays(const OutputClaim& claim, const std::string& what) {
   return Error{
       fmt::format("{}: {}; `cut` replaces only tile sets that it wrote itself: name another output, or move "
@@ -50,7 +50,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return !failed && std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-/// By the file, not by its name: links to a picture are that picture.
+/// Compares files, not names, so that a link to a picture counts as that picture.
 Status check_inputs(const OutputClaim& claim, const fs::path& there) {
   for (const fs::path& image : claim.images) {
     std::error_code failed;
@@ -62,7 +62,7 @@ Status check_inputs(const OutputClaim& claim, const fs::path& there) {
   return Done{};
 }
 
-/// A journal beside the name belongs to what a program is writing there, or could not finish.
+/// A journal beside the output belongs to a program that writes there, or was interrupted.
 Status check_journals(const OutputClaim& claim) {
   for (const char* ending : {"-journal", "-wal"}) {
     const fs::path journal = claim.output.string() + ending;
@@ -76,7 +76,7 @@ Status check_journals(const OutputClaim& claim) {
   return Done{};
 }
 
-/// The first column of the first row, as text; empty if there is none.
+/// First column of the first row, as text; empty if there is none.
 Result<std::string, SqlError> first_text(SqliteReader& reader, const std::string& sql) {
   Result<SqliteQuery, SqlError> query = reader.prepare(sql);
   if (!query) return query.error();
@@ -104,7 +104,7 @@ Status check_geopackage(const OutputClaim& claim, const fs::path& there) {
   const auto text =
       first_text(*reader, fmt::format("SELECT value FROM {} WHERE key = '{}'", kTileSetTable, kTileSetKey));
   if (!text) return unreadable(text.error());
-  // Earlier versions of `cut` wrote the table, but no mark.
+  // Earlier versions of `cut` wrote the table without a mark.
   return check_mark(claim, read_cut_key(*text).value_or(""));
 }
 
@@ -121,7 +121,7 @@ Status check_file(const OutputClaim& claim, const fs::path& there) {
   return check_geopackage(claim, there);
 }
 
-/// Tiles lie in folders named by their levels.
+/// True for files and folders that `cut` writes; folders of tiles are named by level.
 bool is_own_entry(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
   if (name == kTileSetFile) return true;

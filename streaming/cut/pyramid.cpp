@@ -68,7 +68,7 @@ Pyramid::Level Pyramid::make_level(const CutPlan& plan, int level) {
   made.lead_px = made.px.x0 - made.shape.tile_x0 * plan.grid.tile_px;
   made.y = made.px.y0;
   if (plan.wraps) {
-    // One more than the tiles show: the partner of an odd last column.
+    // One column more than the tiles show: the partner of an odd last column.
     const std::int64_t end = made.shape.tiles * plan.grid.tile_px;
     for (std::int64_t x = made.px.x1; x <= end; ++x) made.beyond.push_back(wrapped(plan, level, x));
   } else {
@@ -114,7 +114,7 @@ void Pyramid::row_written() {
   finest.areas[finest.y & 1] = finest_row_area(plan_, finest.y);
   std::uint8_t* row = strip_row(finest) + finest.lead_px * 4;
   if (part_.pixels == PixelKind::opaque) {
-    // Tiles have an even number of rows, so both rows of a pair stand in the same strip.
+    // Tiles have an even number of rows, so both rows of a pair are in the same strip.
     const std::uint8_t* even = (finest.y & 1) == 0 ? row : row - finest.shape.stride_bytes();
     halve_if_due(finest, even, row);
   } else {
@@ -156,7 +156,8 @@ void Pyramid::coarse_row_done(Level& level) {
   close_strip_row(level);
 }
 
-/// A pair of rows is complete with its odd row, or with the last of all. A row without partner is its own.
+/// Halves a complete pair of rows. A pair is complete with its odd row, or with the last row of all. A row without a
+/// partner is its own partner.
 template <class T>
 void Pyramid::halve_if_due(Level& from, const T* even, const T* odd) {
   if (from.level == 0) return;
@@ -189,7 +190,7 @@ void Pyramid::halve_into(const Level& from, const T* even, const T* odd, Level& 
   mix_edge(from, even, odd, weights, to.px.x1 - 1, to);
 }
 
-/// A coarse column whose two finer ones may be covered in part, missing, or beyond ±180°.
+/// Computes a coarse column whose two finer columns may be partly covered, missing, or beyond ±180°.
 template <class T>
 void Pyramid::mix_edge(const Level& from, const T* even, const T* odd, const std::array<float, 2>& weights,
                        std::int64_t column, Level& to) {
@@ -239,7 +240,7 @@ void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
   }
 }
 
-/// Ends a row of a strip; the strip goes out with its last one, its rows outside the picture filled.
+/// Ends a row of a strip. After its last row, rows outside the picture are filled and the strip is emitted.
 void Pyramid::close_strip_row(Level& level) {
   const std::int64_t in_strip = level.y % plan_.grid.tile_px;
   std::uint8_t* row = level.strip->row(in_strip);

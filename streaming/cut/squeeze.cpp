@@ -11,10 +11,11 @@ namespace {
 
 using RowBytes = std::vector<std::uint8_t>;
 
-/// Pixels of a squeezed tile that are worked out on either side of it, for the filter's reach.
+/// Additional pixels on either side of a squeezed tile, for the filter's reach.
 constexpr std::int64_t kMargin_px = 4;
 
-/// `row.size() / 4` pixels of a strip's row from column `from` on, round the planet beyond the strip.
+/// Copies `row.size() / 4` pixels of a strip's row from column `from` on. Beyond the strip the columns wrap round the
+/// planet.
 void gather(const Strip& strip, const std::uint8_t* pixels, std::int64_t from, RowBytes& row) {
   const std::int64_t wide = strip.tiles * strip.tile_px;
   const auto count = static_cast<std::int64_t>(row.size() / 4);
@@ -28,9 +29,9 @@ void gather(const Strip& strip, const std::uint8_t* pixels, std::int64_t from, R
   }
 }
 
-/// Halves a row of pixels, premultiplied floats, with the half-band filter (-1, 9, 9, -1) / 16: near a pole neighbours
-/// along the parallel differ little, and their mean alone would blur what is left (a wave of five pixels keeps 0.83 of
-/// its height, by this filter 0.96). Ends are clamped.
+/// Halves a row of pixels (premultiplied floats) with the half-band filter (-1, 9, 9, -1) / 16. Near a pole, neighbours
+/// along the parallel differ little, and a plain mean would blur the rest. A wave of five pixels keeps 0.83 of its
+/// height with the mean, and 0.96 with this filter. Ends are clamped.
 void halve_sharply(const std::vector<float>& in, std::vector<float>& out) {
   const std::size_t last = in.size() / 4 - 1, pairs = in.size() / 8;
   out.resize(pairs * 4);
@@ -43,8 +44,8 @@ void halve_sharply(const std::vector<float>& in, std::vector<float>& out) {
   }
 }
 
-/// Brings what the filter overshoots back into range. Values halfway between two whole numbers are common: rounded up
-/// every time they would make the row brighter, to even ones they do not.
+/// Clamps the overshoot of the filter, and rounds values halfway between two whole numbers to the even one. Such values
+/// are common, and rounding all of them up would brighten the row.
 void settle(std::vector<float>& row) {
   for (std::size_t i = 0; i < row.size(); i += 4) {
     row[i + 3] = std::clamp(row[i + 3], 0.0F, 255.0F);

@@ -30,7 +30,7 @@ std::size_t StripPool::held_bytes() const {
   return lent_bytes_ + free_bytes_;
 }
 
-/// What the bound leaves no room for, the largest first.
+/// Removes kept memory over the limit, largest first.
 std::vector<StripPool::Pixels> StripPool::drop_free() {
   std::vector<Pixels> dropped;
   while (!free_.empty() && lent_bytes_ + free_bytes_ > max_bytes_) {

@@ -13,14 +13,14 @@
 namespace terrella {
 namespace {
 
-/// PROJ takes figures this near to each other for one body's, and transforms between their datums.
+/// Largest relative difference of two ellipsoids that PROJ treats as one body. It transforms between their datums.
 constexpr double kOneBody = 0.005;
 
 ProjHandle wrap(PJconsts* object) { return ProjHandle(object); }
 
 std::string_view word(const char* text) { return text == nullptr ? std::string_view() : text; }
 
-/// The system of the map alone: without heights, and without a transformation that is bound to it.
+/// Reduces a system to its horizontal part: removes heights and bound transformations.
 ProjHandle horizontal(PJ_CONTEXT* context, ProjHandle crs) {
   for (int depth = 0; crs && depth < 4; ++depth) {
     const PJ_TYPE type = proj_get_type(crs.get());
@@ -73,7 +73,7 @@ Status read_figure(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
   return Error{"its coordinate system names no body"};
 }
 
-/// How degrees of longitude and latitude come from a system's own.
+/// Conversion from a system's own longitudes and latitudes to degrees.
 struct OwnDegrees {
   double unit_deg = 1.0;
   double prime_meridian_deg = 0.0;
@@ -147,7 +147,7 @@ Result<Crs> Crs::open(const std::string& text) {
   if (!facts.geographic && type != PJ_TYPE_PROJECTED_CRS) {
     return Error{fmt::format("its coordinate system ({}) is neither geographic nor projected", facts.name)};
   }
-  // GeoTIFF has no key for the kind of latitude: the IAU's names say it ("Mars (2015) / Ocentric").
+  // GeoTIFF has no key for the kind of latitude. The IAU's names contain it ("Mars (2015) / Ocentric").
   const auto named = [&facts](const char* kind) { return facts.name.find(kind) != std::string::npos; };
   facts.centric = named("Ocentric") || named("lanetocentric");
   const char* code = proj_get_id_code(made.crs_.get(), 0);

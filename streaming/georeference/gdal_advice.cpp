@@ -11,7 +11,7 @@
 namespace terrella {
 namespace {
 
-/// Rounding that moves no grid line, in pixels.
+/// Rounding error that moves no grid line, in pixels.
 constexpr double kGridSlack_px = 1e-3;
 
 std::string with_ending(const PictureFile& picture, const char* ending) {
@@ -23,7 +23,7 @@ std::string numbers(const DegreeGrid& grid) {
   return fmt::format("{:.14g} {:.14g} {:.14g} {:.14g}", grid.west_deg, grid.south_deg, grid.east_deg, grid.north_deg);
 }
 
-/// How pixels are made, and what stands where the picture has none.
+/// GDAL options for resampling, and for places without pixels.
 std::string pixel_options(const PictureFile& picture) {
   const auto tags = read_geo_tags(picture.path);
   if (!tags || !*tags) return "-r bilinear -dstalpha";

@@ -19,11 +19,11 @@
 namespace terrella {
 namespace {
 
-/// libgeotiff counts what it allocates in 16 bits, and no file says where it lies in more.
+/// Limits on the keys of a file, because libgeotiff counts its allocations in 16 bits. Real files need fewer.
 constexpr std::size_t kMostKeyShorts = 4 * 1024;
 constexpr std::size_t kMostKeyNumbers = 4096;
 constexpr std::size_t kMostKeyText = 60'000;
-constexpr double kSameFigure = 1e-6;  // a radius or unit that the keys and EPSG's register both give
+constexpr double kSameFigure = 1e-6;  // tolerance for a radius or unit given both by the keys and by EPSG's register
 
 struct FreeSimpleTags {
   void operator()(ST_TIFF* tags) const { ST_Destroy(tags); }
@@ -47,7 +47,7 @@ std::string text_key(GTIF* keys, geokey_t key) {
   return text.data();
 }
 
-/// A key that is there must have the type that the standard gives it; libgeotiff passes over one of another.
+/// Checks that each key has the type required by the standard, because libgeotiff ignores keys of other types.
 Status check_key_types(GTIF* keys) {
   constexpr std::array kShortKeys = {GTModelTypeGeoKey,       GTRasterTypeGeoKey,    GeographicTypeGeoKey,
                                      ProjectedCSTypeGeoKey,   ProjCoordTransGeoKey,  GeogAngularUnitsGeoKey,
@@ -70,7 +70,7 @@ Status check_key_types(GTIF* keys) {
   return Done{};
 }
 
-/// A geographic system of the keys' own: figure, prime meridian and unit.
+/// Text of a geographic system defined by the keys: ellipsoid, prime meridian and unit.
 std::string own_geographic(const GTIFDefn& defn, const std::string& title) {
   const bool round = defn.SemiMajor == defn.SemiMinor;
   const double inverse_flattening = round ? 0.0 : defn.SemiMajor / (defn.SemiMajor - defn.SemiMinor);
@@ -91,7 +91,7 @@ Status check_figure(const GTIFDefn& defn) {
   return Error{fmt::format("its GeoKeys give the body radii of {:g} and {:g} metres", defn.SemiMajor, defn.SemiMinor)};
 }
 
-/// Keys that say again what EPSG's register says of a code must say the same.
+/// Checks that keys agree with EPSG's register if they repeat the values of a code.
 Status check_against_register(GTIF* keys, const GTIFDefn& defn, const std::string& code) {
   const auto crs = Crs::open(code);
   if (!crs) return Error{fmt::format("its GeoKeys name {}, which is not known", code)};
@@ -155,7 +155,7 @@ Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std:
   return own_geographic(defn, title);
 }
 
-/// The first line of the citations, without what GDAL puts before it.
+/// First line of the citations, without GDAL's prefix.
 std::string title_of(GTIF* keys) {
   std::string title;
   for (const geokey_t key : {PCSCitationGeoKey, GTCitationGeoKey, GeogCitationGeoKey}) {
@@ -212,13 +212,13 @@ Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
     return Error{"its GeoKey directory is larger than any coordinate system needs"};
   }
   const std::unique_ptr<ST_TIFF, FreeSimpleTags> simple(ST_Create());
-  // libgeotiff copies what it is given.
+  // libgeotiff copies its input.
   const auto set = [&](int tag, std::size_t count, int type, const void* data) {
     if (count > 0) ST_SetKey(simple.get(), tag, static_cast<int>(count), type, const_cast<void*>(data));
   };
   set(34735, directory.size(), STT_SHORT, directory.data());
   set(34736, tags.key_numbers.size(), STT_DOUBLE, tags.key_numbers.data());
-  // The text ends with a 0 of its own.
+  // The text must include its final 0.
   set(34737, tags.key_text.size() + 1, STT_ASCII, tags.key_text.c_str());
   TIFFMethod methods{};
   GTIFSetSimpleTagsMethods(&methods);

@@ -20,7 +20,7 @@ constexpr ttag_t kKeyNumbers = 34736;
 constexpr ttag_t kKeyText = 34737;
 constexpr ttag_t kRpc = 50844;
 
-/// libtiff knows none of these tags and keeps them with the type that the file gives them, which may be any.
+/// Reads a tag that libtiff does not know. libtiff keeps such a tag with the type given by the file, which may be any.
 template <class T, class Into>
 Status read_tag(TIFF* tiff, ttag_t tag, TIFFDataType type, const char* name, Into& into) {
   std::uint32_t count = 0;

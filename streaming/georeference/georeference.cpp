@@ -12,7 +12,7 @@
 namespace terrella {
 namespace {
 
-/// How far two files may differ about a place, pixels: what numbers with few decimals leave.
+/// Largest distance between the places stated by two files, pixels: the error of numbers with few decimals.
 constexpr double kSamePlace_px = 0.01;
 
 bool same_place(const Affine& a, const Affine& b, const PictureFile& picture) {
@@ -26,7 +26,7 @@ bool same_place(const Affine& a, const Affine& b, const PictureFile& picture) {
   return true;
 }
 
-/// By pixel scale and tie point; none if there is no scale.
+/// Transform from pixel scale and tie point; none without a scale.
 Result<std::optional<Affine>> scaled_transform(const GeoTags& tags) {
   if (tags.pixel_scale.empty() || tags.tie_points.size() > 6) return std::optional<Affine>{};
   if (tags.pixel_scale.size() < 2 || tags.tie_points.size() != 6) {
@@ -40,7 +40,7 @@ Result<std::optional<Affine>> scaled_transform(const GeoTags& tags) {
   return std::optional(Affine{tie[3] - tie[0] * width, width, 0.0, tie[4] + tie[1] * height, 0.0, -height});
 }
 
-/// By all tags; none if they give none.
+/// Transform from all tags; none if the tags give none.
 Result<std::optional<Affine>> tag_transform(const GeoTags& tags, const PictureFile& picture) {
   auto transform = scaled_transform(tags);
   if (!transform || tags.matrix.empty()) return transform;
@@ -73,7 +73,7 @@ Result<std::optional<Georeference>> from_tags(const PictureFile& picture) {
   return std::optional(std::move(said));
 }
 
-/// Adds what a file beside the picture says.
+/// Adds the statement of a file beside the picture.
 Status add_claim(Georeference& said, const SideClaim& claim, const PictureFile& picture) {
   const std::string name = claim.file.filename().string();
   if (claim.transform && said.transform && !same_place(*said.transform, *claim.transform, picture)) {

@@ -13,10 +13,10 @@ namespace terrella {
 namespace {
 
 constexpr double kPlaced_px = 0.01;
-/// Corners of pixels that are asked for along each side. Projections are smooth between them.
+/// Number of pixel corners transformed along each side. Projections are smooth between them.
 constexpr int kProbes = 17;
 constexpr double kOtherBody = 0.01;
-/// Beyond these a number is no longitude or latitude: a turn more and half a pixel of a coarse picture.
+/// Largest plausible longitude and latitude: an extra turn, and half a pixel of a coarse picture.
 constexpr double kMostLongitude_deg = 540.0;
 constexpr double kMostLatitude_deg = 100.0;
 
@@ -29,7 +29,7 @@ std::string crs_text(const CrsFacts& crs, const std::string& title) {
   return text;
 }
 
-/// What the picture claims, as the beginning of a message.
+/// Statement of the picture, as the beginning of a message.
 std::string claim_text(const PictureFile& picture, const Georeference& said, const std::optional<CrsFacts>& crs) {
   if (!crs) return fmt::format("{}: its {}", picture.path.string(), said.source);
   return fmt::format("{}: its {} say that it is {} ({})", picture.path.string(), said.source,
@@ -47,7 +47,7 @@ std::vector<CrsPoint> probes(const PictureFile& picture, const Affine& transform
   return points;
 }
 
-/// Longitudes along each row of probes go on over ±180°.
+/// Continues longitudes over ±180° along each row of probes.
 void unwrap(std::vector<CrsPoint>& places) {
   for (std::size_t k = 1; k < places.size(); ++k) {
     const CrsPoint& before = places[k % kProbes == 0 ? k - kProbes : k - 1];
@@ -55,7 +55,7 @@ void unwrap(std::vector<CrsPoint>& places) {
   }
 }
 
-/// The even spacing that the places have, within kPlaced_px; none if they have none.
+/// Place with evenly spaced longitudes and latitudes, within kPlaced_px; none if the spacing is uneven.
 std::optional<Placement> evenly_spaced(std::vector<CrsPoint> places, const PictureFile& picture) {
   if (!std::ranges::all_of(places, [](const CrsPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
     return {};
@@ -72,7 +72,7 @@ std::optional<Placement> evenly_spaced(std::vector<CrsPoint> places, const Pictu
   return Placement{.west_deg = first.x, .north_deg = first.y, .pixel_width_deg = width, .pixel_height_deg = height};
 }
 
-/// A projection's western end may come back as 180 degrees.
+/// Moves the place into the first turn, because a projection's western end may be returned as 180 degrees.
 void begin_in_first_turn(Placement& place) {
   const double slack = kPlaced_px * place.pixel_width_deg;
   place.west_deg -= 360.0 * std::floor((place.west_deg + 180.0 + slack) / 360.0);
@@ -85,7 +85,7 @@ bool are_degrees(const Affine& transform, const PictureFile& picture) {
          std::abs(a.y) <= kMostLatitude_deg && std::abs(b.y) <= kMostLatitude_deg;
 }
 
-/// Of a place without a coordinate system, which is taken for degrees if it can be.
+/// Place without a coordinate system. Numbers count as degrees if possible.
 Result<Placement> place_without_crs(const PictureFile& picture, const Georeference& said) {
   const Affine& t = *said.transform;
   const bool plain = !t.is_turned() && t.x_per_column > 0.0 && t.y_per_row < 0.0;
@@ -101,7 +101,7 @@ Result<Placement> place_without_crs(const PictureFile& picture, const Georeferen
       warp_command(picture, {.to_crs = "EPSG:4326", .from_crs = "EPSG:CODE", .grid = {}, .relabelled = {}}))};
 }
 
-/// The end of a message about a picture that will need options besides.
+/// End of a message for a picture that will need further options.
 std::string then_say(const CrsFacts& crs) {
   const std::string options = needed_options(crs).text();
   return options.empty() ? options : fmt::format(", and show the result with{}", options);
@@ -125,7 +125,7 @@ Error not_placed(const PictureFile& picture, const Georeference& said, const Crs
                            warp_command(picture, advice))};
 }
 
-/// Control points and camera models.
+/// Error for control points and camera models.
 Error points_alone(const PictureFile& picture, const Georeference& said, const std::optional<CrsFacts>& crs,
                    const std::string& to) {
   const char* what = said.has_camera_model ? "a camera model (RPC)" : "ground control points";
@@ -136,7 +136,7 @@ Error points_alone(const PictureFile& picture, const Georeference& said, const s
                            said.source, what, command)};
 }
 
-/// With a coordinate system.
+/// Place in a known coordinate system.
 Result<PlacedPicture> place_in(const PictureFile& picture, Georeference said, const Crs& crs) {
   PlacedPicture placed{.said = {}, .crs = crs.facts(), .placement = {}};
   if (said.has_control_points || said.has_camera_model) {
@@ -179,15 +179,15 @@ bool is_other_body(const CrsFacts& crs, const Body& body) {
   return std::abs(crs.a_m - body.ellipsoid.a_m()) > kOtherBody * body.ellipsoid.a_m();
 }
 
-/// Latitudes on a sphere that stands for an ellipsoid are planetocentric, as in USGS's maps. On Earth they are taken
-/// for geodetic ones, as all do.
+/// True if the latitudes are planetocentric: those on a sphere that stands for an ellipsoid, as in USGS's maps. On
+/// Earth such latitudes count as geodetic, by common practice.
 bool counts_centric(const CrsFacts& crs, const Body& body) {
   const bool is_earth = std::abs(body.ellipsoid.a_m() - earth().ellipsoid.a_m()) < kOtherBody * earth().ellipsoid.a_m();
   const bool stands_in = crs.a_m == crs.b_m && body.ellipsoid.f() > 0.0;
   return body.ellipsoid.f() > 0.0 && (crs.centric || (stands_in && !is_earth));
 }
 
-/// How far apart both latitudes lie at most, degrees (2 atan(e²/…) to first order: the flattening in radians).
+/// Largest difference between both kinds of latitude, degrees (2 atan(e²/…) to first order: the flattening in radians).
 double latitudes_apart_deg(const Body& body) { return body.ellipsoid.f() * 180.0 / M_PI; }
 
 }  // namespace
@@ -289,7 +289,7 @@ std::string resample_command(const PictureFile& picture, const PlacedPicture& pl
   if (placed.crs) {
     if (const auto crs = Crs::open(placed.said->crs)) advice.to_crs = crs->degrees_text();
     if (!placed.said->gdal_reads_crs) advice.from_crs = placed.said->crs;
-    // GDAL does not find its way beyond the ends of a projection, where such a picture may well go.
+    // GDAL fails beyond the ends of a projection, where such a picture may extend.
     const double middle = placed.crs->central_meridian_deg.value_or(0.0);
     const bool beyond = place.west_deg < middle - 180.0 - 1e-9 || east > middle + 180.0 + 1e-9;
     if (!placed.crs->geographic && beyond) {

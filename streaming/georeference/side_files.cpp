@@ -28,7 +28,7 @@ Error damaged(const fs::path& file, std::string_view why) {
                            file.filename().string(), why)};
 }
 
-/// The text of a file; none if there is no such regular file.
+/// Text of a file; none if there is no such regular file.
 Result<std::optional<std::string>> side_text(const fs::path& file, std::size_t max_bytes) {
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) return std::optional<std::string>{};
@@ -37,7 +37,7 @@ Result<std::optional<std::string>> side_text(const fs::path& file, std::size_t m
   return std::optional(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
 }
 
-/// The first six words as numbers; none if one of them is no number.
+/// First six words as numbers; none if one of them is no number.
 std::optional<std::array<double, 6>> six_numbers(std::string text) {
   std::ranges::replace(text, ',', ' ');
   std::istringstream words(text);
@@ -61,7 +61,7 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// The files that an ending may name in different cases, each once: some file systems have them all as one.
+/// Existing files with an ending in different cases. Each file is listed once, because some file systems ignore case.
 std::vector<fs::path> found_with_ending(const fs::path& picture, const std::string& ending) {
   std::string first_upper = ending;
   first_upper[0] = upper_case(ending)[0];

@@ -8,14 +8,14 @@ namespace terrella {
 namespace {
 
 constexpr int kExtentProbes = 65;  ///< along each side
-/// A gap between the longitudes of probes that is smaller than this is none: the picture goes all round.
+/// Smaller gaps between the longitudes of probes do not count: the picture then goes round the planet.
 constexpr double kGap_deg = 15.0;
-/// A picture that goes all round and comes this near to a pole holds it.
+/// A picture that goes round the planet and reaches this latitude contains the pole.
 constexpr double kNearPole_deg = 80.0;
 
 bool on_planet(const CrsPoint& p) { return std::isfinite(p.x) && std::abs(p.y) <= 90.0 + 1e-9; }
 
-/// The angle between two places, degrees.
+/// Angle between two places, degrees.
 double apart_deg(const CrsPoint& p, const CrsPoint& q) {
   const double to_rad = M_PI / 180.0;
   const double half_lat = std::sin(0.5 * (p.y - q.y) * to_rad), half_lon = std::sin(0.5 * (p.x - q.x) * to_rad);
@@ -23,7 +23,7 @@ double apart_deg(const CrsPoint& p, const CrsPoint& q) {
   return 2.0 * std::asin(std::min(1.0, std::sqrt(chord))) / to_rad;
 }
 
-/// West and east, in a turn from -180° on; east may be over 180.
+/// West and east of the places, in a turn from -180° on; east may exceed 180.
 std::pair<double, double> longitudes_of(const std::vector<CrsPoint>& places) {
   std::vector<double> lons;
   for (const CrsPoint& p : places) lons.push_back(p.x - 360.0 * std::floor((p.x + 180.0) / 360.0));
@@ -39,7 +39,7 @@ std::pair<double, double> longitudes_of(const std::vector<CrsPoint>& places) {
   return gap < kGap_deg ? std::pair(-180.0, 180.0) : std::pair(west, east);
 }
 
-/// The smaller side of the pixel in the middle of the probes that have a place; 0: unknown.
+/// Smaller side of the pixel in the middle of the probes with a place; 0: unknown.
 double pixel_of(const Affine& transform, const Crs& crs, CrsPoint middle) {
   const std::vector<CrsPoint> corners = {transform.at(middle.x, middle.y), transform.at(middle.x + 1.0, middle.y),
                                          transform.at(middle.x, middle.y + 1.0)};

@@ -9,7 +9,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Waiting for a token ends a rounding error too early otherwise, and the thread would wake twice.
+// A rounding error could end the wait for a token too early, and the thread would wake twice.
 constexpr double kWhole = 1.0 - 1e-9;
 
 }  // namespace
@@ -59,7 +59,7 @@ void HostGate::learn(bool multiplexes) {
 }
 
 void HostGate::pause(Time until, Time now) {
-  // All answers to one burst may say "wait": that is one reason to ask less, not one each.
+  // Several answers to one burst may ask for a pause. They count as one reason to reduce the number in flight.
   if (now >= not_before_) window_ = std::max(1.0, std::floor(bound() / 2.0));
   not_before_ = std::max(not_before_, until);
 }

@@ -20,7 +20,8 @@ struct Cancel {
 };
 using Command = std::variant<HttpRequest, Rank, Cancel>;
 
-// Ranks are read when a request is sent, so that a change need not wake the thread; but they must not pile up.
+// Rank changes do not wake the thread, because ranks matter only when a request is sent. More queued changes than this
+// do wake it.
 constexpr std::size_t kMaxUnread = 1024;
 
 void begin_curl() {
@@ -63,7 +64,7 @@ struct HttpFetcher::Impl {
 
   http::HttpTally tally;
   http::Network network;
-  std::mutex mutex;  ///< guards the three below
+  std::mutex mutex;  ///< guards the three members below
   std::vector<Command> inbox;
   bool woken = false;
   bool stopping = false;

@@ -10,7 +10,7 @@
 namespace terrella::http {
 namespace {
 
-constexpr std::size_t kMaxHeaderBytes = 8192;  // most servers take no more
+constexpr std::size_t kMaxHeaderBytes = 8192;  // most servers accept no more
 constexpr std::string_view kBlank = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-// std::tolower would ask the locale.
+// std::tolower would use the locale.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool same_name(std::string_view name, std::string_view lower_case) {
@@ -27,7 +27,7 @@ bool same_name(std::string_view name, std::string_view lower_case) {
          std::equal(name.begin(), name.end(), lower_case.begin(), [](char a, char b) { return lower(a) == b; });
 }
 
-/// A whole number of seconds, at most kForever_s; none if there is anything but digits.
+/// A whole number of seconds, at most kForever_s; none unless the text has only digits.
 std::optional<std::int64_t> seconds_of(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
   std::int64_t value = 0;
@@ -43,7 +43,7 @@ std::optional<std::int64_t> date_of(std::string_view text) {
   return static_cast<std::int64_t>(date);
 }
 
-/// The end of the list's first element: a comma that is not inside quotes.
+/// End of the list's first element: a comma outside quotes.
 std::size_t element_end(std::string_view list) {
   bool quoted = false;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -70,7 +70,7 @@ void read_directive(std::string_view directive, ReplyFields& fields) {
   if (same_name(name, "no-cache")) fields.no_cache = true;
   if (!same_name(name, "max-age") || equals == std::string_view::npos) return;
   const std::int64_t age = seconds_of(unquoted(trimmed(directive.substr(equals + 1)))).value_or(0);
-  // Said twice, the shorter counts: asking too often is the lesser harm.
+  // The shorter of two values counts, because extra requests do less harm.
   fields.max_age_s = std::min(age, fields.max_age_s.value_or(age));
 }
 

@@ -11,10 +11,11 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kMaxIdleTransfers = 128;
-constexpr std::size_t kMaxHosts = 256;  // redirects may name any number
-constexpr int kFilesPerTurn = 16;       // so that a new view is heard
+constexpr std::size_t kMaxHosts = 256;  // redirects may name any number of hosts
+constexpr int kFilesPerTurn = 16;       // few, so that a new view is noticed soon
 constexpr milliseconds kLongestSleep{1000};
-// A new connection costs about as much as the rest of a tile; what takes longer is not worth the place it holds.
+// A new connection costs about as much as the rest of a tile. Waiting longer for an abandoned answer is not worth the
+// slot.
 constexpr milliseconds kAbandonedLife{500};
 
 HostLimits limits_of(const HttpOptions& options) {
@@ -24,7 +25,7 @@ HostLimits limits_of(const HttpOptions& options) {
           .burst = options.burst};
 }
 
-/// Why a request cannot be sent at all; empty if it can. Names no value of a header.
+/// Reason why a request cannot be sent; empty if it can. Contains no header values.
 std::string fault_of(const HttpRequest& request) {
   for (const std::string& header : request.headers) {
     if (const Status status = check_request_header(header); !status) return status.error().message;
@@ -92,7 +93,7 @@ void Network::cancel(std::uint64_t id) {
   --tally_.waiting;
 }
 
-// Over HTTP/2 a stream can be ended alone; over HTTP/1.1 the connection would go with it.
+// Over HTTP/2 a single stream can be ended. Over HTTP/1.1 the connection would end too.
 void Network::abandon(std::unique_ptr<Job> job) {
   --tally_.in_flight;
   if (job->host->gate.multiplexes()) return end_early(*job);

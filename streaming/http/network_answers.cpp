@@ -75,7 +75,7 @@ void Network::redirect(Job& job, const Verdict& verdict, int status, Url url) {
   enqueue(job);
 }
 
-// The order of the two counts is such that their sum is never 0 while something is under way.
+// Updates the two counts in this order so that their sum is never 0 while a request is in progress.
 void Network::put_back(Job& job) {
   job.state = Job::State::ready;
   ++tally_.waiting;
@@ -99,7 +99,7 @@ void Network::try_again(Job& job, const Verdict& verdict, int status, const Tran
   delayed_.insert(&job);
 }
 
-// A 503 that asks for nothing may be one tile's trouble; a 429 is about all that we ask of the host.
+// A 503 without Retry-After may concern one tile only. A 429 concerns all requests to the host.
 bool Network::pause(Host& host, int status, const ReplyFields& fields, milliseconds own_wait) {
   const std::int64_t now_unix_s = unix_now_s();
   const auto asked = retry_after(fields, now_unix_s);
@@ -158,7 +158,7 @@ void Network::reply_answer(Job& job, const Verdict& verdict, int status, Transfe
   hand_over(job, std::move(reply));
 }
 
-// Whoever is told may ask again under the same identity, so the job ends before.
+// The callback may submit the same id again, so the job is removed first.
 void Network::hand_over(Job& job, HttpReply&& reply) {
   std::atomic<std::size_t>& count = job.state == Job::State::in_flight ? tally_.in_flight : tally_.waiting;
   tally_.body_bytes += reply.body.size();

@@ -65,7 +65,7 @@ Verdict judge_status(int status, bool conditional) {
 
 Verdict judge_failure(CURLcode code) {
   switch (code) {
-    // Only http and https come as far as curl: what it does not support is an answer without an HTTP status line.
+    // Only http and https reach curl. "Unsupported" therefore means an answer without an HTTP status line.
     case CURLE_UNSUPPORTED_PROTOCOL:
       return refused(kNotHttp);
     case CURLE_WEIRD_SERVER_REPLY:
@@ -104,7 +104,7 @@ Verdict judge_cut(const Answer& answer) {
   return judge_status(answer.status, answer.conditional);
 }
 
-/// Whether the status says enough, whatever became of the body.
+/// True if the status alone decides, whatever happened to the body.
 bool is_told_by_status(const Answer& answer) {
   const bool has_body_to_lose = answer.status == 0 || answer.status == 200 || answer.status == 203;
   return answer.code == CURLE_OK || (!has_body_to_lose && answer.status >= 200);

@@ -6,9 +6,9 @@
 namespace terrella::http {
 namespace {
 
-// A page that explains an error is read to its end, so that the connection can be used again, unless it is longer.
+// An error page is read to its end, so that the connection can be reused, unless the page is longer than this.
 constexpr std::size_t kMaxErrorBody = 64 << 10;
-// What a Content-Length may make us allocate before a byte has come.
+// Most memory allocated for a Content-Length before the first byte.
 constexpr curl_off_t kMaxReserve = 1 << 20;
 
 long whole_seconds(std::chrono::milliseconds time) { return static_cast<long>((time.count() + 999) / 1000); }
@@ -73,7 +73,7 @@ void Transfer::add_header(const std::string& line) {
   headers_.reset(longer);
 }
 
-// Other texts of curl's may hold an address as it was given, with its query or a proxy's password.
+// Other texts from curl may contain an address with its query, or a proxy's password.
 Answer Transfer::answer(CURLcode code) {
   if (code == CURLE_PEER_FAILED_VERIFICATION) certificate_fault_ = details_.data();
   return {.code = code, .status = static_cast<int>(status()), .conditional = conditional_, .cut = cut_};
@@ -120,7 +120,7 @@ bool Transfer::take_of_content(std::string_view bytes) {
   return true;
 }
 
-// Nothing may be thrown through curl's own frames.
+// Exceptions must not pass through curl's frames.
 std::size_t Transfer::on_body(char* bytes, std::size_t size, std::size_t count, void* self) {
   auto* transfer = static_cast<Transfer*>(self);
   try {

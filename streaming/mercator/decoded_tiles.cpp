@@ -4,7 +4,7 @@
 
 namespace terrella {
 
-/// Marks a tile as being decoded, until its end, however that comes.
+/// Marks a tile as being decoded. The destructor removes the mark, also after an exception.
 class DecodedTiles::Turn {
  public:
   Turn(DecodedTiles& tiles, const TileId& id) : tiles_(tiles), id_(id) {}

@@ -36,7 +36,7 @@ class DecodedTiles {
   };
   class Turn;
 
-  /// call with the lock held; makes the tile the most recently used
+  /// Call with the lock held. Makes the tile the most recently used.
   std::shared_ptr<const Image> held(const TileId& id);
   void hold(const TileId& id, std::shared_ptr<const Image> picture);
 

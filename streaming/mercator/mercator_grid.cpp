@@ -9,7 +9,7 @@ namespace {
 
 double cosine_of(double latitude_deg) { return std::cos(Angle::degrees(latitude_deg).rad()); }
 
-/// A level is not worth being taken finer for this part of it.
+/// A finer level is not used for a shortfall below this fraction of a level.
 constexpr double kLevelSlack = 0.02;
 
 int stored_level(const TileGrid& mercator, const TileId& id, double north_deg, double south_deg) {
@@ -39,7 +39,7 @@ std::int64_t tile_of(std::int64_t texel, std::int64_t tile_px) {
   return (texel >= 0 ? texel : texel - tile_px + 1) / tile_px;
 }
 
-/// Source texels that a tile's own area reaches over.
+/// Source texels under the tile's own area.
 Range area(double first, double last) {
   constexpr double kSliver = 1e-6;
   return {static_cast<std::int64_t>(std::floor(first + kSliver)),

@@ -98,7 +98,7 @@ void MercatorJob::take(Piece& piece, const Found& found) {
   }
 }
 
-/// What is absent is looked for a level higher.
+/// Replaces absent tiles by their parents.
 void MercatorJob::climb() {
   for (Piece& piece : pieces_) {
     if (piece.state != State::absent) continue;
@@ -108,7 +108,7 @@ void MercatorJob::climb() {
   }
 }
 
-/// Where there is nothing under a tile the drawing's own ancestors stand in; a broken tile is told.
+/// Failure of the whole tile, so that its ancestors are drawn: no stored tile lies under it, or one is broken.
 std::optional<TileFailure> MercatorJob::failure_of_all() const {
   std::optional<TileFailure> worst;
   bool any = false;

@@ -22,7 +22,7 @@ MercatorJob::Found found_of(Encoded&& answer) {
           .failure = {}};
 }
 
-/// Looks for stored tiles where they are at hand.
+/// Looks up stored tiles that are available without a request.
 class StoredTiles {
  public:
   explicit StoredTiles(TileSource& source) : source_(source) {}
@@ -38,8 +38,9 @@ class StoredTiles {
   const std::shared_ptr<DecodedTiles> decoded_ = std::make_shared<DecodedTiles>(kMercatorDecodedBytes);
 };
 
-/// Fetches for many tiles at once what they are made of: each stored tile once, however many wait for it. Its lock may
-/// be held while the stored tiles' network is called, which calls back from its own thread without locks.
+/// Fetches the stored tiles for many tiles at once. Each stored tile is fetched once, however many tiles wait for it.
+/// Calls to the stored tiles' network may be made with the lock held; that network calls back from its own thread
+/// without locks.
 class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
  public:
   FetchDesk(RemoteTiles& network, const StoredTiles& stored, const TileGrid& mercator)
@@ -58,7 +59,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
         return;
       }
     }
-    // Another tile brought meanwhile what this one was made of.
+    // Another tile has meanwhile loaded the stored tiles of this one.
     wish->done(wish->job.result(decoded_));
   }
 
@@ -76,7 +77,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     if (!wish.empty()) stop_waiting(id, wish.mapped()->job.missing());
   }
 
-  /// Nothing is called back any more.
+  /// Ends all callbacks.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -96,9 +97,10 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     return [this](const TileId& stored) { return stored_.find(stored); };
   }
 
-  // With the lock.
+  // Call the functions below with the lock held.
 
-  /// What was on its way when the job looked for it, and nobody waits for any more, may have come.
+  /// Looks up again the tiles that were in flight at the job's first lookup. If nobody waits for them any more, they
+  /// may have arrived.
   void settle_what_came(MercatorJob& job) const {
     for (const TileId& stored : job.missing()) {
       if (!waiting_.contains(stored)) job.settle(stored, stored_.find(stored));
@@ -153,7 +155,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     for (const auto& wish : finished) wish->done(wish->job.result(decoded_));
   }
 
-  /// The wish if that finished it.
+  /// Returns the wish if this finished it.
   std::shared_ptr<Wish> settle(const TileId& id, const TileId& stored, const MercatorJob::Found& found) {
     const auto place = wishes_.find(id);
     if (place == wishes_.end()) return nullptr;
@@ -175,13 +177,13 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
   }
 
   RemoteTiles& network_;
-  const StoredTiles& stored_;  ///< until close()
+  const StoredTiles& stored_;  ///< valid until close()
   const std::shared_ptr<DecodedTiles> decoded_;
   const TileGrid mercator_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   bool closed_ = false;
   std::unordered_map<TileId, std::shared_ptr<Wish>, TileIdHash> wishes_;
-  std::unordered_map<TileId, std::vector<TileId>, TileIdHash> waiting_;  ///< of each stored tile, the tiles
+  std::unordered_map<TileId, std::vector<TileId>, TileIdHash> waiting_;  ///< tiles that wait for each stored tile
 };
 
 class MercatorSource : public TileSource, public RemoteTiles {
@@ -218,7 +220,7 @@ class MercatorSource : public TileSource, public RemoteTiles {
   const std::unique_ptr<TileSource> source_;
   const TileSetInfo info_;
   const StoredTiles stored_;
-  std::shared_ptr<FetchDesk> desk_;  ///< none: all tiles are at hand
+  std::shared_ptr<FetchDesk> desk_;  ///< null: all tiles are available without requests
 };
 
 }  // namespace

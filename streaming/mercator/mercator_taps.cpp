@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-/// Below it a weight is not worth a tile: a fifth of one part in 255.
+/// A smaller weight is not worth a tile: a fifth of one part in 255.
 constexpr double kLeastWeight = 1.0 / 1024.0;
 
 double catmull_rom(double distance) {
@@ -74,7 +74,7 @@ std::vector<RowTaps> row_taps(double north_deg, double span_deg, int tile_px, do
     if (!(north > south)) continue;
     const double first = source_row(north);
     const double last = source_row(south);
-    // The mean place over the row (Simpson's rule): its middle in Mercator lies nearer to the pole.
+    // Mean position over the row (Simpson's rule). In Mercator, the middle of the row lies nearer to the pole.
     const double centre = (first + 4.0 * source_row(0.5 * (north + south)) + last) / 6.0;
     row.taps = cubic_taps(centre, last - first, std::llround(source_rows));
   }

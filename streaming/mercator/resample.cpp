@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kChannels = 4;
 
-/// The part of a picture over a piece, enlarged to a whole tile. The edge of the part goes on beyond it where the
-/// picture does.
+/// Enlarges the part of a picture over a piece to a whole tile. Uses pixels beyond the edge of the part if the picture
+/// has them.
 Image enlarged(const PiecePicture& piece, int tile_px) {
   const Image& from = *piece.picture;
   const double scale = std::ldexp(1.0, -piece.steps);

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 constexpr double kMostHeight_m = 1.0e9;
 constexpr double kMetresOfKm = 1000.0;
-constexpr int kMostCollections = 4;  // RFC 7946 wants none within another
+constexpr int kMostCollections = 4;  // RFC 7946 advises against nested collections
 constexpr double kMostPieces = 2.0e6;
 
 class GeometryReader {

@@ -17,13 +17,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Takes each feature out of the text as soon as it is complete, so that no more than one is held as JSON.
+/// Takes each feature out of the document as soon as it is complete. No more than one feature is held as JSON.
 class FeatureTaker {
  public:
   FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectFile& file)
       : where_(std::move(where)), models_(folder), file_(file) {}
 
-  /// For JsonBuilder: keeps all but the features.
+  /// For JsonBuilder: keeps everything except features.
   bool keep(std::size_t depth, const std::string& member, const json& value) {
     if (depth == 1 && member == "metadata" && is_quake_catalogue(value)) quakes_ = true;
     if (depth != 2 || member != "features") return true;
@@ -65,7 +65,7 @@ class FeatureTaker {
   bool quakes_ = false;
 };
 
-/// What is left of a document when its features have been taken.
+/// Checks the rest of a document after its features were taken.
 Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
   const std::string type = geojson_type(document);
   if (type.empty()) return Error{"JSON, but no GeoJSON: it has no \"type\"; see RFC 7946"};

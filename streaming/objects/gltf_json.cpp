@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostGltfPieces = 4'000'000;
 
-/// The text of a binary file's first chunk.
+/// Text of a binary file's first chunk.
 Result<std::string_view> first_chunk(std::string_view file) {
   constexpr std::size_t kHeader = 20, kLengthAt = 12, kChunkHeader = 8;
   const auto length_at = [file](std::size_t offset) {

@@ -19,8 +19,8 @@
 namespace terrella {
 namespace {
 
-/// Keeps a picture's file as it is, to be decoded if it is needed. Those in buffers stay there: TinyGLTF does not look
-/// whether they end within them.
+/// Keeps a picture's file undecoded until it is needed. Pictures in buffers stay there, because TinyGLTF does not check
+/// that they end inside the buffer.
 bool keep_picture(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
                   int size, void*) {
   image->image.clear();
@@ -45,7 +45,7 @@ glm::dmat4 transform_of(const tinygltf::Node& node) {
   return matrix;
 }
 
-/// Walks the nodes of a scene and takes the triangles of their meshes.
+/// Walks the nodes of a scene and collects the triangles of their meshes.
 class SceneTaker {
  public:
   SceneTaker(const tinygltf::Model& model, std::set<std::size_t> missing, const std::string& where,
@@ -82,7 +82,7 @@ class SceneTaker {
   }
 
  private:
-  /// Of the scene that the file names, or of its first; without one, the nodes that are nobody's children.
+  /// Root nodes of the file's default scene, or of its first scene. Without a scene, all nodes that have no parent.
   [[nodiscard]] std::vector<int> roots() const {
     const auto scene = std::size_t(std::max(model_.defaultScene, 0));
     if (scene < model_.scenes.size()) return model_.scenes[scene].nodes;

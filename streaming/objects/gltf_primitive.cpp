@@ -29,7 +29,7 @@ bool is_of_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// Corners of triangles, three by three; of a mode that is of triangles.
+/// Converts the corners of any triangle mode to separate triangles.
 std::vector<std::uint32_t> as_triangles(std::vector<std::uint32_t> corners, int mode) {
   if (mode == TINYGLTF_MODE_TRIANGLES || mode == -1) {
     corners.resize(corners.size() - corners.size() % 3);
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> as_triangles(std::vector<std::uint32_t> corners, int 
   return triangles;
 }
 
-/// Keeps the triangles whose corners exist and are somewhere.
+/// Keeps the triangles whose corners exist and have finite positions.
 void drop_broken(MeshPart& part, const Complain& complain) {
   std::size_t out_of_range = 0, nowhere = 0, kept = 0;
   for (std::size_t k = 0; k + 2 < part.indices.size(); k += 3) {
@@ -77,7 +77,7 @@ void unit_normals(MeshPart& part) {
   }
 }
 
-/// An attribute that a primitive can do without.
+/// Reads an optional attribute of a primitive.
 template <class Set>
 bool read_optional(const tinygltf::Primitive& primitive, const char* name, int least, int most, MeshPart& part,
                    const GltfAccessors& accessors, const Complain& complain, const Set& set) {
@@ -114,7 +114,7 @@ void set_material(const GltfReading& reading, const tinygltf::Primitive& primiti
   part.texture = std::move(*picture);
 }
 
-/// Takes of what is left also if the primitive then turns out to be of no use, so that reading ends.
+/// Reads the triangles. Charges the budget even if the primitive then proves useless, which bounds the total work.
 Result<MeshPart> read_triangles(const GltfReading& reading, const tinygltf::Primitive& primitive,
                                 const glm::dmat4& model_from_mesh) {
   if (!is_of_triangles(primitive.mode)) return Error{"it is of points or lines, which are not drawn"};
@@ -127,7 +127,7 @@ Result<MeshPart> read_triangles(const GltfReading& reading, const tinygltf::Prim
     part.vertices[k].position_m = glm::vec3(model_from_mesh * glm::dvec4((*positions)[k]));
   }
   std::vector<std::uint32_t> corners;
-  const std::size_t most_corners = reading.left.indices / 3;  // a strip has three for each
+  const std::size_t most_corners = reading.left.indices / 3;  // a strip gives three indices for each corner
   if (primitive.indices >= 0) {
     auto read = reading.accessors.indices(primitive.indices, most_corners);
     if (!read) return Error{"indices: " + read.error().message};

@@ -14,7 +14,8 @@ namespace terrella {
 
 Result<std::filesystem::path> path_in_folder(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
-  const bool cut_short = name.find('\0') != std::string::npos;  // the system would read on to there
+  // The system would read the name only up to the zero byte.
+  const bool cut_short = name.find('\0') != std::string::npos;
   if (cut_short || folder.empty() || relative.is_absolute() || relative.empty() || *relative.begin() == "..") {
     return Error{fmt::format("{}: only files in the same folder, or in folders in it, are read", name)};
   }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The properties of one feature. One that is wrong is complained of and is as if it were not there.
+/// Reads the properties of one feature. A faulty property causes a complaint and counts as missing.
 class StyleReader {
  public:
   StyleReader(const json& properties, const Complain& complain) : properties_(properties), complain_(complain) {}
@@ -57,7 +57,8 @@ class StyleReader {
     return std::nullopt;
   }
 
-  /// Others may mean something else by names that simplestyle does not have.
+  /// Text of a property that simplestyle does not define. Another type causes no complaint, because other programs may
+  /// use the name differently.
   std::string text(const char* name) const {
     const json* value = find(name);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
@@ -69,7 +70,7 @@ class StyleReader {
     return text(name);
   }
 
-  /// A digit or a letter; nothing for an icon, of which there are none here.
+  /// A digit or a letter. Empty for the name of an icon, because there are no icons.
   std::string marker_symbol() const {
     const json* value = find("marker-symbol");
     if (value == nullptr) return {};
@@ -99,12 +100,12 @@ void set_opacity(ObjectColor& color, std::optional<double> opacity) {
   if (opacity) color.alpha = static_cast<std::uint8_t>(std::lround(255.0 * *opacity));
 }
 
-/// Sets a colour, but not how opaque it is.
+/// Sets a colour, but not its opacity.
 void set_color(ObjectColor& color, std::optional<ObjectColor> said) {
   if (said) color = {said->red, said->green, said->blue, color.alpha};
 }
 
-/// What simplestyle 1.1.0 says of properties that are not given, section 3; medium is this size here.
+/// Defaults of simplestyle 1.1.0, section 3. The specification gives no size for "medium"; this one is Terrella's.
 ObjectStyle simplestyle_defaults() {
   constexpr ObjectColor kMarker{0x7e, 0x7e, 0x7e}, kStroke{0x55, 0x55, 0x55}, kFill{0x55, 0x55, 0x55, 153};  // 0.6
   ObjectStyle style;
@@ -149,7 +150,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
   const bool through = reader.flag("through_surface");
   style.model = reader.text("model");
-  if (!style.model.empty()) {  // others may mean something else by these names
+  if (!style.model.empty()) {  // other programs may use these names differently
     if (const auto scale = reader.number("scale", kLeastScale, kMostScale)) style.mesh.scale = *scale;
     if (const auto heading = reader.number("heading_deg", -360.0, 360.0)) style.mesh.heading = Angle::degrees(*heading);
   }

@@ -13,7 +13,7 @@ namespace terrella {
 
 /// Styles an earthquake as a sphere, unless the properties say otherwise. Its radius grows with magnitude M: 4 km ·
 /// 10^(M/4), which is 4 km at 0 and 40 km at 4. Its colour shows depth: red at the surface, yellow at 100 km, green,
-/// blue from 350 km. Titles make no labels, because every earthquake has one.
+/// blue at 350 km, violet from 600 km. Titles make no labels, because every earthquake has one.
 void style_quake(const nlohmann::json& feature, ObjectStyle& style);
 
 }  // namespace terrella

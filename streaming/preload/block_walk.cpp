@@ -7,7 +7,8 @@
 namespace terrella {
 namespace {
 
-/// Overlaps below this part of a tile of the finest level are rounding, as for the grid itself (tiles/tile_grid.h).
+/// Overlaps below this fraction of a tile of the finest level are rounding errors, as for the grid itself
+/// (tiles/tile_grid.h).
 constexpr double kSliverTiles = 1.0e-6;
 
 TileSpan meet(const TileSpan& a, const TileSpan& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }

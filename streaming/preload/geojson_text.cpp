@@ -54,7 +54,7 @@ Result<MapPoint> geojson_position(const json& position) {
     return Error{"a position is not [longitude, latitude]"};
   }
   const MapPoint p{position[0].get<double>(), position[1].get<double>()};
-  constexpr double kMostLongitude = 540.0;  // a turn and a half: rings written on over ±180° are common
+  constexpr double kMostLongitude = 540.0;  // one and a half turns, because rings continued over ±180° are common
   if (!(std::abs(p.lon_deg) <= kMostLongitude) || !(std::abs(p.lat_deg) <= 90.0)) {
     return Error{fmt::format("the position {},{} is not on the planet; GeoJSON is degrees, longitude first", p.lon_deg,
                              p.lat_deg)};

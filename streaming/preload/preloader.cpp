@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kBetweenReports{100};
 constexpr milliseconds kLongestWait{5};
-constexpr int kTilesAtATime = 4096;  // or runs of them
+constexpr int kTilesAtATime = 4096;  // or runs of tiles
 constexpr const char* kNoRoom = "the cache is full of tiles that are not to be evicted";
 
 class Run {
@@ -37,7 +37,7 @@ class Run {
   }
 
   Result<PreloadResult> run() {
-    // Before anything is looked for: what is found from then on stays.
+    // Pins before the lookup, so that nothing evicts the found tiles.
     if (const auto pinned = pin_planned(plan_, cache_, true); !pinned) return pinned.error();
     if (const Status passed = first_pass(); !passed) return passed.error();
     if (end_ == PreloadEnd::complete) second_pass();
@@ -74,7 +74,7 @@ class Run {
     return Done{};
   }
 
-  // The fetcher has tried each several times by now; this is for what passes in minutes.
+  // The fetcher has already tried each request several times. This pass helps against faults that last minutes.
   void second_pass() {
     second_ = true;
     std::vector<std::pair<Asked, std::string>> again = std::exchange(failed_, {});
@@ -90,7 +90,7 @@ class Run {
                    std::make_move_iterator(again.end()));
   }
 
-  /// Reports from time to time; false: it is time to stop.
+  /// Reports progress from time to time. Returns false if the run must stop.
   bool going() {
     if (tally_->failed()) end_ = PreloadEnd::stopped;
     const auto now = Clock::now();
@@ -157,7 +157,7 @@ class Run {
     cache_.store(id, std::move(record), tally_->sent(StoreTally::Kind::tile, id, bytes));
   }
 
-  // The cache keeps a tile that it has.
+  // The cache keeps a stored tile.
   void note_absence(const Asked& asked, Absence kind, HttpReply&& reply) {
     reply.body.clear();
     std::string why = std::move(reply.why);
@@ -192,7 +192,7 @@ class Run {
     if (options_.on_lacking) options_.on_lacking(id, kind, why);
   }
 
-  // What the host has begun to answer is worth waiting for; what it has not been asked for yet is the latest.
+  // Waits for answers that the host has begun. Withdraws requests not sent yet, which are the newest.
   void wind_down() {
     std::size_t waiting = origin_->counts().waiting;
     while (waiting > 0 && !asked_.empty()) {
@@ -228,7 +228,7 @@ class Run {
   WantedTiles wanted_;
   std::shared_ptr<StoreTally> tally_;
   AnswerQueue answers_;
-  std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
+  std::map<std::uint64_t, Asked> asked_;  ///< keyed by number, in the order of requests
   std::vector<std::pair<Asked, std::string>> failed_;
   PreloadCounts counts_;
   mutable HttpCounts last_asked_;
@@ -237,7 +237,7 @@ class Run {
   bool second_ = false;
   PreloadEnd end_ = PreloadEnd::complete;
   Clock::time_point reported_{};
-  std::unique_ptr<TileOrigin> origin_;  ///< goes first: it answers into the rest
+  std::unique_ptr<TileOrigin> origin_;  ///< destroyed first, because it calls back into the other members
 };
 
 }  // namespace

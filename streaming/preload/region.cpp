@@ -14,8 +14,8 @@ std::size_t band_of(double lat_deg) {
   return static_cast<std::size_t>(std::clamp(part, 0.0, static_cast<double>(kBands - 1)));
 }
 
-/// True if a straight piece passes through the inside of a rectangle (Liang and Barsky 1984, doi:10.1145/357332.357333:
-/// the piece's parameter is narrowed side by side).
+/// True if a straight segment passes through the inside of a rectangle. Liang and Barsky 1984,
+/// doi:10.1145/357332.357333: narrows the parameter range of the segment side by side.
 bool passes_through(const MapPoint& a, const MapPoint& b, const MapRect& rect) {
   double enters = 0.0;
   double leaves = 1.0;
@@ -97,7 +97,7 @@ Overlap Region::classify(const MapRect& rect, std::span<const std::uint32_t> can
   return cut ? Overlap::cut : Overlap::outside;
 }
 
-// Even-odd along the parallel to the west. A band's segments stand in the order of their polygons.
+// Even-odd rule along the parallel to the west. The segments of a band are in the order of their polygons.
 bool Region::in_a_polygon(const MapPoint& p) const {
   bool odd = false;
   std::uint32_t polygon = 0;

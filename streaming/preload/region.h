@@ -44,7 +44,7 @@ class Region {
 
   std::vector<MapRect> boxes_;
   std::vector<Segment> segments_;
-  /// segments grouped by latitude, so that a scan along a parallel meets few of them
+  /// Segments grouped by latitude, so that a scan along a parallel meets few of them.
   std::vector<std::vector<std::uint32_t>> bands_;
   std::uint32_t polygons_ = 0;
 };

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Places in the walk, `most` at the most, in the middles of equal parts.
+/// At most `most` places in the walk, in the middles of equal parts.
 std::vector<TileId> spread(const TilePlan& plan, int most) {
   const std::int64_t total = plan.total();
   const std::int64_t wanted = std::min<std::int64_t>(most, total);

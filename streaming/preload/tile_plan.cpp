@@ -105,7 +105,7 @@ class ListFeed : public TileFeed {
 
 std::unique_ptr<TileFeed> ListPlan::walk() const { return std::make_unique<ListFeed>(*this); }
 
-/// tiles · index / count, rounded down, without the product that could overflow.
+/// tiles · index / count, rounded down, without a product that could overflow.
 std::int64_t part(std::int64_t tiles, std::int64_t index, std::int64_t count) {
   return tiles / count * index + tiles % count * index / count;
 }
@@ -123,7 +123,7 @@ class ShardPlan : public TilePlan {
   [[nodiscard]] const std::vector<LevelCount>& counts() const override { return counts_; }
   [[nodiscard]] std::unique_ptr<TileFeed> walk() const override;
   [[nodiscard]] const TilePlan& whole() const { return *whole_; }
-  /// Of a level, places in the order of the whole walk.
+  /// The part of a level, as positions in the order of the whole walk.
   [[nodiscard]] TileSpan share(int level) const {
     const auto at = std::ranges::find(counts_, level, &LevelCount::level);
     return shares_[static_cast<std::size_t>(at - counts_.begin())];

@@ -38,7 +38,7 @@ struct LevelCount {
 class TilePlan {
  public:
   virtual ~TilePlan() = default;
-  /// ascending levels; some may have no tiles
+  /// Ascending levels; some may have no tiles.
   [[nodiscard]] virtual const std::vector<LevelCount>& counts() const = 0;
   /// Starts at the first tile; the order is always the same. The plan must outlive the feed.
   [[nodiscard]] virtual std::unique_ptr<TileFeed> walk() const = 0;

@@ -15,7 +15,7 @@ struct Terms {
   std::string_view whose;
 };
 
-// Hosts of maps and imagery alone: on storage.googleapis.com or tiles.arcgis.com anybody may publish.
+// Only hosts dedicated to maps and imagery. On storage.googleapis.com or tiles.arcgis.com anybody may publish.
 constexpr std::array kTerms = {
     Terms{"tile.openstreetmap.org", "OpenStreetMap's tile usage policy"},
     Terms{"google.com", "Google Maps Platform's terms of service"},

@@ -18,7 +18,7 @@ struct GeographicCrs {
 /// Parses the name of a reference system as a URN, a URL, or AUTHORITY:CODE. Knows EPSG:4326, CRS84, and the geographic
 /// systems of the Moon, Mars and other bodies, by the codes of the IAU or Esri. IAU codes are the NAIF number · 100
 /// plus 0, 1 or 2; in those of 2015, 1 means planetographic latitudes and 2 planetocentric ones. Esri's are 104903 and
-/// 104905. The error says why another system cannot be shown, with Web Mercator by name. thread: any
+/// 104905. The error gives the reason for other systems, and names Web Mercator. thread: any
 [[nodiscard]] Result<GeographicCrs> parse_crs(std::string_view name);
 
 /// True for the names of Web Mercator, in the notations of parse_crs(). thread: any

@@ -51,7 +51,8 @@ bool is_from_network(const Url& address) {
   return lowered.starts_with("http://") || lowered.starts_with("https://");
 }
 
-/// Headers belong to the scheme, host and port that they were given for: another port may be another owner's server.
+/// True if `other` has the scheme, host and port for which headers were given. Another port may belong to another
+/// owner.
 bool may_have_headers(const Url& given_for, const Url& other) {
   const auto from = http::parse_http_address(given_for);
   const auto to = http::parse_http_address(other);
@@ -71,7 +72,7 @@ Status check_pointer(const Url& from, const Url& to, const RemoteOptions& option
   return Done{};
 }
 
-/// Where the sub-domains are, a template's first tile stands for all: its host is what is compared.
+/// Checks the host of a set's tiles for each sub-domain, by the address of the first tile.
 Result<RemoteTileSet> checked(Result<RemoteTileSet> set, const Url& from) {
   if (!set) return set;
   const RemoteOptions headers{.headers = set->headers};
@@ -149,7 +150,8 @@ class Describing {
                                const RemoteOptions& options) {
     const std::string where = address.redacted();
     if (source.kind == SourceDescription::Kind::url_template) {
-      // A description may hold its own headers for its own tiles: those of the command line were given for its host.
+      // A description may give its own headers for its own tiles. Headers of the command line were given for its host
+      // only.
       Result<RemoteTileSet> set = template_tile_set(source.address, merged, !is_from_network(address), where);
       if (!set || options.headers.empty()) return set;
       return checked(std::move(set), address);

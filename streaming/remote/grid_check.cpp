@@ -13,9 +13,10 @@ namespace {
 
 using Verdict = GridCheck::Verdict;
 
-// JPEG at quality 50 moves a mean over a cell by a level or two; another sharpening of the coarse level by three or so.
+// JPEG at quality 50 changes the mean of a cell by one or two levels, and different sharpening of the coarse level by
+// about three.
 constexpr double kLeastContrast = 8.0;
-/// A picture looks like one of two if it is this much nearer to it than to the other.
+/// A picture looks like one of two if its distance to that one is below this fraction of the distance to the other.
 constexpr double kClearly = 0.5;
 
 struct Fault {
@@ -49,7 +50,7 @@ class Checking {
     return tile && contrast(thumbnail_of(*tile)) >= kLeastContrast;
   }
 
-  /// A tile that spans 360° goes on at its west side where it ends at its east side; one that spans 180° does not.
+  /// True if the west edge of a tile continues its east edge. This holds for a tile that spans 360°, but not for 180°.
   static bool goes_round(const Image& tile) {
     constexpr double kEdge = 1.0 / 64.0;
     const Thumbnail west = thumbnail_of(tile, {.left = 0.0, .right = kEdge});
@@ -59,7 +60,7 @@ class Checking {
     return difference(west, middle) >= kLeastContrast && across < kClearly * difference(west, middle);
   }
 
-  /// Which root tiles there are. Only sets of the whole planet that begin at their root can be told apart.
+  /// Checks which root tiles exist. Only sets of the whole planet that begin at their root can be checked.
   std::optional<Fault> check_roots() {
     const GeoRect& bounds = grid_.bounds;
     const bool planet = bounds.west.deg() < -179.0 && bounds.east.deg() > 179.0 && bounds.south.deg() < -85.0 &&
@@ -93,7 +94,7 @@ class Checking {
     return std::nullopt;
   }
 
-  /// A geodetic set has tiles east of the square's, or none in its southern half.
+  /// Finds a geodetic set: it has tiles east of the Mercator square, or none in the southern half of the square.
   std::optional<Fault> check_square() {
     if (grid_.root_span_deg != 360.0 || grid_.min_level > 0) return std::nullopt;
     if (fetch({1, 2, 0})) {
@@ -115,7 +116,7 @@ class Checking {
             "say --projection web-mercator (\"projection\": \"web-mercator\" in a description)"};
   }
 
-  /// The first tiles with two tiles under each half.
+  /// The first tiles that have two tiles under each half.
   std::vector<TileId> parents() const {
     constexpr std::size_t kMost = 3;
     std::vector<TileId> found;

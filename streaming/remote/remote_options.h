@@ -22,7 +22,7 @@ struct RemoteOptions {
   std::optional<int> min_level{};         ///< none: 0
   std::optional<int> max_level{};         ///< required for a URL template
   std::optional<GeoRect> bounds{};        ///< none: the planet, or the bounds of the document
-  /// web_mercator: projection of the tiles; for others: must agree with the document
+  /// web_mercator: projection of the tiles. For others: must agree with the document.
   std::optional<Projection> projection{};
   std::optional<LatitudeKind> latitude{};
   std::optional<ImageFormat> format{};  ///< none: by the ending of a URL template, else jpeg

@@ -12,8 +12,8 @@
 namespace terrella {
 namespace {
 
-/// The span of the root tile, where a person knows better than gdal2tiles' description, which says 180° of both its
-/// kinds; and the levels that are wanted.
+/// Applies the user's options to the grid: levels, and the span of the root tile. gdal2tiles describes both of its
+/// kinds with 180°, so a user may know better.
 Status adjust(TileGrid& grid, const RemoteOptions& options, const std::string& where) {
   grid.root_span_deg = options.root_span_deg.value_or(grid.root_span_deg);
   const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
@@ -56,7 +56,7 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const Url& address,
   if (options.projection) rest.projection = options.projection;
   if (!options.bounds) rest.bounds = tms->info.grid.bounds;
   if (!options.name && !tms->info.name.empty()) rest.name = tms->info.name;
-  // Level 0 of one root tile does not lie on the grid; that it was not left out is no wish of anybody's.
+  // Level 0 of a set with one root tile lies on no grid. The user did not ask for it.
   if (!options.min_level && rest.min_level == 0) rest.min_level.reset();
   const Url url = folder + "{z}/{x}/{-y}." + tms->extension + plain.substr(query);
   Result<RemoteTileSet> set = template_tile_set(url, rest, true, where);

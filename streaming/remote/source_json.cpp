@@ -13,7 +13,7 @@ namespace terrella {
 namespace {
 
 constexpr int kVersion = 1;
-constexpr int kMaxLife_s = 315'360'000;  // ten years: longer is a mistake of units
+constexpr int kMaxLife_s = 315'360'000;  // ten years; more is a mistake of units
 
 constexpr std::array kKnown = {"version", "name",      "attribution", "body",           "url",         "subdomains",
                                "headers", "wmts",      "layer",       "matrix_set",     "style",       "time",

@@ -81,13 +81,15 @@ std::string fault_of(const RemoteTileSet& set, bool files) {
   return {};
 }
 
-/// Rows can be counted from the south where a whole number of tiles covers 180°; finer levels then do too.
+/// True if a whole number of tiles covers 180°, so that rows can be counted from the south. This then holds for finer
+/// levels too.
 bool counts_from_south(const TileGrid& grid, int level) {
   const double tiles = 2.0 * top_row_deg(grid) / tile_span_deg(grid, level);
   return tiles > 0.75 && std::abs(tiles - std::round(tiles)) < 1e-9 * tiles;
 }
 
-/// The tile of one root covers -90°…270° if its rows count from the south: such levels are no part of the grid.
+/// Leaves out levels whose rows cannot be counted from the south, such as a single root tile: it would cover
+/// -90°…270°.
 Status fit_rows_from_south(TileGrid& grid, bool level_said, const std::string& where) {
   int first = grid.min_level;
   while (first <= grid.max_level && !counts_from_south(grid, first)) ++first;

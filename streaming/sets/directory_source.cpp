@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers of columns and rows stay below it at every level.
+/// Numbers of columns and rows are smaller than this at every level.
 constexpr double kMostTilesAcross = 1e15;
 
-/// The whole number that a name is, written as tiles' names are; nothing for any other name.
+/// Parses a name as a whole number, written like tile names; nothing for other names.
 std::optional<std::int64_t> number_named(const std::string& name) {
   const auto number = read_number(name);
   if (!number || *number != std::floor(*number) || std::abs(*number) > kMostTilesAcross) return {};
@@ -77,7 +77,7 @@ class DirectorySource : public TileSource, public TileLister {
     return squeezed ? layout_.root / kSqueezedFolder : layout_.root;
   }
 
-  /// False if the call wants no more. A level without a folder has no tiles.
+  /// Lists a level. Returns false if `call` wants no more. A level without a folder has no tiles.
   [[nodiscard]] Result<bool> list_level(int level, bool squeezed, const Call& call) const {
     const fs::path folder = levels(squeezed) / layout_.folder.at(level);
     std::error_code failed;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMaxMatrices = 64;
 constexpr std::int64_t kMaxZoom = 60;
 constexpr double kMaxTilesASide = 0x1p40;
-/// How far a tile may lie from where the grid says, in texels: nobody sees it, and rounded decimals pass.
+/// Largest distance of a tile from its place in the grid, in texels. It is invisible and allows for rounded decimals.
 constexpr double kSlackTexels = 0.1;
 
 struct MatrixRow {
@@ -35,7 +35,7 @@ bool in_range(const std::optional<std::int64_t>& value, std::int64_t low, std::i
   return value && *value >= low && *value <= high;
 }
 
-/// What is wrong with a row, taken by itself.
+/// Fault of a single row.
 std::optional<std::string> fault_of(const MatrixRow& row) {
   constexpr auto kMost = static_cast<std::int64_t>(kMaxTilesASide);
   if (!in_range(row.zoom, 0, kMaxZoom)) return fmt::format("a zoom_level is not a whole number in [0, {}]", kMaxZoom);
@@ -65,7 +65,8 @@ TileMatrix to_matrix(const MatrixRow& row) {
           .span_deg = *row.pixel_x_deg * static_cast<double>(*row.width_px)};
 }
 
-/// Whole tiles may reach over the extent, as GDAL's coarse overviews and clipped quadtrees do, by less than a tile.
+/// True if the tiles fill the extent. They may reach over it by less than a tile, as in GDAL's coarse overviews and
+/// clipped quadtrees.
 bool fills(std::int64_t tiles, double span_deg, double extent_deg, double slack_deg) {
   const auto count = static_cast<double>(tiles);
   return count * span_deg >= extent_deg - slack_deg && (count - 1.0) * span_deg <= extent_deg + slack_deg;
@@ -83,7 +84,7 @@ std::optional<std::string> fault_in_extent(const TileMatrix& matrix, const Exten
                      matrix.zoom, matrix.columns, matrix.rows, matrix.span_deg, width_deg, height_deg);
 }
 
-/// Powers of two between a matrix and the finest one; nullopt if it is something else.
+/// Number of halvings between a matrix and the finest; nullopt if the ratio is no power of two.
 std::optional<int> halvings(const TileMatrix& matrix, const TileMatrix& finest) {
   const double steps = std::log2(matrix.span_deg / finest.span_deg);
   const int whole = static_cast<int>(std::lround(steps));
@@ -108,7 +109,7 @@ std::optional<std::string> fault_among(const std::vector<TileMatrix>& matrices) 
   return std::nullopt;
 }
 
-/// Whole tiles from the grid's origin to the matrix' corner; nullopt if it lies between tiles.
+/// Number of whole tiles from the grid's origin to the matrix' corner; nullopt if the corner lies between tiles.
 std::optional<std::int64_t> whole_tiles(double offset_deg, const TileMatrix& matrix) {
   const double tiles = offset_deg / matrix.span_deg;
   if (std::abs(tiles) > kMaxTilesASide) return std::nullopt;
@@ -142,7 +143,7 @@ Error between_tiles(const Extent& extent, const TileMatrix& finest, double top_d
       where, extent.west, extent.north, finest.span_deg)};
 }
 
-/// The level of the finest matrix: its zoom, unless the root tile then is of no sensible size.
+/// Level of the finest matrix: its zoom, unless the root tile then has no sensible size.
 int level_of_finest(const TileMatrix& finest, int coarsest_steps) {
   const double root_deg = std::ldexp(finest.span_deg, static_cast<int>(finest.zoom));
   const bool sensible = finest.zoom <= kMaxTileLevel && finest.zoom >= coarsest_steps && root_deg <= kMaxRootSpanDeg &&
@@ -187,7 +188,7 @@ Status place_on_grid(const std::vector<TileMatrix>& matrices, const Extent& exte
   std::vector<std::pair<int, GeoPackageLevel>> placed;  // halvings to the finest, finest first
   for (const TileMatrix& matrix : matrices) {
     const auto level = place(matrix, extent, top_row_deg(tiles.info.grid));
-    if (!level) break;  // where a tile does not fit, one of twice its span does not either
+    if (!level) break;  // a tile of twice the span does not fit either
     placed.emplace_back(*halvings(matrix, matrices.front()), *level);
   }
   const TileMatrix& finest = matrices.front();
@@ -197,7 +198,7 @@ Status place_on_grid(const std::vector<TileMatrix>& matrices, const Extent& exte
   grid.tile_px = finest.tile_px;
   grid.root_span_deg = std::ldexp(finest.span_deg, top);
   if (grid.projection == Projection::web_mercator) {
-    // Written in metres, a span is 360° or a half, a quarter … of it but for rounding.
+    // A span written in metres is 360° or a half, a quarter … of it, apart from rounding.
     const double exact = std::ldexp(360.0, -static_cast<int>(std::lround(std::log2(360.0 / grid.root_span_deg))));
     const double texels = std::ldexp(finest.tile_px, top);
     if (std::abs(grid.root_span_deg / exact - 1.0) * texels > kSlackTexels) {

@@ -30,7 +30,7 @@ struct TileTable {
   Projection projection = Projection::equirectangular;
 };
 
-/// Degrees that a unit of the table's reference system is: metres of Web Mercator count as degrees of its rows.
+/// Degrees in a unit of the table's reference system. Metres of Web Mercator count as degrees of its rows.
 double degrees_a_unit(const TileTable& table) {
   return table.projection == Projection::web_mercator ? 1.0 / kMercatorDegree_m : 1.0;
 }
@@ -46,7 +46,7 @@ std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, dou
   return extent.west < extent.east && extent.south < extent.north ? std::optional(extent) : std::nullopt;
 }
 
-/// What an SRS is called, for example "EPSG:4326".
+/// Name of a reference system, for example "EPSG:4326".
 std::string srs_name(SqliteReader& reader, std::int64_t srs_id) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT upper(organization), organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?1");
@@ -90,8 +90,8 @@ Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, cons
   return table;
 }
 
-/// The first tile table that can be used, pictures before heights: any if `any_srs` (one of ours), else in EPSG:4326 or
-/// EPSG:3857.
+/// First usable tile table, pictures before heights. With `any_srs` (a file of Terrella's) any reference system is
+/// usable, else EPSG:4326 and EPSG:3857.
 Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
@@ -120,7 +120,7 @@ Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::stri
   return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
 }
 
-/// Longitudes that go on beyond 180° (0 to 360 is common for planets) come back at the other side.
+/// Bounds of an extent. Longitudes beyond 180° (0 to 360 is common for planets) are wrapped.
 GeoRect bounds_of(const Extent& extent) {
   const double width = extent.east - extent.west;
   const auto wrap = [](double lon) { return lon > 180.0 ? lon - 360.0 : (lon < -180.0 ? lon + 360.0 : lon); };
@@ -141,7 +141,7 @@ Extent in_latitude(Extent extent, Projection projection) {
   return extent;
 }
 
-/// By the first tile that the table holds: the format is only said, decoders look for themselves.
+/// Format of the first tile in the table. The format is only informative; decoders look at the bytes.
 ImageFormat format_of(SqliteReader& reader, const std::string& table) {
   Result<SqliteQuery, SqlError> query =
       reader.prepare("SELECT tile_data FROM " + quote_identifier(table) + " WHERE typeof(tile_data) = 'blob' LIMIT 1");
@@ -150,7 +150,7 @@ ImageFormat format_of(SqliteReader& reader, const std::string& table) {
   return row && *row ? sniff_format(query->blob(0).value_or(std::span<const std::byte>{})) : ImageFormat::unknown;
 }
 
-/// A viewer keeps the tiles of the coarsest level; more than these are no base to stand on.
+/// Limit of root tiles. A viewer keeps the tiles of the coarsest level in memory.
 constexpr std::int64_t kMaxRootTiles = 512;
 
 Result<bool, SqlError> has_tiles(SqliteReader& reader, const std::string& table, std::int64_t zoom) {
@@ -161,7 +161,8 @@ Result<bool, SqlError> has_tiles(SqliteReader& reader, const std::string& table,
   return query->step();
 }
 
-/// gdal_translate lists all zoom levels but writes the finest alone; gdaladdo fills the others.
+/// Drops empty coarse levels. gdal_translate lists all zoom levels but writes only the finest; gdaladdo fills the
+/// others.
 Status drop_empty_levels(SqliteReader& reader, GeoPackageTiles& tiles, const std::string& where) {
   while (!tiles.levels.empty()) {
     const Result<bool, SqlError> some = has_tiles(reader, tiles.table, tiles.levels.begin()->second.zoom);
@@ -182,7 +183,7 @@ Status drop_empty_levels(SqliteReader& reader, GeoPackageTiles& tiles, const std
   return Done{};
 }
 
-/// The text of our side table, if there is one.
+/// Text of Terrella's side table, if it exists.
 Result<std::optional<std::string>> read_description(SqliteReader& reader, const std::string& where) {
   const Result<bool, SqlError> ours = reader.has_table(kTileSetTable);
   if (!ours) return Error{fmt::format("{}: {}", where, ours.error().message)};

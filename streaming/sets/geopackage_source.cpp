@@ -67,7 +67,7 @@ class GeoPackageSource : public TileSource, public TileLister {
   }
 
  private:
-  /// The inverse of place_of().
+  /// Inverse of place_of().
   static TileId tile_at(const GeoPackageLevel& at, int level, std::int64_t column, std::int64_t row) {
     const std::int64_t x = column + at.first_column;
     const bool beyond = at.turn_columns > 0 && x >= at.turn_columns;
@@ -91,7 +91,7 @@ class GeoPackageSource : public TileSource, public TileLister {
   const fs::path path_;
   const GeoPackageTiles tiles_;
   const std::unique_ptr<SqliteTiles> table_;
-  const std::unique_ptr<SqliteTiles> squeezed_;  ///< there if the grid is reduced
+  const std::unique_ptr<SqliteTiles> squeezed_;  ///< null unless the grid is reduced
 };
 
 Result<bool, SqlError> is_mbtiles(SqliteReader& reader) {

@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-/// What the table's own words may be, else the error's end.
+/// Checks the words in the row of the table. The error is the end of a message.
 Status check_words(const SqliteQuery& row) {
   const std::string datatype = row.text(0).value_or("");
   if (datatype != "integer" && datatype != "float") {

@@ -26,7 +26,7 @@ constexpr const char* kTables[] = {
     "CONSTRAINT fk_tmm_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name))",
 };
 
-/// The extension's tables, OGC 17-066r1, tables 1 to 3.
+/// Tables of the extension, OGC 17-066r1, tables 1 to 3.
 constexpr const char* kCoverageTables[] = {
     "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
     "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))",
@@ -122,7 +122,7 @@ void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>&
   for (const char* table : kCoverageTables) all.push_back({table, {}});
   all.push_back({kCoverageExtension, {}});
   std::vector<double> numbers = {elevation.scale, elevation.offset};
-  // GDAL rounds to the precision, which the schema's default would make a metre.
+  // GDAL rounds to the precision. The schema's default is one metre.
   if (elevation.nodata) numbers.push_back(*elevation.nodata);
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
                              "offset, precision, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, abs(?1), ") +

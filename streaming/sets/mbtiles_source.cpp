@@ -85,7 +85,7 @@ bool says_geodetic(const Metadata& metadata) {
   });
 }
 
-/// What a query of numbers answers; nothing if it takes too long, or if there are no tiles.
+/// Numbers returned by a query; nothing if the query takes too long, or if there are no tiles.
 template <std::size_t Count>
 std::optional<std::array<std::int64_t, Count>> numbers(SqliteReader& reader, const std::string& sql) {
   Result<SqliteQuery, SqlError> query = reader.prepare(sql);
@@ -101,7 +101,7 @@ std::optional<std::array<std::int64_t, Count>> numbers(SqliteReader& reader, con
   return values;
 }
 
-/// "west,south,east,north"; the planet if it is anything else.
+/// Parses "west,south,east,north"; anything else gives the whole planet.
 GeoRect bounds_of(std::string_view text) {
   std::array<double, 4> side{};
   for (double& value : side) {
@@ -123,9 +123,10 @@ struct TileRange {
   std::int64_t first_column, last_column, first_row, last_row;
 };
 
-/// True if tiles of a span are those over the bounds, all columns and no rows but theirs, counted from the south-west.
+/// True if the tiles with this span cover the bounds: all columns, and only rows of the bounds, counted from the
+/// south-west.
 bool lie_over(const TileRange& tiles, const GeoRect& bounds, double span) {
-  constexpr double kSliver = 1e-6;  // of a tile
+  constexpr double kSliver = 1e-6;  // fraction of a tile
   const auto first = [&](double offset_deg) { return std::llround(std::floor(offset_deg / span + kSliver)); };
   const auto last = [&](double offset_deg) { return std::llround(std::ceil(offset_deg / span - kSliver)) - 1; };
   return tiles.first_column == first(bounds.west.deg() + 180.0) &&
@@ -141,7 +142,7 @@ std::optional<TileRange> tiles_of_level(SqliteReader& reader, int level) {
   return TileRange{(*found)[0], (*found)[1], (*found)[2], (*found)[3]};
 }
 
-/// 180° or, if the finest tiles are those of one root tile, 360°.
+/// 180°, or 360° if the finest tiles belong to one root tile.
 double root_span_of(const std::optional<TileRange>& finest, const TileGrid& grid) {
   if (!finest || grid.max_level == 0) return 180.0;
   const double span = std::ldexp(180.0, -grid.max_level);
@@ -153,7 +154,8 @@ constexpr const char* kCutThePicture =
     "that is not in "
     "EPSG:4326, then `terrella cut new.tif -o new.gpkg`";
 
-/// Tiles beyond the last column or row of the planet are of a grid of their own, or counted in another way.
+/// Refuses tiles beyond the last column or row of the planet. They belong to another grid, or are counted in
+/// another way.
 Status check_tiles_lie_on(const std::optional<TileRange>& finest, const TileGrid& grid, const std::string& where) {
   if (!finest) return Done{};
   const std::int64_t width = columns(grid, grid.max_level);
@@ -168,7 +170,7 @@ Status check_tiles_lie_on(const std::optional<TileRange>& finest, const TileGrid
                   width, height, kCutThePicture)};
 }
 
-/// The one tile of level 0 reaches from -90° to 270° and lies on no grid that begins at 90°.
+/// Leaves out the only tile of level 0, which reaches from -90° to 270° and lies on no grid that begins at 90°.
 Status leave_out_root(TileGrid& grid, const std::string& where) {
   if (grid.root_span_deg < 360.0 || grid.min_level > 0) return Done{};
   if (grid.max_level == 0) return Error{where + ": its only level has one tile that reaches from -90° to 270°"};
@@ -176,7 +178,7 @@ Status leave_out_root(TileGrid& grid, const std::string& where) {
   return Done{};
 }
 
-/// The reference system that the metadata name, if it is neither geodetic nor Web Mercator.
+/// Error if the metadata name a reference system that is neither geodetic nor Web Mercator.
 std::optional<Error> other_system(const Metadata& metadata, const std::string& where) {
   for (const char* name : {"crs", "srs"}) {
     const std::string crs = value_of(metadata, name);
@@ -189,8 +191,8 @@ std::optional<Error> other_system(const Metadata& metadata, const std::string& w
   return std::nullopt;
 }
 
-/// A geodetic file that does not say so: it has columns where Web Mercator has none, or its tiles, which count from the
-/// south, end at the equator.
+/// Refuses a geodetic file without matching metadata. Such a file has columns that Web Mercator has not, or its tiles,
+/// counted from the south, end at the equator.
 Status check_mercator_tiles(const std::optional<TileRange>& finest, const TileGrid& grid, const std::string& where) {
   if (!finest) return Done{};
   const std::int64_t side = columns(grid, grid.max_level);
@@ -221,7 +223,7 @@ Status place_geodetic(const std::optional<TileRange>& finest, TileGrid& grid, co
   return check_tiles_lie_on(finest, grid, where);
 }
 
-/// The size of the tiles, and their format, from one of them.
+/// Reads the size and format of the tiles from one of them.
 Status look_at_tile(SqliteReader& reader, TileSetInfo& info, const std::string& where) {
   Result<SqliteQuery, SqlError> query =
       reader.prepare("SELECT tile_data FROM tiles WHERE length(tile_data) > 0 LIMIT 1");

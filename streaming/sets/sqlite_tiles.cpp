@@ -7,7 +7,7 @@
 namespace terrella {
 namespace {
 
-/// The tile in the query's row. Copied, since it is gone once the query is reset.
+/// Returns the tile in the query's row, as a copy, because reset() frees the row.
 Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
   if (!row) return TileFailure{Absence::absent, "the file has no such tile"};
   const auto blob = query.blob(0);
@@ -18,7 +18,7 @@ Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
                      .number_offset = query.number(2).value_or(0.0)};
 }
 
-/// A tile without a row of its own in the side table has a scale of 1 and an offset of 0.
+/// A tile without a row in the side table has a scale of 1 and an offset of 0.
 std::string select_tile(const std::string& quoted_table, TileExtras extras) {
   const std::string place = " WHERE zoom_level = ?1 AND tile_column = ?2 AND tile_row = ?3";
   if (extras == TileExtras::none) return "SELECT tile_data, NULL, NULL FROM " + quoted_table + place;
@@ -26,8 +26,8 @@ std::string select_tile(const std::string& quoted_table, TileExtras extras) {
          " t LEFT JOIN gpkg_2d_gridded_tile_ancillary a ON a.tpudt_name = ?4 AND a.tpudt_id = t.id" + place;
 }
 
-/// Bounds a list of rows. A row takes more than a byte, and some microseconds to step to: only a hostile view has more
-/// rows than the file has bytes, or takes a thousand times as long for many of them.
+/// Work limit for a list of rows. A row takes more than a byte of the file and a few microseconds. Only a hostile view
+/// has more rows than the file has bytes, or takes a thousand times as long for many rows.
 class ListAllowance {
  public:
   explicit ListAllowance(const std::filesystem::path& path) {
@@ -116,7 +116,7 @@ Result<bool, SqlError> SqliteTiles::for_each(std::int64_t zoom,
   return true;
 }
 
-/// What never ends for one tile does not end for the next: a file is given one such chance.
+/// After one query without end, the file is given up, because the next tile would take as long.
 TileFailure SqliteTiles::failure_of(const SqlError& error) {
   if (error.problem == SqlProblem::too_long) given_up_ = true;
   return TileFailure{error.problem == SqlProblem::busy ? Absence::failed : Absence::broken, error.message};

@@ -17,7 +17,7 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kJpegEnd = "\xFF\xD9"sv;
 constexpr std::string_view kPngEnd = "\0\0\0\0IEND\xAE\x42\x60\x82"sv;
-/// Some encoders pad what follows the end; further back it is not an end but a picture within the picture.
+/// Some encoders pad the file after its end. An end mark further back belongs to a picture inside the picture.
 constexpr std::size_t kMostPadding = 16;
 
 bool ends_with(std::string_view bytes, std::string_view end) {

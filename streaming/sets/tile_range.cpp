@@ -8,9 +8,9 @@
 namespace terrella {
 namespace {
 
-/// The numbers for which `is_there` holds among those that reach over [low, high]; it knows about slivers and has the
-/// last word on the first and the last. Both are looked for from one number outside at most, so that what exists for
-/// another reason (the same bounds a turn away) cannot be taken for this span's end with a gap between.
+/// Range of the numbers near [low, high] for which `is_there` holds. `is_there` knows the rule for slivers and decides
+/// on the first and the last number. The search begins at most one number outside. A number that exists for another
+/// reason (the same bounds a turn away) is therefore not taken for the end of this span.
 template <class IsThere>
 TileSpan span_over(double low, double high, std::int64_t count, const IsThere& is_there) {
   const auto most = static_cast<double>(count);
@@ -21,8 +21,8 @@ TileSpan span_over(double low, double high, std::int64_t count, const IsThere& i
   return span;
 }
 
-// A tile exists if its column touches the bounds' longitudes and its row their latitudes, so each can be found with the
-// other bounds open.
+// A tile exists if its column touches the bounds' longitudes and its row their latitudes. Each range can therefore be
+// found with the other bounds open.
 TileSpan rows_in_bounds(const TileGrid& grid, int level) {
   TileGrid band = grid;
   band.bounds.west = GeoRect{}.west;
@@ -33,8 +33,8 @@ TileSpan rows_in_bounds(const TileGrid& grid, int level) {
   return span_over(north, south, rows(grid, level), [&](std::int64_t y) { return exists(band, {level, 0, y}); });
 }
 
-/// Ascending, each column once. Bounds over ±180° give two spans; a last column that reaches over 180° may belong to
-/// the bounds that begin at -180°.
+/// Ascending spans, each column once. Bounds over ±180° give two spans. A last column that reaches over 180° may belong
+/// to the bounds that begin at -180°.
 std::vector<TileSpan> columns_in_bounds(const TileGrid& grid, int level) {
   TileGrid wedge = grid;
   wedge.bounds.south = GeoRect{}.south;

@@ -11,7 +11,7 @@ Error field_error(const std::string& where, const char* field, double value, con
   return Error{fmt::format("{}: {} is {}, it must be {}", where, field, value, allowed)};
 }
 
-// A bound that was counted in radians and back may lie over ±180° or ±90° by rounding.
+// Conversion to radians and back may move a bound over ±180° or ±90° by rounding.
 constexpr double kAngleSlackDeg = 1e-9;
 
 bool within(double value, double low, double high) {
@@ -32,7 +32,7 @@ Status check_bounds(const GeoRect& bounds, const std::string& where) {
   return Done{};
 }
 
-/// Tiles of a quadtree over the square: those of 360° and their quarters.
+/// Checks that the tiles form a quadtree over the square: 360° and its quarters.
 Status check_mercator(const TileGrid& grid, const std::string& where) {
   if (grid.projection != Projection::web_mercator) return Done{};
   const double halvings = std::log2(360.0 / grid.root_span_deg);

@@ -21,7 +21,7 @@ void widen(std::optional<Range>& range, std::int64_t value) {
   range = range ? Range{std::min(range->first, value), std::max(range->last, value)} : Range{value, value};
 }
 
-/// The least and greatest number among the names in a folder, endings apart.
+/// Smallest and largest number among the names in a folder, without endings.
 std::optional<Range> numbers_in(const fs::path& folder) {
   std::optional<Range> range;
   std::error_code ignored;
@@ -36,7 +36,7 @@ std::optional<Range> numbers_in(const fs::path& folder) {
 
 /// Tiles of a span that cover [low, high] degrees, counted from `origin`.
 Range tiles_over(double low_deg, double high_deg, double origin_deg, double span_deg) {
-  constexpr double kSliver = 1e-6;  // of a tile
+  constexpr double kSliver = 1e-6;  // fraction of a tile
   return {static_cast<std::int64_t>(std::floor((low_deg - origin_deg) / span_deg + kSliver)),
           static_cast<std::int64_t>(std::ceil((high_deg - origin_deg) / span_deg - kSliver)) - 1};
 }

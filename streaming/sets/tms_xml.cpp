@@ -16,7 +16,8 @@ namespace terrella {
 namespace {
 
 constexpr int kMaxTileSets = 64;
-// Writers print a dozen digits; the tiles of level 24 would still lie right to a hundredth of a texel.
+// Tolerance of spans. Writers print a dozen digits; the tiles of level 24 then still lie right to a hundredth of a
+// texel.
 constexpr double kRelativeSlack = 1e-9;
 
 struct TmsLevel {
@@ -28,7 +29,7 @@ bool near(double a, double b, double relative) {
   return std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));
 }
 
-/// A number that fills its attribute; NaN if it is missing or anything else.
+/// A number that fills its attribute; NaN if it is missing or invalid.
 double number(const pugi::xml_node& node, const char* attribute) {
   const char* text = node.attribute(attribute).value();
   char* end = nullptr;
@@ -53,7 +54,7 @@ std::optional<std::string> refuse_reference_system(const pugi::xml_node& map) {
   return std::nullopt;
 }
 
-/// In metres, but gdal2tiles writes degrees.
+/// Bounds in metres, or in degrees as gdal2tiles writes them.
 GeoRect mercator_bounds(const pugi::xml_node& map) {
   constexpr double kMostDegrees = 360.0;
   const pugi::xml_node box = map.child("BoundingBox");
@@ -83,7 +84,7 @@ GeoRect read_bounds(const pugi::xml_node& map) {
           .north = side("maxy", 90.0, 90.0)};
 }
 
-/// A folder's name that stays inside the tile set.
+/// True for a folder name that stays inside the tile set.
 bool is_safe_folder(const std::string& name) {
   return !name.empty() && name.size() <= 64 && name.find('/') == std::string::npos && name != "." && name != "..";
 }
@@ -111,13 +112,14 @@ Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double til
   return levels;
 }
 
-/// Rows run from -90° here and from +90° in a TileGrid: they meet where a whole number of tiles reaches over 180°.
+/// True if a whole number of tiles covers 180°. Only then do rows from -90° meet the rows of a TileGrid, which begin at
+/// +90°.
 bool divides_half_turn(double span_deg) {
   const double rows = 180.0 / span_deg;
   return rows > 0.5 && near(rows, std::round(rows), kRelativeSlack);
 }
 
-/// A level's number is how often 360° are halved.
+/// Assigns levels. The level is the number of halvings of 360°.
 Status assign_mercator_levels(const std::vector<TmsLevel>& levels, TmsDescription& tms, const std::string& where) {
   TileGrid& grid = tms.info.grid;
   grid.root_span_deg = 360.0;
@@ -132,7 +134,7 @@ Status assign_mercator_levels(const std::vector<TmsLevel>& levels, TmsDescriptio
   return Done{};
 }
 
-/// Gives each folder its level of a grid whose root tile spans 180 · 2^n degrees or, for other spans, the coarsest
+/// Gives each folder its level in a grid. The root tile spans 180 · 2^n degrees or, for other spans, is the coarsest
 /// tile.
 Status assign_levels(std::vector<TmsLevel> levels, TmsDescription& tms, const std::string& where) {
   if (tms.info.grid.projection == Projection::web_mercator) return assign_mercator_levels(levels, tms, where);

@@ -18,20 +18,21 @@ bool is_planet(const GeoRect& rect) {
   return rect.west.deg() == -180.0 && rect.east.deg() == 180.0 && rect.south.deg() == -90.0 && rect.north.deg() == 90.0;
 }
 
-/// Fails if the picture is of another body than the options say, or counts other latitudes.
+/// Fails if the picture belongs to another body than the options say, or counts other latitudes.
 Status fits_body(const CutOptions& options, const PictureFile& picture, const PlacedPicture& place) {
   const auto body = options.body.empty() ? earth() : parse_body(options.body);
   return body ? check_figure(picture, place, *body, options.latitude) : body.error();
 }
 
-/// For a picture that is placed, and by that on no rectangle.
+/// Error for a picture whose place is no rectangle of the grid.
 Error to_resample(const PictureFile& picture, const PlacedPicture& place, const Error& why) {
   const std::string options = place.crs ? needed_options(*place.crs).text() : "";
   return Error{fmt::format("{}; resample it{}{}: {}", why.message, options.empty() ? "" : ", and show the result with",
                            options, resample_command(picture, place))};
 }
 
-/// The nodes of a planet by nodes lie at the middles of pixels that reach half a pixel beyond it.
+/// True if the place is that of a planet sampled at nodes: the nodes are centres of pixels that reach half a pixel
+/// beyond the planet.
 bool lies_on_nodes(const Placement& place, const PictureFile& picture) {
   const double step = 360.0 / static_cast<double>(picture.width_px);
   const auto near = [step](double a, double b) { return std::abs(a - b) <= 0.01 * step; };
@@ -41,7 +42,7 @@ bool lies_on_nodes(const Placement& place, const PictureFile& picture) {
          near(place.pixel_height_deg * height, step * height);
 }
 
-/// The bounds of one picture, and whether it is a planet by nodes.
+/// Bounds of one picture. Also tells if the picture is a planet sampled at nodes.
 struct SaidPlace {
   std::optional<GeoRect> bounds;
   bool nodes = false;
@@ -51,7 +52,7 @@ struct SaidPlace {
 Result<SaidPlace> said_place(const CutOptions& options, const PictureFile& picture) {
   const bool node_sides = options.elevation && is_node_planet(picture.width_px, picture.height_px);
   const auto place = place_picture(picture);
-  // The bounds are given for a place that cannot be believed.
+  // The bounds replace a place that is not usable.
   if (!place && options.bounds) return SaidPlace{};
   if (!place) return place.error();
   const bool is_placed = place->placement && !options.bounds;
@@ -64,7 +65,7 @@ Result<SaidPlace> said_place(const CutOptions& options, const PictureFile& pictu
   if (Status fits = fits_body(options, picture, *place); !fits) return fits.error();
   if (!is_placed) return SaidPlace{.bounds = {}, .nodes = node_sides && !options.bounds, .resample_command = {}};
   SaidPlace said{.bounds = *bounds, .nodes = false, .resample_command = resample_command(picture, *place)};
-  // A planet without bounds may have an odd width, whose half is no whole number of rows.
+  // A planet without bounds may have an odd width, and half of that is no whole number of rows.
   if (is_planet(*bounds)) said.bounds.reset();
   return said;
 }

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr ttag_t kGdalNodata = 42113;
-/// Numbers of 16 bits for heights that are known; the last says that there is none.
+/// Number of 16-bit values for known heights. The remaining value means "no height".
 constexpr double kFloatNumbers = 65534.0;
 constexpr int kFloatNodata = 65535;
 constexpr int kInt16Shift = 32768;
@@ -55,7 +55,7 @@ Result<Probe> probe_heights(const fs::path& image) {
   char head[2] = {};
   file.read(head, sizeof(head));
   const bool tiff_head = (head[0] == 'I' && head[1] == 'I') || (head[0] == 'M' && head[1] == 'M');
-  // What is no TIFF is looked at by its reader.
+  // If the file is no TIFF, its own reader checks it.
   if (!tiff_head) return Probe{};
   std::string message;
   const TiffHandle tiff = open_tiff(image.string(), message);
@@ -63,7 +63,7 @@ Result<Probe> probe_heights(const fs::path& image) {
   return probe_tiff(tiff.get(), image.string());
 }
 
-/// A nodata value that no sample of the kind can have is none.
+/// Drops a nodata value that no sample of this kind can have.
 std::optional<double> possible(std::optional<double> nodata, HeightKind kind) {
   if (!nodata || kind == HeightKind::float32) return nodata;
   const double least = kind == HeightKind::int16 ? -32768.0 : 0.0;
@@ -76,7 +76,7 @@ struct Range {
   float most = -std::numeric_limits<float>::infinity();
 };
 
-/// Of the samples themselves: coding with scale 1 and offset 0.
+/// Widens the range by the raw samples, with scale 1 and offset 0.
 Status widen(const fs::path& image, const HeightCoding& coding, Range& range) {
   auto reader = open_height_rows(image, coding);
   if (!reader) return reader.error();
@@ -152,7 +152,7 @@ class BetweenNodes : public RowReader {
       sum += corner;
       known += 1.0F;
     }
-    return sum / known;  // NaN if none is known
+    return sum / known;  // NaN if no corner is known
   }
 
   std::unique_ptr<RowReader> nodes_;

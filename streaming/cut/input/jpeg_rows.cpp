@@ -10,10 +10,11 @@
 namespace terrella {
 namespace {
 
-/// A progressive file of a few kilobytes can hold thousands of scans over the whole picture; real ones have about ten.
+/// Limit against files of a few kilobytes with thousands of scans over the whole picture. Real progressive files have
+/// about ten.
 constexpr int kMaxScans = 100;
 
-/// libjpeg's error state, with the way back out. Its callbacks are C frames that longjmp passes over.
+/// libjpeg's error state, with the jump target. longjmp jumps over the C frames of its callbacks.
 struct ErrorState {
   jpeg_error_mgr manager;
   std::jmp_buf way_out;
@@ -28,7 +29,8 @@ ErrorState* error_state(j_common_ptr codec) { return reinterpret_cast<ErrorState
   std::longjmp(state->way_out, 1);
 }
 
-/// A warning means that pixels were made up, unless it is one of those that cameras and editors are known to cause.
+/// Treats a warning as an error, because pixels were made up, except for warnings that cameras and editors commonly
+/// cause.
 void on_message(j_common_ptr codec, int level) {
   if (level >= 0) return;
   const int code = codec->err->msg_code;
@@ -52,7 +54,7 @@ class JpegRows : public RowReader {
     progress_.progress_monitor = on_progress;
   }
   ~JpegRows() override {
-    // Safe also where creation failed: libjpeg looks whether there is a memory manager.
+    // Safe even if creation failed: libjpeg checks for a memory manager.
     jpeg_destroy_decompress(&decoder_);
   }
   JpegRows(const JpegRows&) = delete;
@@ -76,7 +78,7 @@ class JpegRows : public RowReader {
   }
 
  private:
-  // The functions that set the way out hold nothing that needs a destructor.
+  // Functions that call setjmp contain no objects with destructors.
   bool read_header() {
     if (setjmp(errors_.way_out) != 0) return false;
     jpeg_create_decompress(&decoder_);
@@ -111,7 +113,7 @@ class JpegRows : public RowReader {
     return Done{};
   }
 
-  /// A progressive or multi-scan picture is held whole, as coefficients.
+  /// Memory for a progressive or multi-scan picture, which libjpeg holds completely, as coefficients.
   [[nodiscard]] std::uint64_t coefficient_bytes() const {
     if (jpeg_has_multiple_scans(const_cast<j_decompress_ptr>(&decoder_)) == FALSE) return 0;
     std::uint64_t blocks = 0;

@@ -10,10 +10,10 @@
 namespace terrella {
 namespace {
 
-/// How far a part may lie off the pixels of the first, pixels: what coordinates with six decimals leave.
+/// Largest distance of a part from the pixels of the first part, pixels: the error of coordinates with six decimals.
 constexpr double kAlignment_px = 0.01;
 
-/// Where a part lies, in columns and rows of parts or of pixels.
+/// Position of a part, in columns and rows of parts or of pixels.
 struct Cell {
   std::int64_t x = 0;
   std::int64_t y = 0;
@@ -23,7 +23,7 @@ std::string named(const MosaicPart& part, std::size_t index) {
   return fmt::format("{} (picture {})", part.path.string(), index + 1);
 }
 
-/// Sets sizes from rows of parts whose heights and whose rows' widths must agree.
+/// Computes sizes. Heights within a row must agree, and so must the widths of rows.
 Result<MosaicLayout> measured(MosaicLayout layout, const std::vector<MosaicPart>& parts) {
   for (MosaicRow& row : layout.rows) {
     row.height_px = parts[row.parts.front()].height_px;
@@ -74,7 +74,7 @@ std::optional<Cell> cell_by_name(const std::filesystem::path& path) {
 std::string cell_name(std::int64_t x, std::int64_t y) { return fmt::format("{}{}", "ABCD"[x], y + 1); }
 
 Result<MosaicLayout> by_names(const std::vector<MosaicPart>& parts, const std::vector<Cell>& cells) {
-  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> at;  // by row, then column
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> at;  // keyed by row, then column
   Cell first = cells.front();
   Cell last = cells.front();
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -117,7 +117,7 @@ Result<MosaicLayout> by_names(const std::vector<MosaicPart>& parts, const std::v
 
 // ---- places
 
-/// A part's corner in pixels of the first part, from the first part's.
+/// Corner of a part in pixels, relative to the first part's corner.
 Result<Cell> pixel_of(const std::vector<MosaicPart>& parts, std::size_t index) {
   const Placement& origin = *parts[0].place;
   const Placement& place = *parts[index].place;
@@ -139,7 +139,7 @@ Result<Cell> pixel_of(const std::vector<MosaicPart>& parts, std::size_t index) {
   return Cell{.x = std::llround(x), .y = std::llround(y)};
 }
 
-/// Each row's parts must follow on one another, and each row on the last.
+/// Checks that the parts of each row touch, and that each row touches the previous one.
 Status check_touching(const std::vector<MosaicPart>& parts, const std::vector<Cell>& corners,
                       const MosaicLayout& layout) {
   const Cell first = corners[layout.rows.front().parts.front()];
@@ -188,9 +188,9 @@ Result<MosaicLayout> by_places(const std::vector<MosaicPart>& parts) {
   return done;
 }
 
-// ---- what parts say beside the layout
+// ---- places stated by parts
 
-/// Where the mosaic begins by what one of its parts says; none if no part says a place. All must say the same.
+/// Corner of the mosaic by the places stated by its parts; none if no part states a place. All statements must agree.
 Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& parts, const MosaicLayout& layout) {
   std::optional<Placement> origin;
   std::int64_t y = 0;
@@ -218,7 +218,7 @@ Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& part
   return origin;
 }
 
-/// Sets the bounds that the parts say; what their names say must be the same.
+/// Sets the bounds stated by the parts. They must agree with bounds from names.
 Result<MosaicLayout> with_said_bounds(MosaicLayout layout, const std::vector<MosaicPart>& parts) {
   const auto origin = said_origin(parts, layout);
   if (!origin) return origin.error();

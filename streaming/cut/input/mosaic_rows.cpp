@@ -30,7 +30,7 @@ class MosaicRows : public RowReader {
     while (rows > 0) {
       const std::int64_t here = std::min(rows, layout_.rows[row_of_parts_].height_px - in_part_);
       const bool all = in_part_ == 0 && here == layout_.rows[row_of_parts_].height_px;
-      // What is passed over whole is not opened.
+      // Rows of parts that are skipped completely are not opened.
       if (!all) {
         if (Status opened = open_row_of_parts(); !opened) return opened;
         for (const auto& reader : readers_) {
@@ -72,7 +72,7 @@ class MosaicRows : public RowReader {
   PictureInfo info_;
   OpenRows open_;
   std::size_t row_of_parts_ = 0;
-  std::int64_t in_part_ = 0;  ///< rows of this row of parts that are done
+  std::int64_t in_part_ = 0;  ///< rows done in this row of parts
   std::vector<std::unique_ptr<RowReader>> readers_;
 };
 

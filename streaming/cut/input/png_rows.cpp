@@ -11,7 +11,7 @@ namespace {
 
 constexpr png_alloc_size_t kMaxChunkBytes = 8UL << 20;
 
-/// libpng's callbacks are C frames that longjmp passes over.
+/// longjmp jumps over the C frames of libpng's callbacks.
 [[noreturn]] void on_row_error(png_structp png, png_const_charp message) {
   auto* text = static_cast<char*>(png_get_error_ptr(png));
   std::snprintf(text, 128, "%s", message);
@@ -63,7 +63,7 @@ class PngRows : public RowReader {
   }
 
  private:
-  // The functions that set the way out hold nothing that needs a destructor.
+  // Functions that call setjmp contain no objects with destructors.
   bool read_header() {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, message_, on_row_error, ignore_row_warning);
     if (png_ == nullptr) return false;
@@ -72,9 +72,9 @@ class PngRows : public RowReader {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_init_io(png_, file_.get());
     png_set_chunk_malloc_max(png_, kMaxChunkBytes);
-    // Larger pictures are refused with a message of ours.
+    // Larger pictures are refused later, with Terrella's own message.
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    // Only what makes pixels is read: profiles and texts can be compressed bombs.
+    // Skips all chunks that do not make pixels: profiles and texts can be compressed bombs.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(png_, header_);

@@ -12,7 +12,7 @@
 namespace terrella {
 namespace {
 
-/// A half row that an odd planet lacks at its south pole.
+/// Repeats the half row that is missing at the south pole of a planet of odd width.
 class PaddedRows : public RowReader {
  public:
   PaddedRows(std::unique_ptr<RowReader> reader, std::int64_t rows)

@@ -6,7 +6,7 @@
 namespace terrella {
 namespace {
 
-/// What libtiff may allocate for one strip, tile or table of the file's own sizes.
+/// Most memory that libtiff may allocate for one strip, tile or table with sizes from the file.
 constexpr tmsize_t kMaxSingleAllocation = 256L << 20;
 
 struct FreeOptions {
@@ -19,7 +19,7 @@ int keep_error(TIFF*, void* text, const char*, const char* format, std::va_list 
   *static_cast<std::string*>(text) = line;
   return 1;
 }
-/// Unknown tags and the like: what does not keep pixels from being read.
+/// Ignores warnings, such as unknown tags, that do not affect pixels.
 int pass_over(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
 
 }  // namespace
@@ -30,7 +30,7 @@ TiffHandle open_tiff(const std::string& name, std::string& message) {
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_error, &message);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), pass_over, nullptr);
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxSingleAllocation);
-  // m: no memory map, whose size would count as memory held.
+  // m: no memory map, because its size would count as memory held.
   return TiffHandle(TIFFOpenExt(name.c_str(), "rm", options.get()));
 }
 

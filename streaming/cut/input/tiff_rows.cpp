@@ -11,8 +11,9 @@
 namespace terrella {
 namespace {
 
-/// What a row of tiles is held as, bytes: all of it, or a part of its rows at a time, and then its tiles are decoded
-/// again for each part (down to the part's last row). 86400 pixels of RGB and tiles of 256 rows fit.
+/// Most memory for a row of tiles, bytes. If a whole row needs more, only a part of its pixel rows is held at a time.
+/// The tiles are then decoded again for each part, down to the part's last row. 86400 pixels of RGB with tiles of 256
+/// rows fit.
 constexpr std::uint64_t kTileRowBytes = 64ULL << 20;
 
 template <class T>
@@ -64,7 +65,7 @@ class TiffRows : public RowReader {
                     name_, what)};
   }
 
-  /// The kind has been looked at before (probe_heights()).
+  /// The kind of sample was checked before (probe_heights()).
   [[nodiscard]] Status read_height_samples() {
     samples_.bits = heights_->kind == HeightKind::float32 ? 32 : 16;
     samples_.per_pixel = tag_or<std::uint16_t>(tiff_.get(), TIFFTAG_SAMPLESPERPIXEL, 1);
@@ -105,7 +106,7 @@ class TiffRows : public RowReader {
       case PHOTOMETRIC_YCBCR:
         samples_.colour = TiffColour::rgb;
         if (tag_or<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_JPEG) break;
-        // libjpeg, which libtiff reads with here, then gives RGB.
+        // libtiff then makes libjpeg return RGB.
         TIFFSetField(tiff_.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
         return Done{};
       default:
@@ -126,7 +127,7 @@ class TiffRows : public RowReader {
     return Done{};
   }
 
-  /// Extra samples of a kind that is not said are something else than alpha, as GDAL has it.
+  /// Extra samples without a stated kind do not count as alpha, as in GDAL.
   void read_alpha() {
     std::uint16_t count = 0;
     const std::uint16_t* kinds = nullptr;
@@ -168,7 +169,7 @@ class TiffRows : public RowReader {
     return Done{};
   }
 
-  /// Parts of equal height, as few as can be.
+  /// Divides a row of tiles into as few parts of equal height as possible.
   void hold_part_of_tiles() {
     const std::int64_t rows = std::min(tile_height_, info_.height_px);
     const auto fit = std::max<std::int64_t>(1, static_cast<std::int64_t>(kTileRowBytes / row_bytes()));
@@ -189,7 +190,7 @@ class TiffRows : public RowReader {
     return held_.data() + static_cast<std::size_t>(row_ - first) * row_bytes();
   }
 
-  /// The rows of the tiles at `tile_top` that are held at a time, from `first_row` on.
+  /// Reads the rows held at a time, from `first_row` on, of the tiles at `tile_top`.
   bool read_tiles(std::int64_t tile_top, std::int64_t first_row) {
     const auto y = static_cast<std::uint32_t>(tile_top);
     const auto above = static_cast<std::size_t>(first_row - tile_top);
@@ -206,7 +207,7 @@ class TiffRows : public RowReader {
     return true;
   }
 
-  /// The first `rows` rows of a tile, into tile_.
+  /// Decodes the first `rows` rows of a tile into tile_.
   bool decode_tile(std::uint32_t x, std::uint32_t y, std::size_t rows) {
     const std::uint32_t tile = TIFFComputeTile(tiff_.get(), x, y, 0, 0);
     const auto bytes = static_cast<tmsize_t>(rows * tile_row_bytes());
@@ -222,12 +223,12 @@ class TiffRows : public RowReader {
   PictureInfo info_;
   TiffSamples samples_;
   std::int64_t row_ = 0;
-  std::int64_t held_first_ = -1;  ///< the first row of tiles that is held
+  std::int64_t held_first_ = -1;  ///< first row of tiles that is held
   std::int64_t tile_width_ = 0;
   std::int64_t tile_height_ = 0;  ///< 0: strips
-  std::int64_t held_rows_ = 0;    ///< of a row of tiles
+  std::int64_t held_rows_ = 0;    ///< rows of a row of tiles held at a time
   std::vector<std::uint8_t> tile_;
-  std::vector<std::uint8_t> held_;  ///< a row, or a part of a row of tiles, as samples
+  std::vector<std::uint8_t> held_;  ///< samples of one row, or of a part of a row of tiles
   std::optional<HeightCoding> heights_;
   TiffHandle tiff_;
 };

@@ -8,7 +8,7 @@ namespace {
 
 std::uint8_t sample(const std::uint8_t* pixel, std::size_t index, std::uint8_t) { return pixel[index]; }
 
-/// 65535 is 255 · 257; libtiff has brought the bytes into this machine's order.
+/// 65535 is 255 · 257. libtiff has already converted the bytes to this machine's order.
 std::uint8_t sample(const std::uint8_t* pixel, std::size_t index, std::uint16_t) {
   std::uint16_t value = 0;
   std::memcpy(&value, pixel + 2 * index, 2);

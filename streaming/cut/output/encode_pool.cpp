@@ -7,7 +7,7 @@
 namespace terrella {
 namespace {
 
-/// A strip gives its tiles, then the squeezed ones.
+/// The tiles of a strip come first, then its squeezed tiles.
 TileId tile_of(const Strip& strip, std::int64_t index) {
   if (index < strip.tiles) return {.level = strip.level, .x = strip.tile_x0 + index, .y = strip.tile_y};
   return {.level = strip.level, .x = index - strip.tiles, .y = strip.tile_y, .squeeze = strip.squeeze};
@@ -83,7 +83,7 @@ void EncodePool::join() {
   threads_.clear();
 }
 
-/// An exception that leaves a thread ends the program: finish() throws it where it can be caught.
+/// Catches exceptions, because an exception that leaves a thread ends the program. finish() rethrows them.
 void EncodePool::run_guarded(const std::function<void()>& work) {
   try {
     work();
@@ -108,7 +108,7 @@ void EncodePool::run_encoder(const TileCoding& coding) {
       if (error_ || jobs_.empty()) return;
       job = std::move(jobs_.front());
       jobs_.pop_front();
-      // The tile that the writer waits for never waits itself.
+      // The tile that the writer needs next never waits here.
       written_.wait(lock, [&] { return error_ || job->order < next_to_write_ + kMaxUnwrittenTiles; });
     }
     const TileId id = tile_of(*job->strip, job->index);

@@ -40,7 +40,7 @@ class GpkgWriter : public TileWriter {
   GpkgWriter& operator=(const GpkgWriter&) = delete;
 
   [[nodiscard]] Status open(const WriterSetup& setup) {
-    // The name must be new: SQLite would go on in a file that is there.
+    // The name must be new, because SQLite would continue in an existing file.
     std::error_code ignored;
     fs::remove(part_, ignored);
     const int file = ::open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -50,14 +50,14 @@ class GpkgWriter : public TileWriter {
     const int opened = sqlite3_open_v2(part_.c_str(), &database, SQLITE_OPEN_READWRITE, nullptr);
     database_.reset(database);
     if (opened != SQLITE_OK) return failure();
-    // Nobody else knows the file and a broken one is thrown away, so there is nothing to roll back; what must be on the
-    // disk before the file gets its name is synced once, in finish().
+    // No rollback: no other process knows the file, and a broken one is deleted. finish() syncs it once before it gets
+    // its name.
     for (const char* pragma : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF",
                                "PRAGMA locking_mode = EXCLUSIVE", "PRAGMA page_size = 8192"}) {
       if (!run({pragma, {}})) return failure();
     }
     const auto schema = geopackage_schema(setup.info, setup.last_change, setup.mark);
-    // The first two are pragmas that a transaction would hold back.
+    // The first two statements are pragmas that do not work inside a transaction.
     for (std::size_t i = 0; i < schema.size(); ++i) {
       if (i == 2 && !run({"BEGIN", {}})) return failure();
       if (!run(schema[i])) return failure();
@@ -107,7 +107,7 @@ class GpkgWriter : public TileWriter {
     return Statement(statement);
   }
 
-  /// sqlite3_step(), and why the system refused: sqlite3_system_errno() does not know of what happens in COMMIT.
+  /// Calls sqlite3_step() and saves the system's errno, because sqlite3_system_errno() does not see failures in COMMIT.
   int step(sqlite3_stmt* statement) {
     errno = 0;
     const int stepped = sqlite3_step(statement);
@@ -127,7 +127,7 @@ class GpkgWriter : public TileWriter {
     return stepped == SQLITE_DONE || stepped == SQLITE_ROW;
   }
 
-  /// Why the last call failed: by the system's reason if it has one, else by SQLite's.
+  /// Reason of the last failure: the system's if there is one, else SQLite's.
   [[nodiscard]] Error failure() const {
     if (!database_) return Error{fmt::format("{}: cannot be written: out of memory", output_.string())};
     if (sqlite3_errcode(database_.get()) == SQLITE_FULL) return cannot_write(output_, ENOSPC);
@@ -140,9 +140,9 @@ class GpkgWriter : public TileWriter {
   MayReplace may_replace_;
   Database database_;
   Statement insert_;
-  Statement insert_squeezed_;  ///< none unless the grid is reduced
-  Statement describe_;         ///< what a tile of heights has beside it; none for pictures
-  int system_error_ = 0;       ///< errno of the last call that failed
+  Statement insert_squeezed_;  ///< null unless the grid is reduced
+  Statement describe_;         ///< inserts the side row of a height tile; null for pictures
+  int system_error_ = 0;       ///< errno of the last failed call
 };
 
 }  // namespace

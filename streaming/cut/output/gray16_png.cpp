@@ -8,8 +8,8 @@
 namespace terrella {
 namespace {
 
-/// libpng's callbacks are C frames that longjmp passes over: the vector is grown in on_write() alone, which throws only
-/// when there is no memory.
+/// longjmp jumps over the C frames of libpng's callbacks. Only on_write() grows the vector, and throws only if memory
+/// runs out.
 void on_write(png_structp png, png_bytep bytes, std::size_t size) {
   auto* out = static_cast<std::vector<std::byte>*>(png_get_io_ptr(png));
   const auto* first = reinterpret_cast<const std::byte*>(bytes);
@@ -28,7 +28,7 @@ struct Encoder {
   ~Encoder() { png_destroy_write_struct(&png, &info); }
 };
 
-// Holds nothing that needs a destructor: libpng may jump out of it.
+// Contains no objects with destructors, because libpng may jump out of the function.
 bool write_all(Encoder& encoder, std::vector<std::byte>& out, const std::uint16_t* values, png_uint_32 side) {
   png_structp png = encoder.png;
   if (setjmp(png_jmpbuf(png)) != 0) return false;

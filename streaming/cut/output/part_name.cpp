@@ -16,15 +16,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How often the output may come and go while its name is taken.
+/// Most times that the output may appear and vanish while its name is taken.
 constexpr int kAttempts = 100;
 
 int rename_by(const fs::path& from, const fs::path& to, unsigned flags) {
   return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags);
 }
 
-/// For file systems that cannot exchange names, NFS for one. A folder cannot replace one that is not empty, so the old
-/// one steps aside first.
+/// For file systems that cannot exchange names, such as NFS. A folder cannot replace a non-empty folder, so the old one
+/// is moved aside first.
 Status take_name_in_steps(const fs::path& part, const fs::path& output, const MayReplace& may_replace) {
   std::error_code failed;
   const bool there = fs::exists(output, failed);
@@ -63,7 +63,7 @@ Status sync_to_disk(const fs::path& path) {
   if (file < 0) return cannot_write(path, errno);
   const int failed = fsync(file) == 0 ? 0 : errno;
   close(file);
-  // Some file systems cannot sync a directory; that is no reason to throw a tile set away.
+  // Some file systems cannot sync a directory. This is no reason to discard a tile set.
   if (failed != 0 && failed != EINVAL) return cannot_write(path, failed);
   return Done{};
 }

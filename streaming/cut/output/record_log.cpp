@@ -12,9 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Marks the last record, whose x is the number of the others.
+/// Marks the end record. Its x is the number of the other records.
 constexpr std::int32_t kEndLevel = -1;
-/// A tile of 4096 pixels, or a row of 2^20 pixels as floats, uncompressed.
+/// Room for an uncompressed tile of 4096 pixels, or a row of 2^20 pixels as floats.
 constexpr std::uint32_t kMaxRecordBytes = 128U << 20;
 
 struct Header {
@@ -22,7 +22,7 @@ struct Header {
   std::uint32_t size;
   std::int64_t x, y;
   std::int32_t squeeze;
-  std::uint32_t checksum;  ///< CRC-32 of the bytes, begun with that of what stands before it here
+  std::uint32_t checksum;  ///< CRC-32 of the preceding header fields and the bytes
 };
 static_assert(sizeof(Header) == 32);
 
@@ -33,7 +33,7 @@ std::uint32_t checksum_of(const Header& header, std::span<const std::byte> bytes
 
 fs::path part_of(const fs::path& path) { return path.string() + ".part"; }
 
-/// False at the end, and at what is not a whole record.
+/// Returns false at the end of the file, and at an incomplete record.
 bool read_record(std::FILE* file, Header& header, std::vector<std::byte>& bytes) {
   if (std::fread(&header, sizeof(header), 1, file) != 1 || header.size > kMaxRecordBytes) return false;
   bytes.resize(header.size);

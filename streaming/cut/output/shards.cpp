@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxShards = 100000;
 
-/// The count N of any folder OUTPUT.shard-I-of-N that was made for this key; 0 if there is none.
+/// The count N of any folder OUTPUT.shard-I-of-N with this key; 0 if there is none.
 int shard_count(const fs::path& output, const std::string& key) {
   const std::string begin = output.filename().string() + ".shard-";
   std::error_code failed;

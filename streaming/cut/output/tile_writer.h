@@ -25,7 +25,7 @@ class TileWriter {
 /// Arguments of a tile writer.
 struct WriterSetup {
   std::filesystem::path output;
-  /// prefix of temporary names, on the output's file system; existing files of these names are removed
+  /// Prefix of temporary names, on the output's file system; existing files of these names are removed.
   std::filesystem::path part;
   TileSetInfo info;
   std::string last_change;  ///< "2026-01-31T12:00:00.000Z"

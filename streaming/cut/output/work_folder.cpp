@@ -22,17 +22,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKeyFile = "key";
 constexpr const char* kLockFile = "lock";
-/// How often a folder may be taken away between its making and its locking.
+/// Most times that a folder may vanish between its creation and its locking.
 constexpr int kMostPlaces = 100;
 
-/// A locked file descriptor; -1 if somebody else has it, or if the folder is gone.
+/// Locks the folder and returns the file descriptor; -1 if another process holds the lock or the folder is gone.
 int lock_folder(const fs::path& folder) {
   const fs::path name = folder / kLockFile;
   const int lock = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock < 0) return -1;
   struct stat held {};
   struct stat named {};
-  // Between open() and flock() its last owner may have removed it.
+  // The last owner may have removed the file between open() and flock().
   if (flock(lock, LOCK_EX | LOCK_NB) == 0 && fstat(lock, &held) == 0 && stat(name.c_str(), &named) == 0 &&
       held.st_ino == named.st_ino) {
     return lock;
@@ -49,7 +49,7 @@ void remove_quietly(const fs::path& path) {
 }
 
 void remove_contents(const fs::path& folder) {
-  // The key first: without it nobody takes what is left for something to go on with.
+  // Removes the key first: without a key no run takes the rest for resumable work.
   remove_quietly(folder / kKeyFile);
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
@@ -57,7 +57,7 @@ void remove_contents(const fs::path& folder) {
   }
 }
 
-/// The lock last, and not what others have put there after it.
+/// Removes the lock last, and keeps files that others create after that.
 void remove_folder(const fs::path& folder) {
   remove_contents(folder);
   std::error_code ignored;
@@ -72,7 +72,7 @@ bool write_key(const fs::path& folder, const std::string& key) {
   return file.good();
 }
 
-/// Folders that runs for this output have made, living or killed.
+/// Folders of all runs for this output, running or killed.
 std::vector<fs::path> folders_beside(const fs::path& output) {
   static const std::regex kEnding("[0-9]+-[0-9]+\\.part");
   const std::string begin = "." + output.filename().string() + ".";

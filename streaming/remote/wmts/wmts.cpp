@@ -18,7 +18,7 @@
 namespace terrella {
 namespace {
 
-/// A tile of "today" that is not there yet is asked for again after this.
+/// Time until an absent tile of the newest time is requested again.
 constexpr std::chrono::seconds kNewestAbsenceLife{3600};
 constexpr std::size_t kMaxShown = 20;
 constexpr std::size_t kMaxTextBytes = 16384;
@@ -59,7 +59,7 @@ Result<WmtsGrid> read_grid(const pugi::xml_node& contents, const WmtsLink& link,
   return Error{"the document does not describe it"};
 }
 
-/// Of several matrix sets those in longitude and latitude come first, and of a kind that was asked for, that.
+/// True if this kind of matrix set is preferred: the requested projection, else longitude and latitude.
 bool is_wanted(const TileGrid& grid, const RemoteOptions& options) {
   const bool mercator = grid.projection == Projection::web_mercator;
   return mercator == (options.projection == Projection::web_mercator);
@@ -122,7 +122,7 @@ Result<std::string> choose_style(const WmtsLayer& layer, const std::string& want
   return Error{fmt::format("layer \"{}\" has no style \"{}\"; it has: {}", layer.name, wanted, list_of(layer.styles))};
 }
 
-/// Every dimension gets a value; true if the time is the newest.
+/// Chooses a value for every dimension. Returns true if the time is the newest.
 Result<bool> choose_dimensions(const WmtsLayer& layer, const std::string& time, WmtsRequest& request) {
   bool newest = false;
   bool has_time = false;
@@ -149,7 +149,7 @@ Result<std::string> make_url(const WmtsLayer& layer, const WmtsRequest& request,
 
 double clamped(Angle angle, Angle low, Angle high) { return std::clamp(angle.deg(), low.deg(), high.deg()); }
 
-/// What both rectangles hold. A box that leaves nothing, or one that cannot be cut simply, does not count.
+/// Intersection of both rectangles. Ignores a box that would leave nothing, or that needs more than one rectangle.
 GeoRect narrowed(const GeoRect& tiles, const std::optional<GeoRect>& box) {
   if (!box || tiles.east < tiles.west) return tiles;
   const GeoRect both{.west = Angle::degrees(clamped(box->west, tiles.west, tiles.east)),
@@ -159,7 +159,7 @@ GeoRect narrowed(const GeoRect& tiles, const std::optional<GeoRect>& box) {
   return both.west < both.east && both.south < both.north ? both : tiles;
 }
 
-/// What a person says of the grid can narrow the levels; what it is, the document says.
+/// Checks the user's options against the document's grid. Options may narrow the levels, but not change the grid.
 Status check_against(const RemoteOptions& options, TileGrid& grid) {
   if (options.root_span_deg && std::abs(*options.root_span_deg / grid.root_span_deg - 1.0) > 1e-9) {
     return Error{fmt::format("its root tile spans {}°, not the {}° that were given", grid.root_span_deg,
@@ -213,7 +213,7 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
   return set;
 }
 
-/// Why a document is none of a WMTS; empty if it is.
+/// Reason why a document is no WMTS capabilities; empty if it is.
 std::string fault_of_root(const pugi::xml_node& root) {
   const std::string_view name = local_name(root.name());
   if (name == "ExceptionReport") {

@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kPixel_m = 0.00028;
 constexpr double kEarthRadius_m = 6378137.0;
-/// Scale denominators are written with a dozen digits or more; those of ten still place a tile of level 24 well.
+/// Tolerance of scale denominators. They usually have a dozen digits; ten digits still place a tile of level 24 well.
 constexpr double kRelativeSlack = 1e-6;
-/// Servers take a body's radius from one list or another; Mars' differ by 6e-5.
+/// Servers use different lists of radii. Those for Mars differ by 6e-5.
 constexpr double kRadiusSlack = 1e-3;
-/// How far a tile may lie from where the grid says, in texels: nobody sees it.
+/// Largest distance of a tile from its place in the grid, in texels. It is invisible.
 constexpr double kSlackTexels = 0.1;
-/// Root tiles are always in memory.
+/// Limit of root tiles, because they are always in memory.
 constexpr std::int64_t kMaxRootTiles = 512;
 
 double span_deg(const WmtsMatrix& matrix, double radius_m) {
@@ -30,7 +30,7 @@ double span_deg(const WmtsMatrix& matrix, double radius_m) {
   return matrix.scale_denominator * kPixel_m / degree_m * matrix.tile_px;
 }
 
-/// Whole tiles that cover an extent, and none that begins beyond it.
+/// True if whole tiles cover an extent and no tile begins beyond it.
 bool covers(std::int64_t tiles, double span, double extent_deg, double slack) {
   const auto count = static_cast<double>(tiles);
   return count * span >= extent_deg * (1.0 - slack) && (count - 1.0) * span < extent_deg * (1.0 + slack);
@@ -40,7 +40,7 @@ bool covers_planet(const WmtsMatrix& matrix, double span, double slack) {
   return covers(matrix.columns, span, 360.0, slack) && covers(matrix.rows, span, 180.0, slack);
 }
 
-/// The span of a tile of the finest matrix.
+/// Span of a tile of the finest matrix.
 double finest_span_deg(const WmtsMatrix& finest, const std::string& body) {
   const auto whole_turn = [&](double span, double slack) {
     const double exact = 360.0 / static_cast<double>(finest.columns);
@@ -75,7 +75,7 @@ struct Corner {
   double lon, lat;
 };
 
-/// The corner at the top left of a planet has a latitude of 90° or more, whichever number that is.
+/// Corner in degrees. The number of 90° or more must be the latitude of a planet's top left corner, whatever the order.
 Corner corner_of(const WmtsMatrix& matrix, bool latitude_first) {
   const auto [a, b] = matrix.corner;
   constexpr double kTop = 90.0 - 1e-6;
@@ -83,11 +83,11 @@ Corner corner_of(const WmtsMatrix& matrix, bool latitude_first) {
   return first ? Corner{.lon = b, .lat = a} : Corner{.lon = a, .lat = b};
 }
 
-/// EPSG:3857 counts metres of a sphere of the Earth's equator, eastings first; here they are degrees of the grid's
-/// rows.
+/// Corner of a matrix in EPSG:3857, in degrees of the grid's rows. The system counts metres on a sphere with the
+/// Earth's equator, eastings first.
 Corner mercator_corner_of(const WmtsMatrix& matrix) {
   const double degree_m = kEarthRadius_m * std::numbers::pi / 180.0;
-  // Some write the square's corner with two decimals, some without.
+  // Some servers write the corner of the square with two decimals, some with none.
   constexpr double kRounding_m = 0.6;
   const auto degrees = [&](double metres, double end_deg) {
     return std::abs(metres - end_deg * degree_m) <= kRounding_m ? end_deg : metres / degree_m;
@@ -97,7 +97,7 @@ Corner mercator_corner_of(const WmtsMatrix& matrix) {
 
 bool begins_at_square(const Corner& corner) { return corner.lon == -180.0 && corner.lat == 180.0; }
 
-/// Of its tiles a power of two go around the planet, but for the rounding of the scale.
+/// Span of a tile. The number of tiles round the planet is a power of two, apart from rounding of the scale.
 double mercator_span_deg(const WmtsMatrix& matrix) {
   const double span = span_deg(matrix, kEarthRadius_m);
   const double exact = std::ldexp(360.0, -static_cast<int>(std::lround(std::log2(360.0 / span))));
@@ -119,7 +119,7 @@ std::optional<TileShift> shift_of(const Corner& corner, double top_deg, double s
   return TileShift{.columns = -*columns, .rows = -*rows, .turn_columns = turn};
 }
 
-/// Tiles of a matrix as degrees, longitudes from -180° on, not wrapped.
+/// Area of a matrix's tiles in degrees. Longitudes begin at -180° and are not wrapped.
 struct Extent {
   double west, south, east, north;
 };
@@ -155,19 +155,19 @@ GeoRect rect_of(const Extent& extent, Projection projection) {
   if (extent.east - extent.west >= 360.0 * (1.0 - kRelativeSlack)) return rect;
   const bool plain = extent.west >= -180.0 && extent.west < 180.0;
   rect.west = Angle::degrees(plain ? extent.west : wrapped(extent.west));
-  // What reaches over 180° from a corner at -180° is padding.
+  // An extent from -180° that reaches beyond 180° is padded.
   const bool padded = extent.west >= -180.0 && extent.east > 180.0 && extent.west < 0.0;
   rect.east = Angle::degrees(padded ? 180.0 : wrapped(extent.east));
   if (rect.east.deg() <= -180.0) rect.east = Angle::degrees(180.0);
   return rect;
 }
 
-/// A set of matrices being placed.
+/// A matrix set that is being placed on a grid.
 struct Placing {
   const WmtsMatrixSet& set;
   Corner corner;  ///< in the grid's rows
   double top_deg;
-  double root_span;  ///< of the coarsest matrix
+  double root_span;  ///< span of the coarsest matrix
   [[nodiscard]] double span(std::size_t i) const { return std::ldexp(root_span, -static_cast<int>(i)); }
   [[nodiscard]] std::optional<TileShift> shift(std::size_t i) const {
     return shift_of(corner, top_deg, span(i), set.matrices[i].tile_px);
@@ -179,8 +179,8 @@ const WmtsLimits* limits_of(const std::vector<WmtsLimits>& limits, const std::st
   return found == limits.end() ? nullptr : &*found;
 }
 
-/// The matrices that can be levels: placed on whole tiles, listed in the limits if there are any, and, unless the layer
-/// says what it has of them, with all the tiles that the finest has.
+/// Chooses the matrices that become levels. They must lie on whole tiles and be listed in the limits, if there are any.
+/// Without limits they must have all the tiles of the finest matrix.
 Status choose_levels(const Placing& placing, const std::vector<WmtsLimits>& limits, TileGrid& grid) {
   const std::vector<WmtsMatrix>& matrices = placing.set.matrices;
   const auto usable = [&](std::size_t i) { return limits.empty() || limits_of(limits, matrices[i].name) != nullptr; };

@@ -33,7 +33,7 @@ WmtsDimension read_dimension(const pugi::xml_node& node) {
   return dimension;
 }
 
-/// Longitude first, whatever the reference systems of the matrices.
+/// Reads bounds with longitude first, whatever the reference systems of the matrices.
 std::optional<GeoRect> read_bounds(const pugi::xml_node& layer) {
   const pugi::xml_node box = child_of(layer, "WGS84BoundingBox");
   const auto low = to_pair(text_of(box, "LowerCorner"));

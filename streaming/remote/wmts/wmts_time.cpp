@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kDay_s = 86'400;
 
-/// What a date or a time stands for: 2004-08 is all of August.
+/// Period described by a date or time: 2004-08 is all of August.
 struct Span {
   std::int64_t from_s, to_s;  ///< since 1970, last second included
 };

@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-/// What stands for a placeholder; nothing if it is not known. Writers differ in the case of the names.
+/// Replacement for a placeholder; nothing if unknown. Ignores case, because writers differ.
 std::optional<std::string> value_of(std::string_view name, const WmtsRequest& request) {
   if (same_letters(name, "TileMatrix")) return "{z}";
   if (same_letters(name, "TileRow")) return "{row}";
