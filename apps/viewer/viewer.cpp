@@ -20,7 +20,7 @@ namespace {
 constexpr std::chrono::seconds kMessageTime(4);
 constexpr std::chrono::milliseconds kCharacterTime(50);  // reading time per character of a message
 constexpr std::chrono::seconds kHintTime(30);
-constexpr const char* kHint = "Drag turns the globe, the wheel zooms. P opens a panel, F1 lists all keys.";
+constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
@@ -164,7 +164,7 @@ PanelStatus Viewer::status(const View& view) const {
     if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
   }
   const Camera& camera = navigator_.camera();
-  status.eye = "Eye " + length_text(camera.eye.height_m);
+  status.eye = "Altitude " + length_text(camera.eye.height_m);
   if (stats_.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats_.tiles_missing);
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;

@@ -39,7 +39,7 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::toggle_sky:
       sky_ = !sky_;
       globe_.set_sky(sky_);
-      say(sky_ ? "Sky" : "No sky");
+      say(sky_ ? "Sky on" : "Sky off");
       return;
     case ViewerAction::toggle_underground:
       return toggle_underground();
@@ -69,7 +69,7 @@ void Viewer::act(ViewerAction action) {
 // Esc ends one mode or panel at a time; returns false if none was active.
 bool Viewer::leave_something() {
   if (picture_job_ && !picture_job_->drawn()) {
-    end_picture("No picture");
+    end_picture("Picture cancelled");
   } else if (dropped_.busy()) {
     dropped_.leave_off();
   } else if (help_) {
@@ -97,7 +97,7 @@ void Viewer::next_alpha() {
       std::find_if(std::begin(kAlphas), std::end(kAlphas), [&](double alpha) { return alpha < surface.alpha - 0.01; });
   surface.alpha = lower == std::end(kAlphas) ? kAlphas[0] : *lower;
   globe_.set_surface(surface);
-  say(fmt::format("Surface {:.0f} % opaque", 100.0 * surface.alpha));
+  say(fmt::format("Opacity {:.0f} %", 100.0 * surface.alpha));
 }
 
 void Viewer::next_stereo() {
@@ -146,13 +146,13 @@ void Viewer::toggle_underground() {
     camera.pitch = Angle::degrees(-90.0);
     if (above_) camera = *std::exchange(above_, std::nullopt);
     navigator_.set_deepest({});
-    say("Over the ground");
+    say("Above the ground");
   } else {
     above_ = camera;
     navigator_.set_deepest(deepest_m());
     camera.eye.height_m = std::max(2.0 * ground_m - camera.eye.height_m, deepest_m());
     camera.pitch = Angle::degrees(std::max(30.0, -camera.pitch.deg()));
-    say("Under the ground; X goes back");
+    say("Under the ground; X returns");
   }
   navigator_.set_camera(camera);
 }

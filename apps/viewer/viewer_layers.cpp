@@ -123,7 +123,7 @@ void Viewer::say_too(const std::string& problem) {
 void Viewer::add_layer(OpenedFile file) {
   LayerRow row{.name = file.path.filename().string()};
   if (row.name.empty()) row.name = file.path.string();
-  std::string told = "Added " + row.name + "; L lists the layers";
+  std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
   if (auto* tiles = std::get_if<std::shared_ptr<TileSource>>(&file.what)) {
     row.bounds = if_a_part((*tiles)->info().grid.bounds);
@@ -140,7 +140,7 @@ void Viewer::add_layer(OpenedFile file) {
     row.kind = LayerKind::objects;
     row.bounds = bounds_of(objects.scene);
     if (!objects.complaints.empty()) {
-      told = fmt::format("{}; {} objects or properties in all were wrong and left out", objects.complaints.front(),
+      told = fmt::format("{}; {} faulty objects or properties were skipped", objects.complaints.front(),
                          objects.complaints.size() + objects.complaints_left_out);
     }
     const auto id = globe_.add_objects(std::move(objects.scene));

@@ -66,11 +66,11 @@ void Viewer::use(const BookmarkKey& key) {
     bookmarks_ = *std::move(kept);
   }
   const std::optional<Camera>& there = bookmarks_.at(key.number);
-  if (!key.set && !there) return say(fmt::format("No bookmark {0} yet; Ctrl + {0} sets it", key.number));
+  if (!key.set && !there) return say(fmt::format("Bookmark {0} is empty; Ctrl + {0} saves the view", key.number));
   if (!key.set) return navigator_.fly_to(*there, Input::now());
   bookmarks_.set(key.number, navigator_.camera());
   const Status saved = file ? bookmarks_.save(*file) : Status(Error{"Kept until the window closes: HOME is not set"});
-  say(saved ? fmt::format("Bookmark {}", key.number) : saved.error().message);
+  say(saved ? fmt::format("Bookmark {} saved", key.number) : saved.error().message);
 }
 
 const Gazetteer& Viewer::places() {

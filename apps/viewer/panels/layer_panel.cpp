@@ -12,7 +12,7 @@ constexpr float kLayersWidth = 21.0F;  // in text heights
 const char* word_of(LayerKind kind) {
   switch (kind) {
     case LayerKind::imagery:
-      return "pictures";
+      return "imagery";
     case LayerKind::objects:
       return "objects";
     case LayerKind::heights:
@@ -24,8 +24,8 @@ const char* word_of(LayerKind kind) {
 void draw_levels(LayerRow& row) {
   int levels[2] = {row.look.min_level, std::min(row.look.max_level, row.finest_level)};
   if (!ImGui::SliderInt2("Levels", levels, 0, row.finest_level, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-    tip("Where the view asks for coarser tiles than the first, the layer is not drawn; finer ones than the second are "
-        "not asked for.");
+    tip("First and last tile level. Views that need coarser tiles hide the layer; views that need finer tiles "
+        "magnify it.");
     return;
   }
   row.look.min_level = levels[0];
@@ -34,15 +34,16 @@ void draw_levels(LayerRow& row) {
 
 void draw_opacity(LayerRow& row) {
   slide("Opacity", row.look.opacity, 0.0, 1.0, "%.2f");
-  tip("How much of what lies under this layer it covers.");
+  tip("0 is invisible, 1 hides the layers below.");
 }
 
 void draw_look(LayerRow& row) {
-  choose("Shows", row.look.daylight, std::array{"by day and night", "by day", "by night"});
-  tip("By day or by night: on that side of the terminator only, once a time is set (P).");
+  choose("Show on", row.look.daylight, std::array{"day and night", "day side", "night side"});
+  tip("Shows the layer only on the day or night side, if a time is set (P).");
   bool clouds = row.look.alpha == AlphaFrom::brightness;
-  if (ImGui::Checkbox("Black is clear", &clouds)) row.look.alpha = clouds ? AlphaFrom::brightness : AlphaFrom::own;
-  tip("For pictures of clouds, white on black.");
+  if (ImGui::Checkbox("Black is transparent", &clouds))
+    row.look.alpha = clouds ? AlphaFrom::brightness : AlphaFrom::own;
+  tip("For white-on-black pictures of clouds.");
   if (row.finest_level > 0) draw_levels(row);
 }
 
@@ -54,11 +55,11 @@ LayerAsk draw_buttons(const LayerRow& row) {
     ImGui::SameLine();
   };
   if (row.kind != LayerKind::heights) {
-    button("Up", LayerAsk::raise, "Over the next layer of its kind.");
-    button("Down", LayerAsk::lower, "Under the next layer of its kind.");
+    button("Up", LayerAsk::raise, "Moves the layer above the next layer of its kind.");
+    button("Down", LayerAsk::lower, "Moves the layer below the next layer of its kind.");
   }
-  if (row.bounds) button("Go there", LayerAsk::look_at, "Flies to where the layer is.");
-  button("Remove", LayerAsk::remove, "Takes it off the globe; the file stays as it is.");
+  if (row.bounds) button("Zoom to", LayerAsk::look_at, "Flies to the layer.");
+  button("Remove", LayerAsk::remove, "Removes the layer from the globe; the file stays unchanged.");
   ImGui::NewLine();
   return ask;
 }
@@ -68,7 +69,7 @@ LayerAsk draw_row(LayerRow& row) {
   tip("Shows or hides the layer.");
   ImGui::SameLine();
   const bool open = ImGui::TreeNodeEx(row.name.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
-  if (!open) tip((row.name + " (" + word_of(row.kind) + "): opens what can be done with it.").c_str());
+  if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
   if (row.kind == LayerKind::imagery) draw_look(row);
@@ -101,7 +102,8 @@ LayerWish draw_layers(std::vector<LayerRow>& rows, bool& graticule, bool just_op
   }
   ImGui::Separator();
   ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextDisabled("Drop a file onto the window to add it: a picture, a tile set, GeoJSON or a glTF model.");
+  ImGui::TextDisabled(
+      "The highest layer is first. To add one, drop a picture, tile set, GeoJSON or glTF model onto the window.");
   ImGui::PopTextWrapPos();
   ImGui::PopItemWidth();
   ImGui::End();

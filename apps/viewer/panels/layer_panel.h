@@ -29,7 +29,7 @@ struct LayerWish {
   std::size_t row = 0;
 };
 
-inline constexpr const char* kLayersTitle = "Layers, the highest first";
+inline constexpr const char* kLayersTitle = "Layers";
 
 /// Draws the panel at the right edge, between Ui::begin_frame() and Ui::end_frame(). The highest layer, the last row,
 /// comes first. `just_opened` gives the panel the keyboard. Stores the user's changes to looks and graticule. thread:

@@ -4,7 +4,7 @@
 
 namespace terrella {
 
-inline constexpr const char* kPictureTitle = "Save a picture";
+inline constexpr const char* kPictureTitle = "Save picture";
 
 /// State of the picture panel between frames.
 struct PicturePanel {

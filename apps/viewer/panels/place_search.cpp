@@ -27,8 +27,8 @@ std::optional<NamedPlace> draw_place_search(PlaceSearch& search, const Gazetteer
   search.text.copy(text.data(), text.size() - 1);
   if (std::exchange(search.just_opened, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0F);
-  const bool entered = ImGui::InputTextWithHint("##place", "Its name, then Enter; Esc closes", text.data(), text.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##place", "Place name, then Enter; Esc closes", text.data(),
+                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   search.has_keyboard = ImGui::IsItemActive();
   search.text = text.data();
   std::optional<NamedPlace> chosen;
@@ -37,7 +37,7 @@ std::optional<NamedPlace> draw_place_search(PlaceSearch& search, const Gazetteer
     const std::string line = place->country.empty() ? place->name : place->name + ", " + place->country;
     if (ImGui::Selectable((line + "##" + place->folded).c_str())) chosen = *place;
   }
-  if (found.empty() && !search.text.empty()) ImGui::TextDisabled("No place of that name among %zu", places.size());
+  if (found.empty() && !search.text.empty()) ImGui::TextDisabled("No match among %zu places", places.size());
   if (entered && !found.empty()) chosen = *found.front();
   ImGui::End();
   return chosen;

@@ -7,7 +7,7 @@
 
 namespace terrella {
 
-inline constexpr const char* kSearchTitle = "Find a place";
+inline constexpr const char* kSearchTitle = "Search";
 
 /// State of the search panel between frames.
 struct PlaceSearch {

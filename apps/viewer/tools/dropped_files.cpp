@@ -113,7 +113,7 @@ std::string DroppedFiles::text() const {
   if (!busy()) return {};
   const std::string name = current_.filename().string();
   const int percent = percent_;
-  return percent < 0 ? fmt::format("Opening {}", name) : fmt::format("Cutting {}: {} %; Esc leaves it", name, percent);
+  return percent < 0 ? fmt::format("Opening {}", name) : fmt::format("Cutting {}: {} %; Esc cancels", name, percent);
 }
 
 void DroppedFiles::leave_off() {

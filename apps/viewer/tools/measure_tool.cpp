@@ -16,8 +16,8 @@ void MeasureTool::take_back() {
 }
 
 std::string MeasureTool::text(const Ellipsoid& ellipsoid) const {
-  if (places_.empty()) return "Measuring: click a place, or Enter for the picture's middle; M ends";
-  if (places_.size() == 1) return "Measuring: click the next place; Backspace takes the last one back";
+  if (places_.empty()) return "Measuring: click a place, or press Enter for the centre; M ends";
+  if (places_.size() == 1) return "Measuring: click the next place; Backspace removes the last one";
   std::string text = "Length " + length_text(path_m(ellipsoid, places_));
   if (places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
   return text;

@@ -20,33 +20,33 @@ constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 /
 
 void draw_surface(SurfaceLook& surface) {
   slide("Opacity", surface.alpha, 0.0, 1.0, "%.2f");
-  tip("How opaque the ground is; U goes through 1, 0.7 and 0.4. At 1 it is drawn once, below it twice, so that nothing "
-      "of it shows through itself.");
+  tip("Opacity of the ground; U switches between 1, 0.7 and 0.4. Below 1 the ground is drawn twice, so that the front "
+      "hides its own back.");
   choose("Blend", surface.blend, std::array{"normal", "additive"});
-  tip("normal: what is under the ground fades as the ground covers it. additive: it keeps its light, and bright places "
-      "may saturate.");
+  tip("normal: objects below fade behind the ground. additive: objects below keep their brightness; bright places may "
+      "saturate.");
   bool inner = surface.inner_sphere_below_m.has_value();
   if (ImGui::Checkbox("Inner sphere", &inner)) {
     surface.inner_sphere_below_m = inner ? std::optional<double>(1.0e6) : std::nullopt;
   }
-  tip("Hides what lies under the far side. Without it the whole inside is seen.");
+  tip("Hides the far side of the globe. Without this sphere the whole inside is visible.");
   if (surface.inner_sphere_below_m) {
     double depth_km = *surface.inner_sphere_below_m / 1e3;
-    slide("Its depth", depth_km, kShallowest_km, kDeepest_km, "%.0f km");
+    slide("Depth", depth_km, kShallowest_km, kDeepest_km, "%.0f km");
     surface.inner_sphere_below_m = 1e3 * depth_km;
-    tip("How far under the equator the inner sphere lies. The deepest earthquakes are at 700 km.");
+    tip("Depth of the inner sphere under the equator. The deepest earthquakes are at 700 km.");
   }
 }
 
 void draw_from_below(ViewSettings& settings) {
-  ImGui::Checkbox("Eye under the ground", &settings.under_ground);
-  tip("X: under the place where the eye was, looking up at the ground, and back.");
+  ImGui::Checkbox("Go under the ground", &settings.under_ground);
+  tip("X: moves the eye straight below the ground, looking up, and back.");
   choose("Ground from below", settings.surface.from_below, std::array{"opaque", "translucent", "selective"});
-  tip("What an eye under the ground sees of it. selective lets through only objects that ask for it "
-      "(\"through_surface\" in GeoJSON). Counts where Opacity is under 1.");
+  tip("Look of the ground from below, if Opacity is under 1. selective: only objects with \"through_surface\" in "
+      "GeoJSON show through.");
   choose("Horizon culling", settings.surface.horizon_culling, std::array{"auto", "on", "off"});
-  tip("auto leaves out what cannot be seen. on: from below the planet's other half too, for one object nearby. off: "
-      "everything in the frame is drawn.");
+  tip("auto skips what the planet hides. on also skips the far half when the eye is under the ground, for views of a "
+      "nearby object. off draws everything in the frame.");
 }
 
 void set_time(ViewSettings& settings, std::optional<UtcTime> time) {
@@ -65,9 +65,9 @@ void draw_time_sliders(ViewSettings& settings) {
   const double hour_before = hour;
   const int day_before = of_year;
   slide("Hour", hour, 0.0, 24.0, "%.1f h UTC");
-  tip("The time of day in UTC: turns the night around the globe.");
+  tip("Time of day in UTC; moves the night around the globe.");
   ImGui::SliderInt("Day of the year", &of_year, 1, 365, "%d", ImGuiSliderFlags_AlwaysClamp);
-  tip("Moves the Sun between the tropics, and the Moon and the stars.");
+  tip("Date; moves the Sun between the tropics, the Moon and the stars.");
   if (hour == hour_before && of_year == day_before) return;
   set_time(settings, new_year + days{of_year - 1} + minutes{static_cast<int>(hour * 60.0)});
 }
@@ -76,39 +76,39 @@ void draw_time(ViewSettings& settings) {
   if (settings.written != settings.time) set_time(settings, settings.time);
   std::array<char, 40> text{};
   settings.time_text.copy(text.data(), text.size() - 1);
-  if (ImGui::InputTextWithHint("Time", "as 2026-06-21T12:00Z", text.data(), text.size(),
+  if (ImGui::InputTextWithHint("Time", "e.g. 2026-06-21T12:00Z", text.data(), text.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue)) {
     settings.time_text = text.data();
     const Result<UtcTime> time = parse_utc(settings.time_text);
     if (time) set_time(settings, *time);
     if (!time) settings.time_problem = time.error().message;
   }
-  tip("UTC, 1950 to 2050, as 2026-06-21T12:00Z; Enter takes it. Without a time the light comes over the viewer's "
-      "shoulder.");
+  tip("UTC, 1950 to 2050, for example 2026-06-21T12:00Z; then press Enter. Without a time the light comes over the "
+      "viewer's shoulder.");
   if (!settings.time_problem.empty()) ImGui::TextWrapped("%s", settings.time_problem.c_str());
   bool has_time = settings.time.has_value();
-  if (ImGui::Checkbox("Sun, Moon and stars of a time", &has_time)) {
+  if (ImGui::Checkbox("Sun, Moon and stars at a time", &has_time)) {
     set_time(settings, has_time ? std::optional<UtcTime>(kFirstTime) : std::nullopt);
   }
-  tip("The lights of cities are there if the program was started with --time.");
+  tip("City lights need a start with --time.");
   if (settings.time) draw_time_sliders(settings);
 }
 
 void draw_stereo(StereoLook& stereo) {
   choose("Stereo", stereo.mode, std::array{"off", "side by side", "interlaced", "anaglyph"});
   tip("S. anaglyph: red glass for the left eye, cyan for the right. interlaced: even rows for the left eye. side by "
-      "side: the left eye's picture left.");
+      "side: the left eye's picture is on the left.");
   bool by_itself = !stereo.eye_separation_m.has_value();
-  if (ImGui::Checkbox("Eyes set apart by themselves", &by_itself)) {
+  if (ImGui::Checkbox("Automatic eye separation", &by_itself)) {
     stereo.eye_separation_m = by_itself ? std::nullopt : std::optional<double>(1.0e5);
   }
-  tip("A thirtieth of the distance to what is in the picture's middle: comfortable from orbit to street.");
+  tip("1/30 of the distance to the picture's centre: comfortable from orbit to street level.");
   if (!stereo.eye_separation_m) return;
   double apart_km = *stereo.eye_separation_m / 1e3;
   slide("Eye separation", apart_km, 1.0e-4, 5.0e3, "%.4g km",
         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
   stereo.eye_separation_m = 1e3 * apart_km;
-  tip("More makes the relief of the scene deeper, and too much cannot be looked at.");
+  tip("Larger values deepen the scene; very large values strain the eyes.");
 }
 
 ViewAsk draw_view_buttons() {
@@ -118,9 +118,9 @@ ViewAsk draw_view_buttons() {
     tip(why);
     ImGui::SameLine();
   };
-  button("Layers", ViewAsk::layers, "L: what lies on the globe, to be shown, faded, sorted and removed.");
-  button("Picture", ViewAsk::picture, "I: saves a picture of any size.");
-  button("Keys", ViewAsk::help, "F1: what mouse and keys do.");
+  button("Layers", ViewAsk::layers, "L: show, hide, fade, reorder or remove layers.");
+  button("Picture", ViewAsk::picture, "I: save a picture of any size.");
+  button("Shortcuts", ViewAsk::help, "F1: mouse and keyboard shortcuts.");
   ImGui::NewLine();
   return ask;
 }
@@ -147,17 +147,17 @@ ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
   draw_surface(settings.surface);
   if (settings.has_relief) {
     slide("Exaggeration", settings.exaggeration, 0.0, 30.0, "%.1f times");
-    tip("How many times as high the ground's heights are drawn.");
+    tip("Factor for the ground's heights.");
   }
   if (settings.has_sky) {
     group("Sky and time");
     ImGui::Checkbox("Sky", &settings.sky);
-    tip("B: stars, Sun, Moon and the air around the globe.");
+    tip("B: stars, Sun, Moon and atmosphere.");
     if (settings.sky) draw_time(settings);
   }
   group("Under the ground");
   draw_from_below(settings);
-  group("For two eyes");
+  group("Stereo view");
   draw_stereo(settings.stereo);
   ImGui::PopItemWidth();
   ImGui::End();
