@@ -285,6 +285,7 @@ FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 cor
   return stats;
 }
 
+const Status& Globe::status() const { return impl_->status; }
 bool Globe::settled() const { return impl_->settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
 bool Globe::needs_frame() const { return impl_->needs_frame(); }
@@ -294,6 +295,7 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
   for (;;) {
     render(framebuffer, viewport);
     if (settled()) return true;
+    if (!status()) return false;
     while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
     if (Clock::now() >= deadline) return false;
   }

@@ -67,7 +67,7 @@ struct GlobeOptions {
   /// Patches whose relief is made anew in a frame, about 0.3 ms each, beyond those that the frame cannot do without:
   /// tiles of heights wait, and mountains become finer, frame by frame.
   int relief_meshes_per_frame = 24;
-  int workers = 2;  ///< decoder threads
+  int workers = 2;                               ///< decoder threads
   /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
   /// still wanted. Positive.
   std::chrono::milliseconds retry_after{30'000};
@@ -123,7 +123,8 @@ struct GlobeBudget {
 };
 
 /// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
-/// sees them into a framebuffer. Every call leaves the GL state as it found it.
+/// sees them into a framebuffer. Every call leaves the GL state as it found it, unless GlobeOptions::gl_contract says
+/// otherwise.
 ///
 /// thread: main (the one that it was made on, with its context current) for every call and for the end of its life. A
 /// call that is not is told by an assertion that names the call; without assertions what returns a Status or a Result
@@ -188,8 +189,12 @@ class Globe {
   void set_patch_shuffle(std::optional<unsigned> seed);
 
   /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
-  /// and uploads what has arrived, within the budget. Returns what the frame did.
+  /// and uploads what has arrived, within the budget. Returns what the frame did. Draws nothing if status() is an
+  /// error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
+  /// Why the last frame drew nothing: a shader program that it was the first to need could not be made. The next frame
+  /// tries again.
+  [[nodiscard]] const Status& status() const;
 
   /// True when the last frame showed everything that its view asks for.
   [[nodiscard]] bool settled() const;
@@ -199,7 +204,7 @@ class Globe {
   /// False if another frame would show what the last one did: nothing was set, nothing has arrived. Costs a few
   /// comparisons; a settled globe changes by itself only where a source that could not be asked is asked again.
   [[nodiscard]] bool needs_frame() const;
-  /// Renders until settled or the deadline; false at the deadline.
+  /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< of all image layers
   /// The tiles that failed last, the latest at the end, at most 64. Those that could not be asked for (Absence::failed)

@@ -10,6 +10,7 @@
 #include "geo/objects.h"
 #include "objects/object_batches.h"
 #include "render/gl/gl_handle.h"
+#include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -22,10 +23,9 @@ class MeshPass {
   /// In place of those before. Those without a model are left out. Models that stay are not uploaded again.
   void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   [[nodiscard]] bool has(ObjectPart part) const;
-  /// State as for ObjectPass::draw(), blending on and the depth mask as `opaque` has it. Returns the draw calls made:
-  /// one for each opaque material of each model, two for each translucent one: faces away from the eye, then towards
-  /// it.
-  [[nodiscard]] int draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const;
+  /// Returns the draw calls made: one for each opaque material of each model, two for each translucent one: faces away
+  /// from the eye, then towards it.
+  [[nodiscard]] int draw(const ObjectDraw& draw) const;
 
  private:
   /// Where a model stands: positions as PatchVertex has them, and the model's axes in metres.
@@ -53,7 +53,8 @@ class MeshPass {
   };
 
   MeshPass() = default;
-  [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const;
+  [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque,
+                               const DrawState& state) const;
   [[nodiscard]] Model upload(std::shared_ptr<const MeshModel> model);
   [[nodiscard]] static Part upload(const MeshPart& part);
 

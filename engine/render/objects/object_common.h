@@ -5,10 +5,20 @@
 
 #include "geo/camera.h"
 #include "objects/object_batches.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
+
+/// One part of the objects, as one pass draws it.
+struct ObjectDraw {
+  ObjectPart part;
+  bool opaque;
+  ObjectChoice choice;
+  float depth_bias;
+  DrawState state;  ///< of ObjectPass::draw(), with blending, and depth writes only if `opaque`
+};
 
 // What passes of objects share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
 

@@ -38,24 +38,24 @@ class ObjectPass {
     if (labels_) labels_->place(view, sight);
   }
 
-  /// Draws one part into the framebuffer that is bound. The caller has set the viewport (its size is `viewport`), the
-  /// frame's uniform block (binding 0; `frame` is what it holds), depth test and comparison, and stencil, all of which
-  /// are left as they are; the depth test must be on. Opaque objects write depth, translucent ones come after them and
-  /// do not; whatever lies over or on the ground is drawn a little towards the eye, what lies under it is not. Leaves
-  /// blending and face culling off and the depth mask on. Returns the draw calls made: at most one for each of areas,
-  /// lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw(). Where the caller
-  /// knows of an opaque sphere around the planet's centre, `hiding_radius_m`, which the eye is outside of, spheres and
-  /// markers in and behind it are not even begun: on software GL they would cost as much as those in sight.
-  int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
-           double hiding_radius_m = 0.0);
+  /// Draws one part into the bound framebuffer with the depth test, stencil and color mask of `state`. The caller has
+  /// set the viewport (its size is `viewport`) and the frame's uniform block (binding 0; `frame` is its content).
+  /// Opaque objects write depth. Translucent ones come after them and do not. Objects over or on the ground are drawn a
+  /// little towards the eye, objects under the ground are not. Returns the draw calls made: at most one for each of
+  /// areas, lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw().
+  /// `hiding_radius_m` is the radius of an opaque sphere around the planet's centre, if there is one and the eye is
+  /// outside of it. Spheres and markers in and behind that sphere are left out: on software GL they would cost as much
+  /// as those in sight.
+  int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
+           ObjectChoice choice = ObjectChoice::all, double hiding_radius_m = 0.0);
 
  private:
   ObjectPass() = default;
   Status build_programs(DepthMode depth);
   void set_up_arrays();
-  [[nodiscard]] int draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  [[nodiscard]] int draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_fills(const ObjectDraw& draw) const;
+  [[nodiscard]] int draw_lines(const ObjectDraw& draw) const;
+  [[nodiscard]] int draw_markers(const ObjectDraw& draw) const;
 
   /// A batch without its things, which are on the GPU.
   using Ranges = Batch<char>;

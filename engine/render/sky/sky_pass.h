@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "geo/body.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "sky/almanac.h"
 #include "sky/atmosphere.h"
@@ -31,10 +32,10 @@ class SkyPass {
   /// `stars` may be empty; a body without an atmosphere gets no program for one.
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
-  /// Draws into the framebuffer and viewport that are bound. The frame's uniform block must be bound and of this view;
-  /// depth test off, face culling off, stencil test as wanted. Returns the draw calls made. Leaves blending off;
-  /// changes program, vertex array, blend function and texture unit 0.
-  int draw(const View& view, const SkyInput& input);
+  /// Draws into the bound framebuffer and viewport, with the stencil test and color mask of `state`. The frame's
+  /// uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and texture unit
+  /// 0.
+  int draw(const View& view, const SkyInput& input, DrawState state);
 
  private:
   /// What the table was made for: it is kept while that hardly changes.
@@ -51,10 +52,10 @@ class SkyPass {
   explicit SkyPass(const Body& body) : body_(body), air_(atmosphere_of(body)) {}
   Status build_programs();
   void load_stars(const std::vector<Star>& stars);
-  int draw_stars(const View& view, const SkyInput& input) const;
-  int draw_sun(const View& view, const SkyInput& input) const;
-  int draw_moon(const View& view, const SkyInput& input) const;
-  int draw_air(const View& view, const SkyInput& input);
+  int draw_stars(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_sun(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_moon(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_air(const View& view, const SkyInput& input, DrawState state);
   void update_table(double eye_radius, double sun_cos);
   void place_disc(const View& view, const Disc& disc, double square) const;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "view/render_modes.h"
 
@@ -12,14 +13,14 @@ namespace terrella {
 
 /// What hides the far side under a translucent surface, in the background's colour: a sphere (paper 2, 2.1), and beside
 /// it the curtain of surface/far_side_curtain.h. The caller has bound the
-/// framebuffer and the frame's uniform block and set depth and stencil. thread: main
+/// framebuffer and the frame's uniform block. thread: main
 class InnerSpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InnerSpherePass>> create(DepthMode depth);
 
   /// Returns the draw calls made.
-  int draw(double radius_m) const;
-  int draw_curtain(const std::vector<glm::vec3>& strip) const;  ///< no faces may be culled
+  int draw(double radius_m, const DrawState& state) const;
+  int draw_curtain(const std::vector<glm::vec3>& strip, DrawState state) const;  ///< both faces, whatever `state` culls
 
  private:
   InnerSpherePass() = default;

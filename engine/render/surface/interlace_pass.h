@@ -12,7 +12,7 @@ class InterlacePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InterlacePass>> create();
 
-  /// Into the framebuffer that is bound; the stencil test and its masks are changed. Returns the draw calls made.
+  /// Draws into the bound framebuffer. Returns the draw calls made.
   int draw(int height_px) const;
 
  private:

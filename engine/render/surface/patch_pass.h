@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
 #include "render/surface/patch_buffers.h"
@@ -34,8 +35,8 @@ struct FrameCounts {
   long triangles = 0;
 };
 
-/// Draws the surface's patches, layer by layer. Owns their programs. The caller has bound the framebuffer and the
-/// frame's uniform block and has set depth, stencil, blending and which faces are culled. thread: main (of the context)
+/// Draws the surface's patches, layer by layer, with a state that the caller gives. Owns their programs. The caller has
+/// bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
   /// `has_relief`: patches have slopes.
@@ -44,21 +45,25 @@ class PatchPass {
   /// Makes the programs of layers over the first, once; before any is drawn. Special ones show on one side of the
   /// terminator, or take alpha from brightness: FrameBlock::layer_look.
   Status prepare_further(bool special);
+  /// Makes the program of draw_depth(), once.
+  Status prepare_depth();
 
   /// Once a frame, for both eyes. `coverage` belongs to `patches`, one to one; `vertices` are the layer's own or those
   /// of the patches' surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
   /// Program by program; opaque.
-  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
             FrameCounts& counts) const;
   /// The same premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
   void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
-                    FrameCounts& counts) const;
-  /// Depth alone, in one call; the depths are the bits that draw() makes.
-  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
+                    const DrawState& state, FrameCounts& counts) const;
+  /// Depth alone, in one call; the depths are the bits that draw() makes. After prepare_depth().
+  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                  FrameCounts& counts) const;
   /// The same in opaque black. After prepare_further().
-  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
+  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                 FrameCounts& counts) const;
 
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms;
@@ -71,7 +76,9 @@ class PatchPass {
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
   void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
-                     const TileTextures& tiles, FrameCounts& counts) const;
+                     const TileTextures& tiles, const DrawState& state, FrameCounts& counts) const;
+  void draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
+                const DrawState& state, FrameCounts& counts) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
 
