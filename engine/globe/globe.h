@@ -28,6 +28,12 @@
 
 namespace terrella {
 
+/// A globe's treatment of the OpenGL state that it finds at a call.
+enum class GlContract {
+  restore,  ///< every call leaves the state as it found it: about 250 queries in a call of render()
+  leave,    ///< a call asks for no state and restores none; the caller sets what it needs itself afterwards
+};
+
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
@@ -68,6 +74,7 @@ struct GlobeOptions {
   /// tiles of heights wait, and mountains become finer, frame by frame.
   int relief_meshes_per_frame = 24;
   int workers = 2;                               ///< decoder threads
+  GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
   /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
   /// still wanted. Positive.
   std::chrono::milliseconds retry_after{30'000};
@@ -192,8 +199,8 @@ class Globe {
   /// and uploads what has arrived, within the budget. Returns what the frame did. Draws nothing if status() is an
   /// error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
-  /// Why the last frame drew nothing: a shader program that it was the first to need could not be made. The next frame
-  /// tries again.
+  /// The error of the last frame, which drew nothing because a shader program that it was the first to need could not
+  /// be made. The next frame tries again.
   [[nodiscard]] const Status& status() const;
 
   /// True when the last frame showed everything that its view asks for.

@@ -7,9 +7,13 @@
 
 namespace terrella {
 
-/// The part of a context's state that drawing a globe changes or depends on. Taken when this is made, and set to what
-/// OpenGL begins with as far as drawing depends on it; put back at its end. Not of it: queries, transform feedback and
-/// conditional rendering under way, which drawing must not come between. thread: main (of the context)
+/// Sets what drawing a globe depends on, and what its passes do not set themselves, to what OpenGL begins with.
+/// thread: main (of the context)
+void set_first_gl_state();
+
+/// The part of a context's state that drawing a globe changes or depends on. Taken when this is made, followed by
+/// set_first_gl_state(); put back at its end. Not of it: queries, transform feedback and conditional rendering under
+/// way, which drawing must not come between. thread: main (of the context)
 class GlState {
  public:
   GlState();
