@@ -38,7 +38,8 @@ FrameStats settle(Globe& globe, const truth::TruthCamera& camera, const Offscree
   globe.set_camera(as_globe_camera(camera));
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   if (!globe.render_until_settled(target.framebuffer(), size, deadline)) {
-    throw std::runtime_error("a view has not settled after two minutes; is the disk that slow?");
+    throw std::runtime_error(globe.status() ? "a view has not settled after two minutes; is the disk that slow?"
+                                            : globe.status().error().message);
   }
   return globe.render(target.framebuffer(), size);
 }

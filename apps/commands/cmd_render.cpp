@@ -102,7 +102,7 @@ void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chro
   constexpr std::chrono::milliseconds kBetweenLooks{200};
   while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
     const auto until = std::min(deadline, std::chrono::steady_clock::now() + kBetweenLooks);
-    if (globe.render_until_settled(framebuffer, size, until)) return;
+    if (globe.render_until_settled(framebuffer, size, until) || !globe.status()) return;
   }
 }
 
@@ -176,6 +176,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
   if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();

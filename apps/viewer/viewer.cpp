@@ -134,6 +134,7 @@ void Viewer::draw_globe(Viewport framebuffer) {
   const bool resized = !picture_ || picture_size_ != framebuffer;
   if (resized) picture_.emplace(picture_size_ = framebuffer);
   if (resized || globe_.needs_frame()) stats_ = globe_.render(picture_->framebuffer(), framebuffer);
+  if (!globe_.status()) say(globe_.status().error().message);
   glBlitNamedFramebuffer(picture_->framebuffer(), 0, 0, 0, framebuffer.width_px, framebuffer.height_px, 0, 0,
                          framebuffer.width_px, framebuffer.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }

@@ -52,7 +52,14 @@ Status check_ranges(const GlobeOptions& o) {
   return Done{};
 }
 
-// Reports misuse by an assertion.
+// Sets the state that drawing depends on. The value that it returns restores the caller's state when the call ends.
+[[nodiscard]] std::optional<GlState> at_call(GlContract contract) {
+  if (contract == GlContract::restore) return std::optional<GlState>(std::in_place);
+  set_first_gl_state();
+  return std::nullopt;
+}
+
+// Misuse: told at once where assertions are on.
 bool refuse([[maybe_unused]] const char* call, [[maybe_unused]] const char* why) {
 #ifndef NDEBUG
   std::fprintf(stderr, "terrella: %s: %s\n", call, why);
@@ -96,7 +103,7 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
                                            const std::optional<ElevationSource>& elevation) {
   if (const Status ranges = check_ranges(options); !ranges) return ranges.error();
   if (const Status context = check_context(); !context) return context.error();
-  const GlState state;
+  const auto state = at_call(options.gl_contract);
   gl::find_deletes();
   auto impl = std::make_unique<Impl>(options);
   RenderOptions render;
@@ -124,7 +131,7 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
 
 Result<LayerId> Globe::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
   if (!impl_->may_draw("Globe::add_imagery")) return refused("Globe::add_imagery");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->add_imagery(std::move(source), look);
 }
 
@@ -140,7 +147,7 @@ Result<ImageLook> Globe::look(LayerId imagery) const {
 
 Status Globe::move(LayerId layer, std::size_t position) {
   if (!impl_->may_draw("Globe::move")) return refused("Globe::move");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->move(layer, position);
 }
 
@@ -153,25 +160,25 @@ std::vector<LayerId> Globe::imagery() const {
 
 Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   if (!impl_->may_draw("Globe::add_objects")) return refused("Globe::add_objects");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->add_objects(std::move(objects), shown);
 }
 
 Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   if (!impl_->may_draw("Globe::set_objects")) return refused("Globe::set_objects");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->set_objects(layer, std::move(objects));
 }
 
 Status Globe::show_objects(LayerId layer, bool shown) {
   if (!impl_->may_draw("Globe::show_objects")) return refused("Globe::show_objects");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->show_objects(layer, shown);
 }
 
 Status Globe::fade_objects(LayerId layer, double opacity) {
   if (!impl_->may_draw("Globe::fade_objects")) return refused("Globe::fade_objects");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->fade_objects(layer, opacity);
 }
 
@@ -184,7 +191,7 @@ std::vector<LayerId> Globe::objects() const {
 
 Status Globe::remove(LayerId layer) {
   if (!impl_->may_draw("Globe::remove")) return refused("Globe::remove");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->remove(layer);
 }
 
@@ -200,7 +207,7 @@ std::vector<std::string> Globe::attributions() const {
 
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (!impl_->may_draw("Globe::set_elevation")) return refused("Globe::set_elevation");
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   return impl_->set_elevation(elevation);
 }
 
@@ -260,7 +267,7 @@ Status Globe::set_time(std::optional<UtcTime> time) {
 
 void Globe::set_budget(const GlobeBudget& budget) {
   if (!impl_->may_draw("Globe::set_budget")) return;
-  const GlState state;
+  const auto state = at_call(impl_->options.gl_contract);
   impl_->options.gpu_bytes = budget.gpu_bytes;
   impl_->options.upload_bytes_per_frame = budget.upload_bytes_per_frame;
   impl_->options.upload_time_per_frame = budget.upload_time_per_frame;
@@ -278,7 +285,7 @@ FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 cor
   if (!impl_->may_draw("Globe::render")) return {};
   FrameStats stats;
   {
-    const GlState state;
+    const auto state = at_call(impl_->options.gl_contract);
     stats = impl_->draw(framebuffer, viewport, corner_px);
   }
   const bool settled_before = std::exchange(impl_->was_settled, impl_->settled());
@@ -286,6 +293,7 @@ FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 cor
   return stats;
 }
 
+const Status& Globe::status() const { return impl_->status; }
 bool Globe::settled() const { return impl_->settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
 bool Globe::needs_frame() const { return impl_->needs_frame(); }
@@ -295,6 +303,7 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
   for (;;) {
     render(framebuffer, viewport);
     if (settled()) return true;
+    if (!status()) return false;
     while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
     if (Clock::now() >= deadline) return false;
   }

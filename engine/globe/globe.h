@@ -28,6 +28,12 @@
 
 namespace terrella {
 
+/// A globe's treatment of the OpenGL state that it finds at a call.
+enum class GlContract {
+  restore,  ///< every call leaves the state as it found it: about 250 queries in a call of render()
+  leave,    ///< a call asks for no state and restores none; the caller sets what it needs itself afterwards
+};
+
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
@@ -72,9 +78,10 @@ struct GlobeOptions {
   /// Patches whose relief may be rebuilt per frame, about 0.3 ms each. Patches without which the frame cannot be drawn
   /// do not count. The other height tiles wait, and mountains become finer frame by frame.
   int relief_meshes_per_frame = 24;
-  int workers = 2;  ///< decoder threads
-  /// Time after which a tile of imagery or heights that failed for now (Absence::failed) is retried, if it is still
-  /// wanted. Positive.
+  int workers = 2;                               ///< decoder threads
+  GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
+  /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
+  /// still wanted. Positive.
   std::chrono::milliseconds retry_after{30'000};
 };
 
@@ -128,8 +135,9 @@ struct GlobeBudget {
   int relief_meshes_per_frame;
 };
 
-/// Draws image layers, heights and objects as a camera sees them, into a framebuffer. A globe is made in any current
-/// OpenGL 4.5 context. Every call leaves the GL state as it found it.
+/// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
+/// sees them into a framebuffer. Every call leaves the GL state as it found it, unless GlobeOptions::gl_contract says
+/// otherwise.
 ///
 /// thread: main for every call and the destructor: the thread on which the globe was made, with its context current. A
 /// call that breaks this rule is reported by an assertion that names the call. Without assertions, calls that return a
@@ -197,9 +205,13 @@ class Globe {
   /// For tests: draws the patches in a random order with this seed; none: in the normal order.
   void set_patch_shuffle(std::optional<unsigned> seed);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 is the window; sRGB or not), with the lower left corner at
-  /// `corner_px`. Uploads arrived tiles within the budget.
+  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
+  /// and uploads what has arrived, within the budget. Returns what the frame did. Draws nothing if status() is an
+  /// error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
+  /// The error of the last frame, which drew nothing because a shader program that it was the first to need could not
+  /// be made. The next frame tries again.
+  [[nodiscard]] const Status& status() const;
 
   /// True if the last frame showed everything that its view needs.
   [[nodiscard]] bool settled() const;
@@ -209,7 +221,7 @@ class Globe {
   /// False if another frame would be the same as the last one: nothing was set, and nothing has arrived. Costs a few
   /// comparisons. A settled globe changes by itself only when it retries a source.
   [[nodiscard]] bool needs_frame() const;
-  /// Renders until the globe is settled or the deadline has passed. False if the deadline has passed.
+  /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
   /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now

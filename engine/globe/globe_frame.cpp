@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cassert>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -37,12 +36,6 @@ void Globe::Impl::stack_layers() {
     if (!plain) plain = ImageLayer::make_plain(options, relief.get());
     stack.insert(stack.begin(), plain.get());
   }
-  if (stack.size() == 1) return;
-  // Similar programs exist already, so only a broken driver refuses these.
-  const bool special = std::ranges::any_of(stack, [this](const auto* layer) { return layer->is_special(has_night()); });
-  const Status prepared = renderer->prepare_further(special);
-  assert(prepared);
-  if (!prepared) stack.resize(1);
 }
 
 // In side-by-side stereo each eye gets half the width.
@@ -192,9 +185,12 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   for (ImageLayer* layer : stack) layer->ask();
   ask_heights();
   if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
-  const FrameCounts counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
-  stats.draw_calls = counts.draw_calls;
-  stats.triangles = counts.triangles;
+  const Result<FrameCounts> counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
+  status = counts ? Status(Done{}) : counts.error();
+  if (counts) {
+    stats.draw_calls = counts->draw_calls;
+    stats.triangles = counts->triangles;
+  }
   for (ImageLayer* layer : stack) layer->end_frame(frame);
   count();
   take_heights();
@@ -202,7 +198,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
 }
 
 bool Globe::Impl::settled() const {
-  if (frame == 0) return false;
+  if (frame == 0 || !status) return false;
   if (stats.heights_missing > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
   return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
 }

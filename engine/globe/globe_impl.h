@@ -108,6 +108,7 @@ struct Globe::Impl {
   bool was_settled = false;
   std::function<void()> on_settled;
   FrameStats stats;
+  Status status = Done{};  ///< of the last frame
   std::deque<LackingTile> lacking, lacking_heights;
 };
 

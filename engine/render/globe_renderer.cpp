@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
 #include "render/frame_camera.h"
 #include "render/gl/stencil_bits.h"
@@ -13,15 +12,14 @@
 namespace terrella {
 namespace {
 
-/// A pass that few frames need, made with the first of them. Fails only where the installation is broken.
+/// Makes a pass if it is not there yet. Fails only if the installation or the driver is broken.
 template <class T, class... Given>
-T& made(std::unique_ptr<T>& place, Given... given) {
-  if (!place) {
-    Result<std::unique_ptr<T>> pass = T::create(given...);
-    if (!pass) throw std::runtime_error(pass.error().message);
-    place = std::move(*pass);
-  }
-  return *place;
+Status make_once(std::unique_ptr<T>& place, const Given&... given) {
+  if (place) return Done{};
+  Result<std::unique_ptr<T>> made = T::create(given...);
+  if (!made) return made.error();
+  place = std::move(*made);
+  return Done{};
 }
 
 }  // namespace
@@ -31,14 +29,9 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   RenderOptions options = asked;
   options.night_lights = sky != nullptr && !sky->night_lights.values.empty();
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
-  const auto keep = [](auto& place, auto made) -> Status {
-    if (!made) return made.error();
-    place = std::move(*made);
-    return Done{};
-  };
-  if (Status s = keep(renderer->limb_, LimbPass::create()); !s) return s.error();
+  if (Status s = make_once(renderer->limb_); !s) return s.error();
   if (sky != nullptr) {
-    if (Status s = keep(renderer->sky_, SkyPass::create(sky->body, sky->stars)); !s) return s.error();
+    if (Status s = make_once(renderer->sky_, sky->body, sky->stars); !s) return s.error();
   }
   if (options.night_lights) {
     Result<NightLights> lights = NightLights::create(sky->night_lights);
@@ -75,23 +68,41 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
   return objects_->set_labels(labels, ellipsoid_);
 }
 
-FrameCounts GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
+// Draws have nothing to make, so that a frame is drawn as a whole or not at all.
+Status GlobeRenderer::prepare(const Pass& pass) {
+  if (const auto further = pass.further(); !further.empty()) {
+    const bool special = std::ranges::any_of(further, &LayerFrame::is_special);
+    if (Status s = patches_->prepare_further(special); !s) return s;
+  }
+  if (surface_look(pass) != SurfaceFromBelow::opaque) {
+    if (Status s = patches_->prepare_depth(); !s) return s;
+  }
+  if (has_inner_sphere(pass)) {
+    if (Status s = make_once(inner_sphere_, options_.depth); !s) return s;
+  }
+  if (mountains_on_limb(pass)) {
+    if (Status s = make_once(outline_); !s) return s;
+  }
+  return pass.input.stereo == Stereo::interlaced ? make_once(interlace_) : Done{};
+}
+
+Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
   FrameCounts counts;
+  const std::vector<EyePicture> pictures = pictures_of(input);
+  for (const EyePicture& eye : pictures) {
+    if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared.error();
+  }
   const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
   targets_.fit(input.size, input.sky || selective || input.stereo == Stereo::interlaced);
   upload_layers(input);
-  const std::vector<EyePicture> pictures = pictures_of(input);
   begin_frame(input, counts);
   // Chosen for the first eye: both are to see the same.
   if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}));
   for (const EyePicture& eye : pictures) draw_picture({input, eye, counts});
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glStencilMask(0xFF);
-  glDisable(GL_SCISSOR_TEST);
+  apply({});  // the scissor would cut the copy
   targets_.copy_to(framebuffer, input.corner_px);
   if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glDisable(GL_STENCIL_TEST);
     draw_limb({input, pictures.front(), counts}, false);
   }
   return counts;
@@ -111,13 +122,12 @@ void GlobeRenderer::draw_picture(const Pass& pass) {
 
 // Paper 2, 2.2, in its order.
 void GlobeRenderer::draw_from_above(const Pass& pass) {
-  const bool translucent = pass.input.surface.alpha < 1.0;
-  if (translucent && objects_ && objects_->has(ObjectPart::underground)) {  // else there is nothing to hide
+  if (has_inner_sphere(pass)) {
     draw_inner_sphere(pass);
     draw_far_side_curtain(pass);
   }
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
-  draw_surface(pass, translucent ? SurfaceFromBelow::translucent : SurfaceFromBelow::opaque);
+  draw_surface(pass);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
@@ -125,22 +135,21 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
 
 // Paper 2, 2.9: what is over the ground lies behind the surface, what is under it before.
 void GlobeRenderer::draw_from_below(const Pass& pass) {
-  const SurfaceLook& surface = pass.input.surface;
-  draw_inner_sphere(pass);
+  if (has_inner_sphere(pass)) draw_inner_sphere(pass);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::others, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::chosen, kThroughBit);
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
-  draw_surface(pass, surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque);
+  draw_surface(pass);
 }
 
 // An opaque globe's order with blending switched on, which paper 2 begins with (figures 2.23 to 2.26).
 void GlobeRenderer::draw_naively(const Pass& pass) {
   draw_sky(pass);
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
-  blend(pass.input.surface);
   if (night_lights_) night_lights_->bind();
-  draw_first(pass);
-  glDisable(GL_BLEND);
+  DrawState state = picture_state(pass.eye);
+  state.blend = surface_blend(pass.input.surface);
+  draw_first(pass, state);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
@@ -156,7 +165,7 @@ LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
   sight.shown = pass.input.lit;
   const SurfaceLook& surface = pass.input.surface;
   if (under_ground(pass)) {
-    const SurfaceFromBelow look = surface.alpha < 1.0 ? surface.from_below : SurfaceFromBelow::opaque;
+    const SurfaceFromBelow look = surface_look(pass);
     sight.above_ground = look == SurfaceFromBelow::translucent;
     sight.chosen_above_ground = look != SurfaceFromBelow::opaque;
   }
@@ -184,32 +193,31 @@ double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
 
 void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) {
   if (!objects_ || !objects_->has(part)) return;
-  stencil(pass.eye, 0, mark);
-  depth_test(DepthTest::nearer_or_equal);  // of objects at the same place the last is seen
-  pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, choice, hiding_radius_m(pass));
-  depth_test(DepthTest::nearer);
-  glEnable(GL_CULL_FACE);
-  stencil(pass.eye, 0, 0);
+  DrawState state = picture_state(pass.eye);
+  state.depth = depth(DepthTest::nearer_or_equal);  // the last of several objects at the same place is seen
+  state.stencil = stencil(pass.eye, {.set = mark});
+  pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
 }
 
 // Where no surface is; neither reads nor writes depth, so it moves no plane (paper 2, 2.3).
 void GlobeRenderer::draw_sky(const Pass& pass) {
   if (!pass.input.sky || !sky_) return;
-  stencil(pass.eye, kSurfaceBit, 0);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky);
-  glEnable(GL_CULL_FACE);
-  depth_test(DepthTest::nearer);
-  stencil(pass.eye, 0, 0);
+  DrawState state = picture_state(pass.eye);
+  state.stencil = stencil(pass.eye, {.clear = kSurfaceBit});
+  pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky, state);
+}
+
+// The sphere hides the far side, which an eye under the ground always sees, and an eye above through the surface.
+bool GlobeRenderer::has_inner_sphere(const Pass& pass) const {
+  if (inner_radius_m(pass.input) <= 0.0) return false;
+  if (under_ground(pass)) return true;
+  return pass.input.surface.alpha < 1.0 && objects_ && objects_->has(ObjectPart::underground);
 }
 
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
-  if (radius_m <= 0.0) return;
   if (glm::length(pass.eye.view.eye.xyz_m) <= radius_m) return;
-  glCullFace(GL_BACK);
-  pass.counts.draw_calls += made(inner_sphere_, options_.depth).draw(radius_m);
+  pass.counts.draw_calls += inner_sphere_->draw(radius_m, picture_state(pass.eye));
 }
 
 // What lies beyond the point of a line of sight that is nearest to the centre is the far side's. The inner sphere hides
@@ -217,36 +225,37 @@ void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
 void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   const Ellipsoid& e = ellipsoid_;
   const double radius_m = inner_radius_m(pass.input);
-  if (radius_m <= 0.0) return;
   const double lowest_m = pass.input.relief != nullptr ? std::min(0.0, pass.input.relief->range_m().min_m) : 0.0;
   const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
-  glDisable(GL_CULL_FACE);
-  pass.counts.draw_calls += made(inner_sphere_, options_.depth).draw_curtain(curtain);
-  glEnable(GL_CULL_FACE);
+  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, picture_state(pass.eye));
+}
+
+SurfaceFromBelow GlobeRenderer::surface_look(const Pass& pass) const {
+  if (pass.input.surface.alpha >= 1.0) return SurfaceFromBelow::opaque;
+  return under_ground(pass) ? pass.input.surface.from_below : SurfaceFromBelow::translucent;
 }
 
 // Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
-void GlobeRenderer::draw_surface(const Pass& pass, SurfaceFromBelow look) const {
-  glCullFace(under_ground(pass) ? GL_FRONT : GL_BACK);
+void GlobeRenderer::draw_surface(const Pass& pass) const {
+  const SurfaceFromBelow look = surface_look(pass);
+  DrawState state = picture_state(pass.eye);
+  if (under_ground(pass)) state.cull = GL_FRONT;
   for (const LayerFrame& layer : pass.further()) upload_frame(layer);
   if (look != SurfaceFromBelow::opaque) {
-    color_mask(pass.eye, false);
-    patches_->draw_depth(*pass.first().gpu, vertices_of(pass.first(), pass.first()), pass.counts);
-    color_mask(pass.eye, true);
-    glDepthFunc(GL_EQUAL);
-    glDepthMask(GL_FALSE);
+    DrawState depth_only = state;
+    depth_only.color = {false, false, false, false};
+    patches_->draw_depth(*pass.first().gpu, vertices_of(pass.first(), pass.first()), depth_only, pass.counts);
+    state.depth = kSameDepth;
   }
   if (night_lights_) night_lights_->bind();
   if (look == SurfaceFromBelow::selective) {
-    stencil(pass.eye, kThroughBit, 0);
-    draw_layers(pass, SurfaceFromBelow::opaque);
-    stencil(pass.eye, 0, 0, kThroughBit);
+    state.stencil = stencil(pass.eye, {.clear = kThroughBit});
+    draw_layers(pass, SurfaceFromBelow::opaque, state);
+    state.stencil = stencil(pass.eye, {.needed = kThroughBit});
   } else {
-    stencil(pass.eye, 0, kSurfaceBit);
+    state.stencil = stencil(pass.eye, {.set = kSurfaceBit});
   }
-  draw_layers(pass, look);
-  depth_test(DepthTest::nearer);
-  stencil(pass.eye, 0, 0);
+  draw_layers(pass, look, state);
 }
 
 // The limb's ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
@@ -258,24 +267,22 @@ bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
 }
 
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
+  const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
   const View& view = pass.eye.view;
   const LimbPicture picture{
       .texture = targets_.color(), .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1};
   int& calls = pass.counts.draw_calls;
   if (mountains_on_limb(pass)) {
-    const OutlinePass& outline = made(outline_);
     const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
-    calls += in_place ? outline.draw_in_place(view.viewport, picture, targets_.depth(), no_depth, targets_.beside(),
-                                              targets_.framebuffer())
-                      : outline.draw(view.viewport, picture, targets_.depth(), no_depth);
+    const OutlineDepth depth{targets_.depth(), no_depth};
+    calls += in_place ? outline_->draw_in_place(view.viewport, picture, depth, state, targets_.beside(),
+                                                targets_.framebuffer())
+                      : outline_->draw(view.viewport, picture, depth, state);
   } else {
-    calls += in_place ? limb_->draw_in_place(view, ellipsoid_, picture, targets_.beside(), targets_.framebuffer())
-                      : limb_->draw(view, ellipsoid_, picture);
+    calls += in_place
+                 ? limb_->draw_in_place(view, ellipsoid_, picture, state, targets_.beside(), targets_.framebuffer())
+                 : limb_->draw(view, ellipsoid_, picture, state);
   }
-  glEnable(GL_CULL_FACE);
-  depth_test(DepthTest::nearer);
 }
 
 std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {
@@ -301,18 +308,14 @@ std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInp
 void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) {
   glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
   glViewport(0, 0, input.size.width_px, input.size.height_px);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_BLEND);
-  glDisable(GL_STENCIL_TEST);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glFrontFace(GL_CCW);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glStencilMask(0xFF);
+  apply({});
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClearStencil(0);
   glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  if (input.stereo == Stereo::interlaced) counts.draw_calls += made(interlace_).draw(input.size.height_px);
+  if (input.stereo == Stereo::interlaced) counts.draw_calls += interlace_->draw(input.size.height_px);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
@@ -321,44 +324,32 @@ void GlobeRenderer::begin_picture(const Pass& pass) const {
   glViewport(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
   // A point's square may reach over the middle of a picture of two halves, and a clear knows no viewport.
   glScissor(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
-  glEnable(GL_SCISSOR_TEST);
-  color_mask(eye, true);
-  glStencilMask(kSurfaceBit | kThroughBit);
-  glDepthMask(GL_TRUE);
+  DrawState state = picture_state(eye);
+  state.stencil = {.write_mask = kSurfaceBit | kThroughBit};  // keeps the interlaced rows
+  apply(state);
   glClearDepth(options_.depth == DepthMode::reversed ? 0.0 : 1.0);
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_CULL_FACE);
-  depth_test(DepthTest::nearer);
-  stencil(eye, 0, 0);
 }
 
-void GlobeRenderer::color_mask(const EyePicture& eye, bool on) const {
-  glColorMask(on && eye.red, on && eye.green, on && eye.blue, on);
+DrawState GlobeRenderer::picture_state(const EyePicture& eye) const {
+  return {.depth = depth(DepthTest::nearer),
+          .stencil = stencil(eye, {}),
+          .color = {eye.red, eye.green, eye.blue, true},
+          .cull = GL_BACK,
+          .scissor = true};
 }
 
-// Draws where bits are clear or set as they must be, in the eye's rows, and sets bits there.
-void GlobeRenderer::stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set) const {
+std::optional<StencilState> GlobeRenderer::stencil(const EyePicture& eye, const Marks& marks) const {
   const GLuint rows = eye.interlaced ? kRightEyeBit : 0U;
-  if (!targets_.has_stencil() || (rows | must_be_clear | set | must_be_set) == 0) {
-    glDisable(GL_STENCIL_TEST);
-    return;
-  }
-  glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_EQUAL, static_cast<GLint>(eye.row_bits | set | must_be_set), rows | must_be_clear | must_be_set);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glStencilMask(set);
+  const GLuint read = rows | marks.clear | marks.needed;
+  if (!targets_.has_stencil() || (read | marks.set) == 0) return std::nullopt;
+  return StencilState{.reference = eye.row_bits | marks.set | marks.needed, .read_mask = read, .write_mask = marks.set};
 }
 
-void GlobeRenderer::depth_test(DepthTest test) const {
+DepthState GlobeRenderer::depth(DepthTest test) const {
   const bool reversed = options_.depth == DepthMode::reversed;
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  if (test == DepthTest::nearer) {
-    glDepthFunc(reversed ? GL_GREATER : GL_LESS);
-  } else {
-    glDepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);
-  }
+  if (test == DepthTest::nearer) return {.test = static_cast<GLenum>(reversed ? GL_GREATER : GL_LESS)};
+  return {.test = static_cast<GLenum>(reversed ? GL_GEQUAL : GL_LEQUAL)};
 }
 
 double GlobeRenderer::inner_radius_m(const FrameInput& input) const {

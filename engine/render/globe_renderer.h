@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/frame_block.h"
 #include "render/gl/frame_targets.h"
 #include "render/gl/gl_handle.h"
@@ -68,7 +69,7 @@ struct SkyAssets {
   GreyPicture night_lights;  ///< empty: no day and night on the surface
 };
 
-/// Draws frames: the list of passes, and the state each of them needs. thread: main (of the context)
+/// Draws frames: the list of passes, and the state that each of them draws with. thread: main (of the context)
 class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
@@ -84,10 +85,9 @@ class GlobeRenderer {
   /// In place of those before; the program for objects is made with the first.
   Status set_objects(std::span<const CutScene> scenes);
 
-  /// Before the first frame with more than one layer.
-  Status prepare_further(bool special) { return patches_->prepare_further(special); }
-  /// Both eyes' pictures, or the one, into `framebuffer`. What the eyes share is uploaded once.
-  FrameCounts draw(const FrameInput& input, GLuint framebuffer);
+  /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads once what the eyes share. Makes the programs
+  /// that no frame before has needed; if one of them cannot be made, returns the error and draws nothing.
+  Result<FrameCounts> draw(const FrameInput& input, GLuint framebuffer);
 
  private:
   /// One eye's part of the picture.
@@ -98,6 +98,12 @@ class GlobeRenderer {
     bool interlaced = false;
     GLuint row_bits = 0;  ///< interlaced: the stencil of its rows
   };
+  /// Bits of stencil_bits.h: a draw passes where some are clear and some set, and sets others there.
+  struct Marks {
+    GLuint clear = 0, needed = 0, set = 0;
+  };
+  /// Passes that draw the surface once more, after its depth is there.
+  static constexpr DepthState kSameDepth{.test = GL_EQUAL, .write = false};
   /// What the passes of one picture have in common.
   struct Pass {
     const FrameInput& input;
@@ -109,30 +115,34 @@ class GlobeRenderer {
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
+  Status prepare(const Pass& pass);
   void draw_picture(const Pass& pass);
   void draw_from_above(const Pass& pass);
   void draw_from_below(const Pass& pass);
   void draw_naively(const Pass& pass);
   void draw_inner_sphere(const Pass& pass);
   void draw_far_side_curtain(const Pass& pass);
-  void draw_surface(const Pass& pass, SurfaceFromBelow look) const;
+  [[nodiscard]] bool has_inner_sphere(const Pass& pass) const;
+  [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
+  void draw_surface(const Pass& pass) const;
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& first);
   void upload_layers(const FrameInput& input) const;
-  void draw_first(const Pass& pass) const;
-  void draw_further(const Pass& pass, const LayerFrame& layer) const;
-  void draw_layers(const Pass& pass, SurfaceFromBelow look) const;
-  void draw_layers_translucent(const Pass& pass) const;
-  void blend(const SurfaceLook& look) const;
+  void draw_first(const Pass& pass, const DrawState& state) const;
+  void draw_further(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
+  void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
+  void draw_layers_translucent(const Pass& pass, DrawState state) const;
+  [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
   void draw_sky(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
   void draw_limb(const Pass& pass, bool in_place);
   [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
   void begin_picture(const Pass& pass) const;
-  void color_mask(const EyePicture& eye, bool on) const;
-  void stencil(const EyePicture& eye, GLuint must_be_clear, GLuint set, GLuint must_be_set = 0) const;
+  /// The state that passes of a picture begin with: the nearer front faces win, in the eye's colors and rows.
+  [[nodiscard]] DrawState picture_state(const EyePicture& eye) const;
+  [[nodiscard]] std::optional<StencilState> stencil(const EyePicture& eye, const Marks& marks) const;
   enum class DepthTest { nearer, nearer_or_equal };
-  void depth_test(DepthTest test) const;
+  [[nodiscard]] DepthState depth(DepthTest test) const;
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;

@@ -24,63 +24,55 @@ void GlobeRenderer::upload_layers(const FrameInput& input) const {
   }
 }
 
-void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look) const {
+void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const {
   const bool translucent = look != SurfaceFromBelow::opaque;
-  if (translucent && !pass.further().empty()) return draw_layers_translucent(pass);
-  if (translucent) blend(pass.input.surface);
-  draw_first(pass);
-  glDisable(GL_BLEND);
-  if (pass.further().empty()) return;
-  glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-  for (const LayerFrame& layer : pass.further()) draw_further(pass, layer);
-  glDisable(GL_BLEND);
+  if (translucent && !pass.further().empty()) return draw_layers_translucent(pass, state);
+  if (translucent) state.blend = surface_blend(pass.input.surface);
+  draw_first(pass, state);
+  state.depth = kSameDepth;
+  state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
+  for (const LayerFrame& layer : pass.further()) draw_further(pass, layer, state);
 }
 
 // What lies below gives way first. Then layers add their part from the highest down, and the picture's alpha keeps what
 // is left for those below them; at the end it is opaque again.
-void GlobeRenderer::draw_layers_translucent(const Pass& pass) const {
+void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
   const auto flat = [&] {
-    patches_->draw_flat(*pass.first().gpu, vertices_of(pass.first(), pass.first()), pass.counts);
+    patches_->draw_flat(*pass.first().gpu, vertices_of(pass.first(), pass.first()), state, pass.counts);
   };
-  const SurfaceLook& look = pass.input.surface;
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendColor(0.0F, 0.0F, 0.0F, static_cast<float>(look.alpha));
-  const GLenum below = look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE;
-  glBlendFuncSeparate(GL_ZERO, below, GL_CONSTANT_ALPHA, GL_ZERO);
+  state.blend = surface_blend(pass.input.surface);
+  state.blend->from_rgb = GL_ZERO;
+  state.blend->from_alpha = GL_CONSTANT_ALPHA;
+  state.blend->to_alpha = GL_ZERO;
   flat();
-  glBlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
-  for (auto layer = pass.further().rbegin(); layer != pass.further().rend(); ++layer) draw_further(pass, *layer);
-  draw_first(pass);
-  glDisable(GL_BLEND);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+  state.blend = {GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA};
+  for (auto layer = pass.further().rbegin(); layer != pass.further().rend(); ++layer) draw_further(pass, *layer, state);
+  draw_first(pass, state);
+  state.blend.reset();
+  state.color = {false, false, false, true};
   flat();
-  color_mask(pass.eye, true);
 }
 
-void GlobeRenderer::draw_first(const Pass& pass) const {
+void GlobeRenderer::draw_first(const Pass& pass, const DrawState& state) const {
   const LayerFrame& first = pass.first();
-  patches_->draw(*first.gpu, vertices_of(first, first), *first.tiles, pass.counts);
+  patches_->draw(*first.gpu, vertices_of(first, first), *first.tiles, state, pass.counts);
 }
 
-void GlobeRenderer::draw_further(const Pass& pass, const LayerFrame& layer) const {
+void GlobeRenderer::draw_further(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  patches_->draw_further(*layer.gpu, vertices_of(layer, pass.first()), *layer.tiles, layer.is_special(), pass.counts);
+  patches_->draw_further(*layer.gpu, vertices_of(layer, pass.first()), *layer.tiles, layer.is_special(), state,
+                         pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
 // Paper 2, (2.7) and (2.9).
-void GlobeRenderer::blend(const SurfaceLook& look) const {
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendColor(0.0F, 0.0F, 0.0F, static_cast<float>(look.alpha));
-  const GLenum below = look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE;
-  glBlendFuncSeparate(GL_CONSTANT_ALPHA, below, GL_ZERO, GL_ONE);
+BlendState GlobeRenderer::surface_blend(const SurfaceLook& look) {
+  return {.from_rgb = GL_CONSTANT_ALPHA,
+          .to_rgb = static_cast<GLenum>(look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE),
+          .from_alpha = GL_ZERO,
+          .to_alpha = GL_ONE,
+          .constant_alpha = static_cast<float>(look.alpha)};
 }
 
 // What a layer's programs know of its tiles.

@@ -82,9 +82,17 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   void work();
   void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
   [[nodiscard]] Encoded read(const TileId& id);
-  [[nodiscard]] static TileFailure failure_of(const std::exception& error) {
-    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-    return {Absence::failed, memory ? "not enough memory" : error.what()};
+  /// The exception that is being caught, as a failed tile. An exception that left a thread would end the program.
+  [[nodiscard]] static TileFailure caught() {
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      return {Absence::failed, "not enough memory"};
+    } catch (const std::exception& error) {
+      return {Absence::failed, error.what()};
+    } catch (...) {
+      return {Absence::failed, "the tile source threw an exception of its own type"};
+    }
   }
   void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
   [[nodiscard]] Result<Decoded, TileFailure> decoded(const Arrived& tile) const;
@@ -259,10 +267,14 @@ void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const 
   if (stopping_) return;
   fetching_.insert(wish.id);
   lock.unlock();
-  // The answer may arrive after this loader is gone.
-  remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id](Encoded answer) {
-    if (const auto self = loader.lock()) self->arrive(id, std::move(answer));
-  });
+  // The answer may come after this loader is gone.
+  try {
+    remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id](Encoded answer) {
+      if (const auto self = loader.lock()) self->arrive(id, std::move(answer));
+    });
+  } catch (...) {
+    arrive(wish.id, caught());
+  }
   lock.lock();
 }
 
@@ -270,8 +282,8 @@ template <class Decoded>
 typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const TileId& id) {
   try {
     return source_->read(id);
-  } catch (const std::exception& error) {
-    return failure_of(error);
+  } catch (...) {
+    return caught();
   }
 }
 
@@ -290,14 +302,13 @@ void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Ar
   if (bell_) bell_->ring();
 }
 
-/// An exception that leaves a thread ends the program. Running out of memory for one tile must not do that.
 template <class Decoded>
 Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile) const {
   if (!tile.encoded) return tile.encoded.error();
   try {
     return decode_(tile.id, *tile.encoded);
-  } catch (const std::exception& error) {
-    return failure_of(error);
+  } catch (...) {
+    return caught();
   }
 }
 

@@ -7,6 +7,7 @@
 #include "gl_dump.h"
 #include "gl_fixture.h"
 #include "layer_source.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_state.h"
 #include "render/gl/shader_library.h"
 #include "tests/scene/patch_test_support.h"
@@ -180,8 +181,9 @@ class ForeignState {
 };
 
 /// Everything that a globe can draw.
-std::unique_ptr<Globe> full_globe() {
+std::unique_ptr<Globe> full_globe(GlContract contract = GlContract::restore) {
   GlobeOptions options;
+  options.gl_contract = contract;
   options.sky = true;
   options.time = *parse_utc("2026-06-21T12:00Z");
   options.stars = {{.direction_j2000 = {1.0F, 0.0F, 0.0F}, .magnitude = 1.0F, .color_linear = {1.0F, 1.0F, 1.0F}}};
@@ -256,8 +258,8 @@ TEST_F(ForeignContext, EveryOtherCallDoesToo) {
 }
 
 TEST_F(ForeignContext, ThePictureIsTheSameWhateverTheStateWas) {
-  const auto picture_after = [&](unsigned seed) {
-    const auto globe = full_globe();
+  const auto picture_after = [&](unsigned seed, GlContract contract = GlContract::restore) {
+    const auto globe = full_globe(contract);
     fill(*globe);
     globe->set_camera(camera_at(0, 10, 1.0e7));
     settle(*globe, kForeign);
@@ -273,13 +275,80 @@ TEST_F(ForeignContext, ThePictureIsTheSameWhateverTheStateWas) {
   };
   const Picture plain = picture_after(0);
   for (const unsigned seed : {3U, 4U, 5U}) {
-    const Picture after = picture_after(seed);
-    for (int y = 0; y < kForeign.height_px; ++y) {
-      for (int x = 0; x < kForeign.width_px; ++x) {
-        EXPECT_EQ(after.at(x, y), plain.at(x, y)) << x << ' ' << y << " with seed " << seed;
-      }
+    for (const GlContract contract : {GlContract::restore, GlContract::leave}) {
+      EXPECT_EQ(picture_after(seed, contract).rgba, plain.rgba) << "with seed " << seed;
     }
   }
+}
+
+int queries = 0;
+/// Counts the calls of one function of OpenGL, `place` is where libepoxy keeps it.
+template <auto* place>
+struct Counted;
+template <class R, class... Arguments, R (**place)(Arguments...)>
+struct Counted<place> {
+  static inline R (*function)(Arguments...) = nullptr;
+  static R count(Arguments... arguments) {
+    ++queries;
+    return function(arguments...);
+  }
+  Counted() {
+    function = *place;
+    *place = count;
+  }
+  ~Counted() { *place = function; }
+};
+struct CountedQueries {
+  Counted<&epoxy_glGetIntegerv> integer;
+  Counted<&epoxy_glGetIntegeri_v> integer_i;
+  Counted<&epoxy_glGetInteger64i_v> integer64_i;
+  Counted<&epoxy_glGetFloatv> number;
+  Counted<&epoxy_glGetFloati_v> number_i;
+  Counted<&epoxy_glGetDoublev> real;
+  Counted<&epoxy_glGetDoublei_v> real_i;
+  Counted<&epoxy_glGetBooleanv> boolean;
+  Counted<&epoxy_glGetBooleani_v> boolean_i;
+  Counted<&epoxy_glIsEnabled> enabled;
+  Counted<&epoxy_glIsEnabledi> enabled_i;
+};
+
+TEST_F(ForeignContext, AskingForNoStateIsAnOption) {
+  const auto queries_of_a_frame = [&](GlContract contract) {
+    const auto globe = full_globe(contract);
+    fill(*globe);
+    globe->set_camera(camera_at(0, 10, 1.0e7));
+    settle(*globe, kForeign);
+    const CountedQueries counted;
+    queries = 0;
+    draw(*globe, kForeign);
+    return queries;
+  };
+  const int restoring = queries_of_a_frame(GlContract::restore);
+  RecordProperty("queries_restore", restoring);
+  EXPECT_GT(restoring, 100);
+  EXPECT_EQ(queries_of_a_frame(GlContract::leave), 1) << "is the profile compatible?";
+}
+
+TEST_F(ForeignContext, ADrawStateIsSetWhateverWasSetBefore) {
+  const DrawState all{.program = 0,
+                      .depth = DepthState{GL_GEQUAL, false},
+                      .stencil = StencilState{3, 5, 6},
+                      .blend = BlendState{GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_SRC_ALPHA, GL_MAX, 0.25F},
+                      .color = {false, true, false, true},
+                      .cull = GL_FRONT,
+                      .scissor = true,
+                      .program_point_size = true};
+  apply(all);
+  const GlDump full = dump_gl_state();
+  apply({});
+  const GlDump empty = dump_gl_state();
+  EXPECT_NE(differences(full, empty), "");
+  apply(all);
+  EXPECT_EQ(differences(full, dump_gl_state()), "");
+  apply({});
+  EXPECT_EQ(differences(empty, dump_gl_state()), "");
+  EXPECT_EQ(all, all.with(0));
+  EXPECT_NE(all, all.with(1));
 }
 
 TEST_F(ForeignContext, AnSrgbFramebufferTakesTheSameBytes) {

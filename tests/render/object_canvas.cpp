@@ -57,9 +57,8 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   glViewport(0, 0, size_.width_px, size_.height_px);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   const bool reversed = depth_mode_ == DepthMode::reversed;
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(reversed ? GL_GREATER : GL_LESS);
-  glDepthMask(GL_TRUE);
+  const DrawState state{.depth = DepthState{.test = static_cast<GLenum>(reversed ? GL_GREATER : GL_LESS)}};
+  apply(state);
   glClearDepth(reversed ? 0.0 : 1.0);
   glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -70,7 +69,7 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   pass_->place_labels(view, label_sight_);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
-    draw_calls_ += pass_->draw(part, frame, size_, ObjectChoice::all, hiding_radius_m_);
+    draw_calls_ += pass_->draw(part, frame, size_, state, ObjectChoice::all, hiding_radius_m_);
   }
   const auto row = static_cast<std::size_t>(size_.width_px) * 4;
   std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_.height_px));

@@ -131,6 +131,25 @@ TEST(RemoteLoader, WhatIsUnderWayIsNotAskedForTwice) {
   EXPECT_EQ(poll_all(loader), 5U);
 }
 
+/// Throws when the network is asked.
+class ThrowingNetwork : public FarSource {
+ public:
+  void fetch(const TileId&, double, Done) override { throw 5; }
+};
+
+TEST(RemoteLoader, AnExceptionOfTheNetworkIsAFailedTile) {
+  TileLoader loader(std::make_shared<ThrowingNetwork>());
+  loader.request(wishes(1, 2));
+  std::size_t failed = 0;
+  while (loader.wait(std::chrono::steady_clock::now() + kRemotePatience)) {
+    for (const LoadedTile& tile : loader.poll(std::size_t{1} << 30)) {
+      EXPECT_EQ(tile.tile ? Absence::absent : tile.tile.error().kind, Absence::failed);
+      ++failed;
+    }
+  }
+  EXPECT_GT(failed, 0U);
+}
+
 TEST(RemoteLoader, AnswersAfterItsEndAreDropped) {
   const auto source = std::make_shared<FarSource>();
   {

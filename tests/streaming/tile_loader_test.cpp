@@ -39,6 +39,8 @@ class GatedSource : public TileSource {
     changed_.notify_all();
     changed_.wait(lock, [this] { return open_; });
     if (id.level == 9) throw std::runtime_error("thrown by the source");
+    if (id.level == 7) throw 7;
+    if (id.level == 6) return EncodedTile{.bytes = {}, .make_picture = []() -> Result<Image, TileFailure> { throw 6; }};
     if (id.level == 10) return TileFailure{Absence::absent, "not there"};
     return EncodedTile{id.level == 8 ? test::bytes_of("not a picture") : tile_};
   }
@@ -158,6 +160,21 @@ TEST(TileLoader, SaysWhyThereAreNoPixels) {
   }
   EXPECT_EQ(kinds, (std::map<int, Absence>{{8, Absence::broken}, {9, Absence::failed}, {10, Absence::absent}}));
   EXPECT_EQ(loader.counts().lacked, 3U);
+}
+
+TEST(TileLoader, AnExceptionOfAnyTypeIsAFailedTile) {
+  const auto source = std::make_shared<GatedSource>();
+  source->open();
+  TileLoader loader(source);
+  const std::vector<TileRequest> thrown_by_read_and_decode{{{7, 0, 0}, 0.0}, {{6, 0, 0}, 0.0}};
+  loader.request(thrown_by_read_and_decode);
+  const auto tiles = drain(loader);
+  EXPECT_EQ(tiles.size(), 2U);
+  for (const LoadedTile& tile : tiles) {
+    ASSERT_FALSE(tile.tile);
+    EXPECT_EQ(tile.tile.error().kind, Absence::failed);
+    EXPECT_NE(tile.tile.error().why.find("threw"), std::string::npos);
+  }
 }
 
 TEST(TileLoader, WorkersPauseOverTheBound) {

@@ -53,6 +53,7 @@ Result<std::unique_ptr<PictureJob>> PictureJob::start(const Globe& globe, const 
 bool PictureJob::draw(Globe& globe, Viewport window) {
   if (!drawn()) {
     stats_ = globe.render(target_->framebuffer(), size_);
+    if (!globe.status()) written_ = std::async(std::launch::deferred, [failed = globe.status()] { return failed; });
     if (globe.settled()) {
       Image image{.width_px = size_.width_px, .height_px = size_.height_px, .rgba = target_->read()};
       written_ = std::async(std::launch::async, [file = file_, image = std::move(image)]() mutable {
@@ -81,7 +82,7 @@ void PictureJob::show(Viewport window) const {
 
 bool PictureJob::ready() const {
   if (!drawn()) return globe_.needs_frame();
-  return written_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return written_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
 }
 
 std::optional<Status> PictureJob::result() {

@@ -69,7 +69,24 @@ GLint integer(GLenum name, GLuint index) {
   return value;
 }
 
+bool has_old_switches() { return (integer(GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0; }
+
 }  // namespace
+
+void set_first_gl_state() {
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  for (const GLenum name : kSwitches) turn(name, begins_on(name));
+  if (has_old_switches()) {
+    for (const GLenum name : kOldSwitches) turn(name, begins_on(name));
+  }
+  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_UPPER_LEFT);
+  glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+  glDepthRange(0.0, 1.0);
+  for (const GLenum name : kPixelStores) {
+    glPixelStorei(name, name == GL_UNPACK_ALIGNMENT || name == GL_PACK_ALIGNMENT ? 4 : 0);
+  }
+}
 
 GlState::GlState() {
   take_bindings();
@@ -77,6 +94,7 @@ GlState::GlState() {
   take_fragments();
   take_windows();
   take_pixel_stores();
+  set_first_gl_state();
 }
 
 GlState::~GlState() {
@@ -106,8 +124,6 @@ void GlState::take_bindings() {
     samplers_[unit] = integer(GL_SAMPLER_BINDING);
   }
   glActiveTexture(static_cast<GLenum>(active_unit_));
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 
 void GlState::put_bindings() const {
@@ -136,14 +152,9 @@ void GlState::put_bindings() const {
 
 void GlState::take_switches() {
   switches_.reserve(kSwitches.size() + kOldSwitches.size());
-  const auto take = [this](GLenum name) {
-    switches_.push_back({name, glIsEnabled(name) == GL_TRUE});
-    if (switches_.back().on != begins_on(name)) turn(name, begins_on(name));
-  };
+  const auto take = [this](GLenum name) { switches_.push_back({name, glIsEnabled(name) == GL_TRUE}); };
   std::ranges::for_each(kSwitches, take);
-  if ((integer(GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0) {
-    std::ranges::for_each(kOldSwitches, take);
-  }
+  if (has_old_switches()) std::ranges::for_each(kOldSwitches, take);
 }
 
 void GlState::take_fragments() {
@@ -180,9 +191,7 @@ void GlState::take_fragments() {
   clip_origin_ = integer(GL_CLIP_ORIGIN);
   clip_depth_ = integer(GL_CLIP_DEPTH_MODE);
   point_origin_ = integer(GL_POINT_SPRITE_COORD_ORIGIN);
-  glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, GL_UPPER_LEFT);
   provoking_vertex_ = integer(GL_PROVOKING_VERTEX);
-  glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
 }
 
 void GlState::put_fragments() const {
@@ -223,7 +232,6 @@ void GlState::take_windows() {
     glGetIntegeri_v(GL_SCISSOR_BOX, k, w.scissor.data());
     w.scissor_on = glIsEnabledi(GL_SCISSOR_TEST, k) == GL_TRUE;
   }
-  glDepthRange(0.0, 1.0);
 }
 
 void GlState::put_windows() const {
@@ -237,11 +245,7 @@ void GlState::put_windows() const {
 }
 
 void GlState::take_pixel_stores() {
-  for (std::size_t k = 0; k < kStores; ++k) {
-    pixel_stores_[k] = integer(kPixelStores[k]);
-    const GLenum name = kPixelStores[k];
-    glPixelStorei(name, name == GL_UNPACK_ALIGNMENT || name == GL_PACK_ALIGNMENT ? 4 : 0);
-  }
+  for (std::size_t k = 0; k < kStores; ++k) pixel_stores_[k] = integer(kPixelStores[k]);
 }
 
 }  // namespace terrella

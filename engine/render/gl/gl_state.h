@@ -7,9 +7,13 @@
 
 namespace terrella {
 
-/// Saves the part of a context's state that drawing a globe changes or depends on. The constructor saves this state and
-/// sets OpenGL's initial values where drawing depends on them. The destructor restores the state. Not included: active
-/// queries, transform feedback and conditional rendering, which must not be active while drawing. thread: main
+/// Sets what drawing a globe depends on, and what its passes do not set themselves, to what OpenGL begins with.
+/// thread: main (of the context)
+void set_first_gl_state();
+
+/// The part of a context's state that drawing a globe changes or depends on. Taken when this is made, followed by
+/// set_first_gl_state(); put back at its end. Not of it: queries, transform feedback and conditional rendering under
+/// way, which drawing must not come between. thread: main (of the context)
 class GlState {
  public:
   GlState();

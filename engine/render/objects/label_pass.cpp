@@ -133,14 +133,14 @@ void LabelPass::put(const Label& label, const Line& line, float right_px) {
   }
 }
 
-int LabelPass::draw(ObjectPart part, ObjectChoice choice, Viewport viewport, float depth_bias) const {
-  const std::size_t base = part == ObjectPart::above_ground ? 2 : 0;
-  const std::size_t from = first_[base + (choice == ObjectChoice::chosen ? 1U : 0U)];
-  const std::size_t to = first_[base + (choice == ObjectChoice::others ? 1U : 2U)];
+int LabelPass::draw(const ObjectDraw& draw, Viewport viewport) const {
+  const std::size_t base = draw.part == ObjectPart::above_ground ? 2 : 0;
+  const std::size_t from = first_[base + (draw.choice == ObjectChoice::chosen ? 1U : 0U)];
+  const std::size_t to = first_[base + (draw.choice == ObjectChoice::others ? 1U : 2U)];
   if (from >= to) return 0;
   glProgramUniform2f(program_.name(), kLabelViewportUniform, float(viewport.width_px), float(viewport.height_px));
-  glProgramUniform1f(program_.name(), kLabelBiasUniform, depth_bias);
-  glUseProgram(program_.name());
+  glProgramUniform1f(program_.name(), kLabelBiasUniform, draw.depth_bias);
+  apply(draw.state.with(program_.name()));
   glVertexArrayVertexBuffer(array_.name(), 0, buffer_.name(), 0, sizeof(Character));
   glBindVertexArray(array_.name());
   glBindTextureUnit(0, atlas_->texture());

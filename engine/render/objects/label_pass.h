@@ -13,6 +13,7 @@
 #include "objects/object_batches.h"
 #include "render/gl/stream_buffer.h"
 #include "render/objects/glyph_atlas.h"
+#include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -39,9 +40,8 @@ class LabelPass {
   void set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
   /// Chooses the labels of the frame.
   void place(const View& view, const LabelSight& sight);
-  /// Draws with the state that ObjectPass::draw() requires, blending on and the depth mask off. Returns the number of
-  /// draw calls.
-  [[nodiscard]] int draw(ObjectPart part, ObjectChoice choice, Viewport viewport, float depth_bias) const;
+  /// Returns the draw calls made.
+  [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
   [[nodiscard]] std::size_t shown() const { return shown_; }
 
  private:

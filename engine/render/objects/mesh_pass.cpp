@@ -144,31 +144,30 @@ bool MeshPass::has(ObjectPart part) const {
   return false;
 }
 
-int MeshPass::draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const {
-  glProgramUniform1f(program_.name(), kMeshBiasUniform, depth_bias);
+int MeshPass::draw(const ObjectDraw& draw) const {
+  glProgramUniform1f(program_.name(), kMeshBiasUniform, draw.depth_bias);
+  DrawState state = draw.state.with(program_.name());
   int calls = 0;
   for (const Model& model : models_) {
-    const auto range = model.ranges.range(part, true, choice);
+    const auto range = model.ranges.range(draw.part, true, draw.choice);
     if (range.count == 0) continue;
-    if (opaque) {
-      calls += draw_parts(model, range.first, range.count, true);
+    if (draw.opaque) {
+      calls += draw_parts(model, range.first, range.count, true, state);
       continue;
     }
-    // Faces away from the eye are drawn before faces towards it, in any order of triangles. This is exact for convex
-    // models.
-    glEnable(GL_CULL_FACE);
+    // What faces away lies behind what faces the eye, whatever the order of triangles: right for all that is convex.
     for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
-      glCullFace(left_out);
-      calls += draw_parts(model, range.first, range.count, false);
+      state.cull = left_out;
+      calls += draw_parts(model, range.first, range.count, false, state);
     }
-    glDisable(GL_CULL_FACE);
   }
   return calls;
 }
 
-int MeshPass::draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const {
+int MeshPass::draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque,
+                         const DrawState& state) const {
   int calls = 0;
-  glUseProgram(program_.name());
+  apply(state);
   for (const Part& part : model.parts) {
     if (part.translucent == opaque) continue;
     glUniform4f(kMeshColorUniform, part.color_linear.x, part.color_linear.y, part.color_linear.z, part.color_linear.w);

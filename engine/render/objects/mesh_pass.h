@@ -10,6 +10,7 @@
 #include "geo/objects.h"
 #include "objects/object_batches.h"
 #include "render/gl/gl_handle.h"
+#include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -22,10 +23,9 @@ class MeshPass {
   /// Replaces all meshes. Skips meshes without a model. Does not upload again models that stay.
   void set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid);
   [[nodiscard]] bool has(ObjectPart part) const;
-  /// Draws with the state that ObjectPass::draw() requires, blending on and the depth mask set to `opaque`. Returns the
-  /// number of draw calls. Each opaque material of a model takes one call. Each translucent one takes two: faces away
-  /// from the eye, then faces towards it.
-  [[nodiscard]] int draw(ObjectPart part, bool opaque, ObjectChoice choice, float depth_bias) const;
+  /// Returns the draw calls made: one for each opaque material of each model, two for each translucent one: faces away
+  /// from the eye, then towards it.
+  [[nodiscard]] int draw(const ObjectDraw& draw) const;
 
  private:
   /// One place of a model: its position, split as in PatchVertex, and the model's axes, metres.
@@ -53,7 +53,8 @@ class MeshPass {
   };
 
   MeshPass() = default;
-  [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque) const;
+  [[nodiscard]] int draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque,
+                               const DrawState& state) const;
   [[nodiscard]] Model upload(std::shared_ptr<const MeshModel> model);
   [[nodiscard]] static Part upload(const MeshPart& part);
 

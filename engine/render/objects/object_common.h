@@ -5,12 +5,22 @@
 
 #include "geo/camera.h"
 #include "objects/object_batches.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
 
-// Helpers shared by the passes of objects. shaders/objects/object_common.glsl declares the uniforms. thread: main
+/// One part of the objects, as one pass draws it.
+struct ObjectDraw {
+  ObjectPart part;
+  bool opaque;
+  ObjectChoice choice;
+  float depth_bias;
+  DrawState state;  ///< of ObjectPass::draw(), with blending, and depth writes only if `opaque`
+};
+
+// What passes of objects share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
 
 inline void set_object_uniforms(const gl::Program& program, Viewport viewport, float bias, double hiding_radius_m) {
   constexpr GLint kViewport = 0, kBias = 1, kHiding = 2;

@@ -108,63 +108,55 @@ bool ObjectPass::has(ObjectPart part) const {
   return false;
 }
 
-int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice,
-                     double hiding_radius_m) {
+int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
+                     ObjectChoice choice, double hiding_radius_m) {
   if (!has(part)) return 0;
   const float bias = part == ObjectPart::above_ground ? kGroundBias : 0.0F;
   for (const gl::Program* program : {&fill_, &line_, &marker_}) {
     set_object_uniforms(*program, viewport, bias, hiding_radius_m);
   }
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  int calls = 0;
-  // Areas lie on the ground, so all other objects are drawn over them.
-  for (const bool opaque : {true, false}) {
-    glDepthMask(opaque ? GL_TRUE : GL_FALSE);
-    calls += draw_fills(part, opaque, choice);
+  ObjectDraw opaque{part, true, choice, bias, state};
+  opaque.state.cull.reset();
+  opaque.state.blend = {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+  ObjectDraw translucent = opaque;
+  translucent.opaque = false;
+  if (translucent.state.depth) translucent.state.depth->write = false;
+  // Areas lie on the ground: everything else is over them.
+  int calls = draw_fills(opaque) + draw_fills(translucent);
+  for (const ObjectDraw& draw : {opaque, translucent}) {
+    if (meshes_) calls += meshes_->draw(draw);
+    calls += spheres_->draw(draw, frame, viewport, hiding_radius_m);
+    calls += draw_lines(draw);
+    calls += draw_markers(draw);
   }
-  for (const bool opaque : {true, false}) {
-    glDepthMask(opaque ? GL_TRUE : GL_FALSE);
-    if (meshes_) calls += meshes_->draw(part, opaque, choice, bias);
-    calls += spheres_->draw(part, opaque, choice, frame, viewport, bias, hiding_radius_m);
-    calls += draw_lines(part, opaque, choice);
-    calls += draw_markers(part, opaque, choice);
-  }
-  if (labels_) {
-    calls += labels_->draw(part, choice, viewport, bias);
-  }
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  return calls;
+  return labels_ ? calls + labels_->draw(translucent, viewport) : calls;
 }
 
-int ObjectPass::draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const {
-  const auto range = fill_ranges_.range(part, opaque, choice);
+int ObjectPass::draw_fills(const ObjectDraw& draw) const {
+  const auto range = fill_ranges_.range(draw.part, draw.opaque, draw.choice);
   if (range.count == 0) return 0;
-  glUseProgram(fill_.name());
+  apply(draw.state.with(fill_.name()));
   glBindVertexArray(fill_array_.name());
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
                  reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t)));
   return 1;
 }
 
-int ObjectPass::draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const {
-  const auto range = marker_ranges_.range(part, opaque, choice);
+int ObjectPass::draw_markers(const ObjectDraw& draw) const {
+  const auto range = marker_ranges_.range(draw.part, draw.opaque, draw.choice);
   if (range.count == 0) return 0;
-  glUseProgram(marker_.name());
+  apply(draw.state.with(marker_.name()));
   glBindVertexArray(marker_array_.name());
   glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(range.count),
                                     static_cast<GLuint>(range.first));
   return 1;
 }
 
-int ObjectPass::draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const {
+int ObjectPass::draw_lines(const ObjectDraw& draw) const {
   constexpr std::size_t kVerticesOfAPiece = 4;
-  const auto range = line_ranges_.range(part, opaque, choice);
+  const auto range = line_ranges_.range(draw.part, draw.opaque, draw.choice);
   if (range.count < kVerticesOfAPiece) return 0;
-  glUseProgram(line_.name());
+  apply(draw.state.with(line_.name()));
   glBindVertexArray(line_array_.name());
   glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(range.count - kVerticesOfAPiece + 1),
                                     static_cast<GLuint>(range.first));

@@ -38,31 +38,24 @@ class ObjectPass {
     if (labels_) labels_->place(view, sight);
   }
 
-  /// Draws one part of the scene into the bound framebuffer.
-  ///
-  /// The caller sets the viewport (its size is `viewport`), the frame's uniform block (binding 0; `frame` is its
-  /// content), depth test and comparison, and stencil. This function does not change them. The depth test must be on.
-  /// Afterwards blending and face culling are off, and the depth mask is on.
-  ///
-  /// Opaque objects write depth. Translucent objects follow and do not. Objects over or on the ground are drawn a
-  /// little nearer to the eye; objects under the ground are not.
-  ///
-  /// `hiding_radius_m` is the radius of an opaque sphere around the planet's centre that does not contain the eye.
-  /// Spheres and markers in or behind this sphere are skipped, because on software GL they would cost as much as
-  /// visible ones.
-  ///
-  /// Returns the number of draw calls: at most one for each of areas, lines and markers, opaque and translucent, and
-  /// those of SpherePass::draw() and MeshPass::draw().
-  int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, ObjectChoice choice = ObjectChoice::all,
-           double hiding_radius_m = 0.0);
+  /// Draws one part into the bound framebuffer with the depth test, stencil and color mask of `state`. The caller has
+  /// set the viewport (its size is `viewport`) and the frame's uniform block (binding 0; `frame` is its content).
+  /// Opaque objects write depth. Translucent ones come after them and do not. Objects over or on the ground are drawn a
+  /// little towards the eye, objects under the ground are not. Returns the draw calls made: at most one for each of
+  /// areas, lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw().
+  /// `hiding_radius_m` is the radius of an opaque sphere around the planet's centre, if there is one and the eye is
+  /// outside of it. Spheres and markers in and behind that sphere are left out: on software GL they would cost as much
+  /// as those in sight.
+  int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
+           ObjectChoice choice = ObjectChoice::all, double hiding_radius_m = 0.0);
 
  private:
   ObjectPass() = default;
   Status build_programs(DepthMode depth);
   void set_up_arrays();
-  [[nodiscard]] int draw_fills(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  [[nodiscard]] int draw_lines(ObjectPart part, bool opaque, ObjectChoice choice) const;
-  [[nodiscard]] int draw_markers(ObjectPart part, bool opaque, ObjectChoice choice) const;
+  [[nodiscard]] int draw_fills(const ObjectDraw& draw) const;
+  [[nodiscard]] int draw_lines(const ObjectDraw& draw) const;
+  [[nodiscard]] int draw_markers(const ObjectDraw& draw) const;
 
   /// A batch without its elements, which are on the GPU.
   using Ranges = Batch<char>;

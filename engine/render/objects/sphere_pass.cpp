@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "render/gl/shader_library.h"
-#include "render/objects/object_common.h"
 
 namespace terrella {
 namespace {
@@ -61,43 +60,41 @@ void SpherePass::set_spheres(const Batch<DotInstance>& spheres) {
   }
 }
 
-int SpherePass::draw(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame, Viewport viewport,
-                     float bias, double hiding_radius_m) {
-  const auto range = ranges_.range(part, opaque, choice);
+int SpherePass::draw(const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport, double hiding_radius_m) {
+  const auto range = ranges_.range(draw.part, draw.opaque, draw.choice);
   if (range.count == 0) return 0;
   const SphereGroups::Seen seen =
       groups_.seen({range.first, range.count}, sight_of(frame, viewport, hiding_radius_m, largest_point_px_));
   for (const gl::Program* program : {&triangle_, &point_}) {
-    set_object_uniforms(*program, viewport, bias, hiding_radius_m);
+    set_object_uniforms(*program, viewport, draw.depth_bias, hiding_radius_m);
   }
-  if (!seen.triangles.empty()) draw_triangles(seen.triangles);
-  if (!seen.points.empty()) draw_points(seen.points);
+  if (!seen.triangles.empty()) draw_triangles(seen.triangles, draw.state);
+  if (!seen.points.empty()) draw_points(seen.points, draw.state);
   return int(!seen.triangles.empty()) + int(!seen.points.empty());
 }
 
-void SpherePass::draw_triangles(const std::vector<SphereGroups::Run>& runs) {
+void SpherePass::draw_triangles(const std::vector<SphereGroups::Run>& runs, const DrawState& state) {
   std::vector<SphereCommand> commands;
   for (const auto& run : runs) commands.push_back({3, GLuint(run.count), 0, GLuint(run.first)});
   commands_.fill(commands.data(), commands.size() * sizeof(SphereCommand));
-  glUseProgram(triangle_.name());
+  apply(state.with(triangle_.name()));
   glBindVertexArray(triangle_array_.name());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
   glMultiDrawArraysIndirect(GL_TRIANGLES, nullptr, static_cast<GLsizei>(commands.size()), 0);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void SpherePass::draw_points(const std::vector<SphereGroups::Run>& runs) const {
+void SpherePass::draw_points(const std::vector<SphereGroups::Run>& runs, DrawState state) const {
   std::vector<GLint> firsts;
   std::vector<GLsizei> counts;
   for (const auto& run : runs) {
     firsts.push_back(static_cast<GLint>(run.first));
     counts.push_back(static_cast<GLsizei>(run.count));
   }
-  glUseProgram(point_.name());
+  state.program_point_size = true;
+  apply(state.with(point_.name()));
   glBindVertexArray(point_array_.name());
-  glEnable(GL_PROGRAM_POINT_SIZE);
   glMultiDrawArrays(GL_POINTS, firsts.data(), counts.data(), static_cast<GLsizei>(runs.size()));
-  glDisable(GL_PROGRAM_POINT_SIZE);
 }
 
 }  // namespace terrella

@@ -8,6 +8,7 @@
 #include "render/gl/frame_block.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/stream_buffer.h"
+#include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -20,16 +21,14 @@ class SpherePass {
 
   /// Replaces all spheres.
   void set_spheres(const Batch<DotInstance>& spheres);
-  /// Draws as ObjectPass::draw() does; the caller also sets blending and the depth mask. Returns the number of draw
-  /// calls: at most one for triangles and one for points.
-  int draw(ObjectPart part, bool opaque, ObjectChoice choice, const FrameBlock& frame, Viewport viewport, float bias,
-           double hiding_radius_m);
+  /// As ObjectPass::draw(). Returns the draw calls made: at most one for triangles and one for points.
+  int draw(const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport, double hiding_radius_m);
   [[nodiscard]] const Batch<char>& ranges() const { return ranges_; }
 
  private:
   SpherePass() = default;
-  void draw_triangles(const std::vector<SphereGroups::Run>& runs);
-  void draw_points(const std::vector<SphereGroups::Run>& runs) const;
+  void draw_triangles(const std::vector<SphereGroups::Run>& runs, const DrawState& state);
+  void draw_points(const std::vector<SphereGroups::Run>& runs, DrawState state) const;
 
   gl::Program triangle_, point_;
   gl::VertexArray triangle_array_, point_array_;

@@ -23,6 +23,9 @@ constexpr double kSmallestDisc_px = 1.0;
 // this amount.
 constexpr double kHeightStep = 0.003;
 constexpr double kSunStep = 0.0005;
+constexpr BlendState kAdd{GL_ONE, GL_ONE, GL_ONE, GL_ONE};
+constexpr BlendState kOver{GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+constexpr BlendState kThroughAir{GL_ONE, GL_SRC1_COLOR, GL_ONE, GL_SRC1_COLOR};
 
 // Scales places and directions so that the body is a sphere of radius 1.
 glm::dvec3 scaled(const Ellipsoid& e, const glm::dvec3& p) { return p / semi_axes_m(e); }
@@ -114,20 +117,19 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
   gl::float_attribute(array, 2, 0, 3, offsetof(Star, color_linear));
 }
 
-int SkyPass::draw_stars(const View& view, const SkyInput& input) const {
+int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state) const {
   if (star_count_ == 0) return 0;
   const double height_m = body_.ellipsoid.to_geodetic(view.eye).height_m;
   const double visibility =
       air_ && input.atmosphere ? star_visibility(*air_, height_m, sun_cosine(body_, view, input.almanac)) : 1.0;
   if (visibility < 1e-3) return 0;
-  glUseProgram(star_program_.name());
+  state.blend = kAdd;
+  state.program_point_size = true;
+  apply(state.with(star_program_.name()));
   set(0, view_from_ecef_rotation(view) * input.almanac.ecef_from_j2000);
   glUniform1f(1, static_cast<float>(visibility));
   glBindVertexArray(star_array_.name());
-  glEnable(GL_PROGRAM_POINT_SIZE);
-  glBlendFunc(GL_ONE, GL_ONE);
   glDrawArrays(GL_POINTS, 0, star_count_);
-  glDisable(GL_PROGRAM_POINT_SIZE);
   return 1;
 }
 
@@ -144,32 +146,32 @@ void SkyPass::place_disc(const View& view, const Disc& disc, double square) cons
   glBindVertexArray(empty_array_.name());
 }
 
-int SkyPass::draw_sun(const View& view, const SkyInput& input) const {
+int SkyPass::draw_sun(const View& view, const SkyInput& input, DrawState state) const {
   const double radius = std::asin(kSunRadius_m / input.almanac.sun_distance_m);
   const Disc disc{input.almanac.sun.xyz, std::max(radius, kSmallestDisc_px * pixel_rad(view))};
-  glUseProgram(sun_program_.name());
+  state.blend = kAdd;
+  apply(state.with(sun_program_.name()));
   place_disc(view, disc, kGlow_radii);
-  glBlendFunc(GL_ONE, GL_ONE);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   return 1;
 }
 
-int SkyPass::draw_moon(const View& view, const SkyInput& input) const {
+int SkyPass::draw_moon(const View& view, const SkyInput& input, DrawState state) const {
   const Almanac& almanac = input.almanac;
   const glm::dvec3 from_eye = almanac.moon.xyz_m - view.eye.xyz_m;
   const double distance_m = glm::length(from_eye);
   if (distance_m <= kMoonRadius_m) return 0;
   const Disc disc{from_eye / distance_m,
                   std::max(std::asin(kMoonRadius_m / distance_m), kSmallestDisc_px * pixel_rad(view))};
-  glUseProgram(moon_program_.name());
-  // Adds room for the antialiased rim.
+  state.blend = kOver;
+  apply(state.with(moon_program_.name()));
+  // Room for the antialiased rim.
   place_disc(view, disc, 1.0 + pixel_rad(view) / disc.radius_rad);
   const glm::dvec3 other = std::abs(disc.center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 right = glm::normalize(glm::cross(other, disc.center));
   const glm::mat3 axes(glm::vec3(right), glm::vec3(glm::cross(disc.center, right)), glm::vec3(-disc.center));
   glUniform3fv(4, 3, glm::value_ptr(axes));
   set(7, glm::normalize(almanac.sun.xyz * almanac.sun_distance_m - almanac.moon.xyz_m));
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   return 1;
 }
@@ -189,7 +191,7 @@ void SkyPass::update_table(double eye_radius, double sun_cos) {
   }
 }
 
-int SkyPass::draw_air(const View& view, const SkyInput& input) {
+int SkyPass::draw_air(const View& view, const SkyInput& input, DrawState state) {
   const Ellipsoid& e = body_.ellipsoid;
   const glm::dvec3 eye = scaled(e, view.eye.xyz_m);
   const double radius = glm::length(eye);
@@ -200,7 +202,8 @@ int SkyPass::draw_air(const View& view, const SkyInput& input) {
   const glm::dmat3 ecef_from_scaled(glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0),
                                     glm::dvec3(0.0, 0.0, e.b_m() / e.a_m()));
   const AirMesh mesh = table_.outside ? kRing : kDome;
-  glUseProgram(air_program_.name());
+  state.blend = kThroughAir;
+  apply(state.with(air_program_.name()));
   set(0, ecef_from_scaled * axes);
   set(1, glm::transpose(axes) * sun, radius);
   set(2, glm::dvec3(table_.outside ? 1.0 : 0.0, air_->top_m / e.a_m(), table_.horizon_dip_rad), mesh.rows);
@@ -209,19 +212,18 @@ int SkyPass::draw_air(const View& view, const SkyInput& input) {
   glBindTextureUnit(0, table_texture_.name());
   glBindSampler(0, 0);
   glBindVertexArray(empty_array_.name());
-  glBlendFunc(GL_ONE, GL_SRC1_COLOR);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (mesh.columns + 1), mesh.rows);
   return 1;
 }
 
-int SkyPass::draw(const View& view, const SkyInput& input) {
+int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {
+  state.depth.reset();
+  state.cull.reset();
   int calls = 0;
-  glEnable(GL_BLEND);
-  if (input.stars) calls += draw_stars(view, input);
-  if (input.sun) calls += draw_sun(view, input);
-  if (input.moon && body_.name == earth().name) calls += draw_moon(view, input);
-  if (input.atmosphere && air_) calls += draw_air(view, input);
-  glDisable(GL_BLEND);
+  if (input.stars) calls += draw_stars(view, input, state);
+  if (input.sun) calls += draw_sun(view, input, state);
+  if (input.moon && body_.name == earth().name) calls += draw_moon(view, input, state);
+  if (input.atmosphere && air_) calls += draw_air(view, input, state);
   return calls;
 }
 

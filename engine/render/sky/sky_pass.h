@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "geo/body.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "sky/almanac.h"
 #include "sky/atmosphere.h"
@@ -31,10 +32,10 @@ class SkyPass {
   /// `stars` may be empty. A body without an atmosphere needs no program for it.
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
-  /// Draws into the bound framebuffer and viewport. The caller binds the frame's uniform block for this view, switches
-  /// depth test and face culling off, and sets the stencil test. Afterwards blending is off, and program, vertex array,
-  /// blend function and texture unit 0 are changed. Returns the number of draw calls.
-  int draw(const View& view, const SkyInput& input);
+  /// Draws into the bound framebuffer and viewport, with the stencil test and color mask of `state`. The frame's
+  /// uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and texture unit
+  /// 0.
+  int draw(const View& view, const SkyInput& input, DrawState state);
 
  private:
   /// The input of the sky table. The table is kept while this hardly changes.
@@ -51,10 +52,10 @@ class SkyPass {
   explicit SkyPass(const Body& body) : body_(body), air_(atmosphere_of(body)) {}
   Status build_programs();
   void load_stars(const std::vector<Star>& stars);
-  int draw_stars(const View& view, const SkyInput& input) const;
-  int draw_sun(const View& view, const SkyInput& input) const;
-  int draw_moon(const View& view, const SkyInput& input) const;
-  int draw_air(const View& view, const SkyInput& input);
+  int draw_stars(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_sun(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_moon(const View& view, const SkyInput& input, DrawState state) const;
+  int draw_air(const View& view, const SkyInput& input, DrawState state);
   void update_table(double eye_radius, double sun_cos);
   void place_disc(const View& view, const Disc& disc, double square) const;
 

@@ -56,19 +56,20 @@ Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth
   return pass;
 }
 
-int InnerSpherePass::draw(double radius_m) const {
-  glUseProgram(program_.name());
+int InnerSpherePass::draw(double radius_m, const DrawState& state) const {
+  apply(state.with(program_.name()));
   glUniform2f(0, static_cast<float>(radius_m), 1.0F);
   glBindVertexArray(vertex_array_.name());
   glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_SHORT, nullptr);
   return 1;
 }
 
-int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip) const {
+int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip, DrawState state) const {
   if (strip.empty()) return 0;
   glNamedBufferData(curtain_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(glm::vec3)), strip.data(),
                     GL_STREAM_DRAW);
-  glUseProgram(program_.name());
+  state.cull.reset();
+  apply(state.with(program_.name()));
   glUniform2f(0, 1.0F, 0.0F);
   glBindVertexArray(curtain_array_.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));

@@ -1,5 +1,6 @@
 #include "render/surface/interlace_pass.h"
 
+#include "render/gl/draw_state.h"
 #include "render/gl/shader_library.h"
 #include "render/gl/stencil_bits.h"
 
@@ -16,18 +17,12 @@ Result<std::unique_ptr<InterlacePass>> InterlacePass::create() {
 }
 
 int InterlacePass::draw(int height_px) const {
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_STENCIL_TEST);
-  glStencilMask(kRightEyeBit);
-  glStencilFunc(GL_ALWAYS, static_cast<GLint>(kRightEyeBit), kRightEyeBit);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glUseProgram(program_.name());
+  apply({.program = program_.name(),
+         .stencil = StencilState{.reference = kRightEyeBit, .write_mask = kRightEyeBit},
+         .color = {false, false, false, false}});
   glUniform1i(0, height_px);
   glBindVertexArray(vertex_array_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   return 1;
 }
 

@@ -12,7 +12,7 @@ class InterlacePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InterlacePass>> create();
 
-  /// Draws into the bound framebuffer. Changes the stencil test and its masks. Returns the number of draw calls.
+  /// Draws into the bound framebuffer. Returns the draw calls made.
   int draw(int height_px) const;
 
  private:

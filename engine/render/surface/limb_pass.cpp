@@ -36,8 +36,10 @@ GLsizei LimbPass::upload(const View& view, const Ellipsoid& ellipsoid) const {
   return static_cast<GLsizei>(strip.size());
 }
 
-void LimbPass::draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture) const {
-  glUseProgram(program_.name());
+void LimbPass::draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture, DrawState state) const {
+  state.depth.reset();
+  state.cull.reset();
+  apply(state.with(program_.name()));
   glUniform1i(0, picture.rows_apart);
   glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
   glBindTextureUnit(0, picture.texture);
@@ -46,21 +48,21 @@ void LimbPass::draw_ribbon(GLsizei vertices, const View& view, const LimbPicture
   glDrawArrays(GL_TRIANGLE_STRIP, 0, vertices);
 }
 
-int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture) {
+int LimbPass::draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state) {
   const GLsizei vertices = upload(view, ellipsoid);
   if (vertices == 0) return 0;
-  draw_ribbon(vertices, view, picture);
+  draw_ribbon(vertices, view, picture, state);
   return 1;
 }
 
 int LimbPass::draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
-                            const FrameTargets::Beside& beside, GLuint framebuffer) {
+                            const DrawState& state, const FrameTargets::Beside& beside, GLuint framebuffer) {
   const GLsizei vertices = upload(view, ellipsoid);
   if (vertices == 0) return 0;
   glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
-  draw_ribbon(vertices, view, picture);
+  draw_ribbon(vertices, view, picture, state);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  draw_ribbon(vertices, view, {.texture = beside.texture, .rows_apart = 0});
+  draw_ribbon(vertices, view, {.texture = beside.texture, .rows_apart = 0}, state);
   return 2;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/frame_targets.h"
 #include "render/gl/gl_handle.h"
 
@@ -23,18 +24,18 @@ class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
 
-  /// Blends the limb into the bound framebuffer, without a depth test. Returns the number of draw calls: 0 if no limb
-  /// is in view, else 1.
-  int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture);
-  /// The same if the bound framebuffer contains the picture itself. Draws by way of a second picture of the same size,
-  /// because a texture must not be read and written at once. Returns 0 or 2.
-  int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture,
+  /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
+  /// Returns the draw calls made: 0 if no limb is in view, else 1.
+  int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state);
+  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
+  /// is read must not be written. Returns 0 or 2.
+  int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state,
                     const FrameTargets::Beside& beside, GLuint framebuffer);
 
  private:
   LimbPass() = default;
   [[nodiscard]] GLsizei upload(const View& view, const Ellipsoid& ellipsoid) const;
-  void draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture) const;
+  void draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture, DrawState state) const;
   gl::Program program_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;

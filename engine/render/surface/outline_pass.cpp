@@ -16,13 +16,15 @@ Result<std::unique_ptr<OutlinePass>> OutlinePass::create() {
   return pass;
 }
 
-int OutlinePass::draw(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth) const {
-  glUseProgram(program_.name());
+int OutlinePass::draw(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, DrawState state) const {
+  state.depth.reset();
+  state.cull.reset();
+  apply(state.with(program_.name()));
   glUniform1i(0, picture.rows_apart);
   glUniform4i(1, picture.left_px, 0, picture.left_px + size.width_px - 1, size.height_px - 1);
-  glUniform1f(2, no_depth);
+  glUniform1f(2, depth.nothing);
   glBindTextureUnit(0, picture.texture);
-  glBindTextureUnit(1, depth_texture);
+  glBindTextureUnit(1, depth.texture);
   glBindSampler(0, 0);
   glBindSampler(1, 0);
   glBindVertexArray(vertex_array_.name());
@@ -30,14 +32,16 @@ int OutlinePass::draw(Viewport size, const LimbPicture& picture, GLuint depth_te
   return 1;
 }
 
-int OutlinePass::draw_in_place(Viewport size, const LimbPicture& picture, GLuint depth_texture, float no_depth,
-                               const FrameTargets::Beside& beside, GLuint framebuffer) const {
+int OutlinePass::draw_in_place(Viewport size, const LimbPicture& picture, const OutlineDepth& depth,
+                               const DrawState& state, const FrameTargets::Beside& beside, GLuint framebuffer) const {
   glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
   constexpr std::array<float, 4> kNothing{};
+  apply(state);
   glClearBufferfv(GL_COLOR, 0, kNothing.data());
-  const int calls = draw(size, picture, depth_texture, no_depth);
+  const int calls = draw(size, picture, depth, state);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  return calls + draw(size, {.texture = beside.texture, .left_px = picture.left_px, .rows_apart = 0}, 0, no_depth);
+  return calls + draw(size, {.texture = beside.texture, .left_px = picture.left_px, .rows_apart = 0},
+                      {0, depth.nothing}, state);
 }
 
 }  // namespace terrella

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
@@ -67,6 +66,14 @@ Status PatchPass::prepare_further(bool special) {
   Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
   if (!flat) return flat.error();
   flat_program_ = std::move(*flat);
+  return Done{};
+}
+
+Status PatchPass::prepare_depth() {
+  if (depth_program_) return Done{};
+  Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
+  if (!program) return program.error();
+  depth_program_ = std::move(*program);
   return Done{};
 }
 
@@ -194,17 +201,18 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 }
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                     FrameCounts& counts) const {
-  draw_programs(programs_, layer, vertices, tiles, counts);
+                     const DrawState& state, FrameCounts& counts) const {
+  draw_programs(programs_, layer, vertices, tiles, state, counts);
 }
 
 void PatchPass::draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                             bool special, FrameCounts& counts) const {
-  draw_programs(special ? special_ : further_, layer, vertices, tiles, counts);
+                             bool special, const DrawState& state, FrameCounts& counts) const {
+  draw_programs(special ? special_ : further_, layer, vertices, tiles, state, counts);
 }
 
 void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
-                              const PatchBuffers& vertices, const TileTextures& tiles, FrameCounts& counts) const {
+                              const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
+                              FrameCounts& counts) const {
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
@@ -214,26 +222,26 @@ void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const Pa
   bind_vertices(layer, vertices);
   for (int p = 0; p < kPrograms; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
-    glUseProgram(programs[p].name());
+    apply(state.with(programs[p].name()));
     draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);
   }
   counts.triangles += layer.triangles;
 }
 
-void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) {
-  if (!depth_program_) {
-    Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
-    if (!program) throw std::runtime_error(program.error().message);
-    depth_program_ = std::move(*program);
-  }
-  bind_vertices(layer, vertices);
-  glUseProgram(depth_program_.name());
-  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
+void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                           FrameCounts& counts) const {
+  draw_all(depth_program_, layer, vertices, state, counts);
 }
 
-void PatchPass::draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const {
+void PatchPass::draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                          FrameCounts& counts) const {
+  draw_all(flat_program_, layer, vertices, state, counts);
+}
+
+void PatchPass::draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
+                         const DrawState& state, FrameCounts& counts) const {
   bind_vertices(layer, vertices);
-  glUseProgram(flat_program_.name());
+  apply(state.with(program.name()));
   draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
 #include "render/surface/patch_buffers.h"
@@ -34,8 +35,8 @@ struct FrameCounts {
   long triangles = 0;
 };
 
-/// Draws the surface's patches, layer by layer, and owns their programs. The caller binds the framebuffer and the
-/// frame's uniform block, and sets depth, stencil, blending and face culling. thread: main
+/// Draws the surface's patches, layer by layer, with a state that the caller gives. Owns their programs. The caller has
+/// bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
   /// `has_relief` means that patches have slopes.
@@ -44,21 +45,25 @@ class PatchPass {
   /// Builds the programs of layers over the first, once, before any of these layers is drawn. Special layers show on
   /// one side of the terminator, or take alpha from brightness: FrameBlock::layer_look.
   Status prepare_further(bool special);
+  /// Makes the program of draw_depth(), once.
+  Status prepare_depth();
 
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// Draws a layer opaquely, program by program.
-  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+  /// Program by program; opaque.
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
             FrameCounts& counts) const;
   /// The same, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
   void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
-                    FrameCounts& counts) const;
-  /// Draws depth only, in one call. The depths equal those of draw() to the bit.
-  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts);
-  /// The same in opaque black. Requires prepare_further().
-  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, FrameCounts& counts) const;
+                    const DrawState& state, FrameCounts& counts) const;
+  /// Depth alone, in one call; the depths are the bits that draw() makes. After prepare_depth().
+  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                  FrameCounts& counts) const;
+  /// The same in opaque black. After prepare_further().
+  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+                 FrameCounts& counts) const;
 
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms;
@@ -71,7 +76,9 @@ class PatchPass {
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
   void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
-                     const TileTextures& tiles, FrameCounts& counts) const;
+                     const TileTextures& tiles, const DrawState& state, FrameCounts& counts) const;
+  void draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
+                const DrawState& state, FrameCounts& counts) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
 

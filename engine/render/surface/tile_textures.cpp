@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "render/gl/draw_state.h"
+
 namespace terrella {
 namespace {
 
@@ -197,7 +199,7 @@ void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy
     stretch_into_ = gl::make_framebuffer();
   }
   const bool narrower = from.squeeze < into.squeeze;
-  glDisable(GL_SCISSOR_TEST);
+  apply({});  // a scissor would cut the copy
   for (int k = 0; k < mips_; ++k) {
     const int g = layout_.gutter_px >> k, t = layout_.tile_px >> k;
     if (g == 0) return;
