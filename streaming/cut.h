@@ -66,14 +66,15 @@ struct CutSummary {
 /// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
 /// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
 /// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
-/// same; the result is the same bytes.
+/// same; the result is the same bytes. Blocks. thread: any
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
-/// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output.
+/// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
+/// thread: any
 [[nodiscard]] Status check_pictures(const CutOptions& options);
 
 /// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
-/// change.
+/// change. Blocks. thread: any
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

@@ -17,7 +17,7 @@ struct PreloadSource {
   RemoteTileSet set;  ///< of a set on disk only `info`
   std::string key;    ///< what tells its cache from others'
   bool remote = false;
-  std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)> make_origin;
+  std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
 };
 
 /// Finds out what SOURCE is; a remote set's description is fetched. The error names SOURCE. thread: main

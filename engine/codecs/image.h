@@ -24,7 +24,7 @@ struct DecodeLimits {
 };
 
 enum class ImageFormat { jpeg, png, unknown };
-/// By the first bytes, not by a name.
+/// Looks at the first bytes, not at a name. thread: any
 [[nodiscard]] ImageFormat sniff_format(std::span<const std::byte> bytes);
 
 /// Pixels, as a picture's header says; not checked against any limit.

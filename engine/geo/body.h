@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A planet or moon: a name for people and a figure.

@@ -9,6 +9,7 @@
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// Where the eye is and which way it looks; the command line's camera.

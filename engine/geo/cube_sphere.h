@@ -4,6 +4,7 @@
 
 #include "geo/coordinates.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// Cube faces by the axis that they look along. Equatorial faces centre on 0°, 90°, 180°, 270° E.

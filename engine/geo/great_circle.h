@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "geo/map_plane.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// How far the straight pieces that stand for an arc may be from it, degrees on the sphere; 1.1 m on Earth.

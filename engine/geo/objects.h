@@ -10,6 +10,7 @@
 
 #include "geo/coordinates.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A colour as it is shown, sRGB, 0 to 255; alpha 255 is opaque.

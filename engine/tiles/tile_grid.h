@@ -8,6 +8,7 @@
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// How a row of the imagery relates to latitude. Paper 1's (3) is `equirectangular` (rows linear in latitude), its (4)

@@ -64,8 +64,8 @@ class RemoteTiles {
  public:
   using Done = std::function<void(Result<EncodedTile, TileFailure>)>;
   virtual ~RemoteTiles() = default;
-  /// Asks for one tile that is not under way already. `done` is called once, on the network's thread, and must be
-  /// quick; never after cancel() has returned, unless it runs at that moment.
+  /// Asks for one tile that is not under way already. A thread of the source calls `done` once. The thread never calls
+  /// `done` after cancel() has returned, unless `done` runs at that moment.
   virtual void fetch(const TileId& id, double priority, Done done) = 0;
   virtual void set_priority(const TileId& id, double priority) = 0;  ///< larger first
   virtual void cancel(const TileId& id) = 0;

@@ -2,6 +2,7 @@
 
 #include "geo/camera.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// An eye that looks at a fixed point and is tilted and turned around it.

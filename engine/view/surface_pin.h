@@ -24,7 +24,8 @@ struct Grab {
 enum class HeadingRule { keep, carry };
 
 /// `carry` where the eye or the held point is so near a pole, measured against how far the eye sees, that a constant
-/// heading would spin the picture. A gesture asks once, when it starts, so that it never changes its mind midway.
+/// heading would spin the picture. A gesture asks once, when it starts, so that the rule stays for the gesture. thread:
+/// any
 [[nodiscard]] HeadingRule heading_rule(const Camera& camera, const Ellipsoid& ellipsoid, const Ecef& held);
 
 /// The camera moved at constant height and pitch so that `point`, on the ellipsoid or raised, is seen at `pixel_px`: ≤

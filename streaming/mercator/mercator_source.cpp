@@ -137,7 +137,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     }
   }
 
-  // thread: network
+  // thread: a thread of the source
   void arrive(const TileId& stored, Encoded&& answer) {
     const MercatorJob::Found found = found_of(std::move(answer));
     std::vector<std::shared_ptr<Wish>> finished;

@@ -76,11 +76,11 @@ struct PreloadResult {
 /// with validators where there is something, checks what comes and stores it; at the end asks once more for what
 /// failed. What is lacking is not noted in the cache, so that the next run asks for it again, and never takes the place
 /// of an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile,
-/// tiles that it does not have are not asked for any more: they are lacking too. `make_origin` is given where answers
-/// go. Fails only if the cache cannot be read or written (disk full); what was stored before stays. Blocks. thread: any
-/// but the cache's writer
-[[nodiscard]] Result<PreloadResult> preload(
-    const TilePlan& plan, TileCache& cache,
-    const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin, const PreloadOptions& options);
+/// tiles that it does not have are not asked for any more: they are lacking too. `make_origin` gets the queue that
+/// takes the answers. Fails only if the cache cannot be read or written (disk full); what was stored before stays.
+/// Blocks. thread: any but the cache's writer
+[[nodiscard]] Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
+                                            const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
+                                            const PreloadOptions& options);
 
 }  // namespace terrella

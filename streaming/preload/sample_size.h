@@ -22,8 +22,8 @@ struct SizeSample {
 
 /// Asks for at most `most` tiles spread over the plan, one after the other; finer levels, which most tiles are of, more
 /// often. Stops at the first two that do not answer, or when `go_on` says so. Blocks. thread: any
-[[nodiscard]] SizeSample sample_sizes(
-    const TilePlan& plan, int most, const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
-    const std::function<bool()>& go_on);
+[[nodiscard]] SizeSample sample_sizes(const TilePlan& plan, int most,
+                                      const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
+                                      const std::function<bool()>& go_on);
 
 }  // namespace terrella

@@ -46,11 +46,11 @@ class TilePlan {
 
 /// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
 /// the whole planet. Nothing is kept but the region: counting and walking go down the quadtree, pass over what lies
-/// outside as a whole and take what lies inside as a whole.
+/// outside as a whole and take what lies inside as a whole. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
                                                     int first_level, int last_level);
 
-/// The tiles of a list, each once.
+/// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
 /// Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts are

@@ -21,8 +21,6 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Three taps over the pixel serve footprints of up to this many texels well enough (shaders/surface/patch_plain.frag).
-constexpr double kPlainFootprint_texels = 12.0;
 // Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 constexpr std::string_view kFirstLayer = "FIRST_LAYER";
