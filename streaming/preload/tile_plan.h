@@ -53,7 +53,7 @@ class TilePlan {
 /// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
-/// Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts are
+/// thread: any. Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts are
 /// disjoint, together the whole, and differ by at most a tile a level.
 struct Shard {
   std::int64_t index = 1;

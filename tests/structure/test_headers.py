@@ -53,6 +53,12 @@ class Headers(unittest.TestCase):
         good, message = known.compile(APPLICATION, text, '-fsyntax-only')
         self.assertTrue(good, message)
 
+    def test_page_of_the_library_names_headers_that_are_installed(self):
+        table = (SOURCE / 'engine/README.md').read_text().split('| header `<terrella/…>` |')[1].split('\n\n')[0]
+        named = set(re.findall(r'`([\w/]+\.h)`', table))
+        self.assertGreater(len(named), 10)
+        self.assertEqual(named - {re.sub('^engine/(globe/)?', '', header) for header in public_headers()}, set())
+
     def test_each_declaration_says_which_thread_may_use_it(self):
         silent = []
         for header in public_headers():
