@@ -63,20 +63,20 @@ struct CutSummary {
   std::int64_t bytes = 0;
 };
 
-/// Cuts a picture into a tile set in one streaming pass over its rows. With `shard`, cuts only a part of it. Memory
-/// does not grow with the height of the picture.
-/// The finest level keeps the source's own pixels: root span = tile_px · pixel size · 2^L. Coarser levels are averaged
-/// with weights that are right on the sphere (cos of latitude; wrap at ±180°).
-/// The output gets its name only when it is complete. It replaces nothing but an earlier output of cut()
-/// (streaming/cut/README.md, "Replacing an output").
-/// A cut resumes after a killed run if options and pictures are the same. The result has the same bytes.
+/// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory
+/// does not grow with its height), the source's own pixels at the finest level (root span = tile_px · pixel size ·
+/// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
+/// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
+/// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
+/// same; the result is the same bytes. Blocks. thread: any
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
-/// Reports the errors that cut() would report before it reads a pixel. Looks at the pictures only, not at the output.
+/// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
+/// thread: any
 [[nodiscard]] Status check_pictures(const CutOptions& options);
 
-/// Returns the GeoPackage for an image file in the cache directory. Cuts the image the first time, and later finds the
-/// result by path, size and time of change.
+/// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
+/// change. Blocks. thread: any
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

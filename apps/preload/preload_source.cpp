@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <future>
 #include <utility>
 
 #include "apps/setup/stop_signals.h"
+#include "streaming/http/reply_queue.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/sets/open_tile_set.h"
 
@@ -20,8 +20,8 @@ Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote
   auto set = describe_remote(source, remote, fetch);
   if (!set) return set.error();
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
-  opened.make_origin = [set = *std::move(set), http](TileOrigin::OnAnswer on_answer) {
-    return network_origin(set, http, std::move(on_answer));
+  opened.make_origin = [set = *std::move(set), http](ReplyQueue& answers) {
+    return network_origin(set, http, answers);
   };
   return opened;
 }
@@ -39,9 +39,7 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(source, unknown);
   PreloadSource opened{.set = {}, .key = "file:" + (unknown ? source : whole.string()), .make_origin = {}};
   opened.set.info = shared->info();
-  opened.make_origin = [shared, jobs](TileOrigin::OnAnswer on_answer) {
-    return disk_origin(shared, jobs, std::move(on_answer));
-  };
+  opened.make_origin = [shared, jobs](ReplyQueue& answers) { return disk_origin(shared, jobs, answers); };
   return opened;
 }
 
@@ -53,18 +51,19 @@ Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions
 
 Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
                                               const std::vector<std::string>& headers) {
-  std::promise<HttpReply> promise;
-  std::future<HttpReply> answer = promise.get_future();
-  HttpFetcher fetcher(http, [&promise](HttpReply&& reply) { promise.set_value(std::move(reply)); });
+  ReplyQueue replies;
+  HttpFetcher fetcher(http, replies);
   HttpRequest request;
   request.url = url;
   request.headers = headers;
   fetcher.submit(std::move(request));
   constexpr std::chrono::milliseconds kBetweenLooks{100};
-  while (answer.wait_for(kBetweenLooks) != std::future_status::ready) {
+  std::vector<HttpReply> answer;
+  while (answer.empty()) {
     if (StopSignals::came()) return Error{"stopped before it answered"};
+    answer = replies.take_all(kBetweenLooks);
   }
-  HttpReply reply = answer.get();
+  HttpReply& reply = answer.front();
   if (reply.outcome != HttpOutcome::content) return Error{reply.why};
   return std::move(reply.body);
 }

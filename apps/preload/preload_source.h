@@ -17,7 +17,7 @@ struct PreloadSource {
   RemoteTileSet set;  ///< only `info` for a set on disk
   std::string key;    ///< identifies the source's cache
   bool remote = false;
-  std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)> make_origin;
+  std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
 };
 
 /// Opens SOURCE; fetches a remote set's description. The error names SOURCE. thread: main

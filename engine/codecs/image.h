@@ -24,7 +24,7 @@ struct DecodeLimits {
 };
 
 enum class ImageFormat { jpeg, png, unknown };
-/// Recognises the format by the first bytes. thread: any
+/// Looks at the first bytes, not at a name. thread: any
 [[nodiscard]] ImageFormat sniff_format(std::span<const std::byte> bytes);
 
 /// The size in a picture's header, pixels; not checked against any limit.

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A planet or moon: its name, as shown to people, and its figure. The functions of this header are pure. thread: any

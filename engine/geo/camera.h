@@ -9,6 +9,7 @@
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// The eye's place and its direction of view, as the command line gives them. The heading is clockwise from north. The

@@ -4,6 +4,7 @@
 
 #include "geo/coordinates.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// Cube faces, named by their axis. The centres of the equatorial faces are at 0°, 90°, 180° and 270° E.

@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "geo/map_plane.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// Largest distance between an arc and the straight pieces that replace it, degrees on the sphere; 1.1 m on Earth.

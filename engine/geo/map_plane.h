@@ -2,6 +2,7 @@
 
 #include <vector>
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A place in the plane of longitude and geodetic latitude, degrees. In this plane every tile is a rectangle.

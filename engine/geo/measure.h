@@ -5,6 +5,7 @@
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 // Distances and areas on the ellipsoid, by GeographicLib's exact geodesics (C. F. F. Karney, J. Geodesy 87 (2013), and

@@ -10,6 +10,7 @@
 
 #include "geo/coordinates.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A displayed colour, sRGB, 0 to 255; alpha 255 is opaque.

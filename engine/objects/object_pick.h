@@ -32,8 +32,8 @@ struct PickOptions {
 [[nodiscard]] std::optional<PickedObject> pick_object(const View& view, const Ground& ground, const ObjectScene& scene,
                                                       glm::dvec2 pixel_px, const PickOptions& options = {});
 
-/// True if the ground, or the globe itself, lies between the eye and a place. A place less than 0.1 % of its distance
-/// behind the ground counts as visible.
+/// True if the ground or the globe stands between the eye and a place. Ground within a thousandth of the distance to
+/// the place does not count. thread: as Ground's
 [[nodiscard]] bool hidden_by_ground(const View& view, const Ground& ground, const Ecef& place);
 
 }  // namespace terrella

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// A fixed star.

@@ -10,13 +10,20 @@
 
 namespace terrella {
 
+/// Longest pixel, in texels, on which a plain patch is drawn with three taps (shaders/surface/patch_plain.frag).
+/// Selection takes a coarser level before pixels get longer, but beside the poles. The error grows with the length: for
+/// imagery whose amplitudes fall as 1/frequency and whose contrast is 30 levels of 8 bits, the RMS over a pixel 1 texel
+/// wide is 1.5 levels at a length of 3 texels, 3.6 at 8 and 5.0 at 12 (tests/scene/footprint_test.cpp). Ten taps would
+/// have 1.0.
+constexpr double kPlainFootprint_texels = 12.0;
+
 struct PatchSelectionOptions {
-  double max_error_px = 0.2;           ///< of the surface, and of interpolated texture coordinates
-  double band = 0.05;                  ///< a pole band is this part of the picture's height (paper 1, 1.5)
-  double texels_per_pixel = 1.0;       ///< detail asked of the imagery: 1, a texel a pixel along the meridian
-  double max_footprint_texels = 12.0;  ///< the longest extent of a pixel, in texels, that filtering reaches over
-  int max_window = 8;                  ///< a patch whose window has more cells a side is split
-  int max_polar_columns = 32;          ///< a patch that touches a pole takes a coarser level over this many columns
+  double max_error_px = 0.2;      ///< of the surface, and of interpolated texture coordinates
+  double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
+  double texels_per_pixel = 1.0;  ///< detail asked of the imagery: 1, a texel a pixel along the meridian
+  double max_footprint_texels = kPlainFootprint_texels;  ///< longest pixel outside pole bands
+  int max_window = 8;                                    ///< a patch whose window has more cells a side is split
+  int max_polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
   double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
   int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has

@@ -5,6 +5,7 @@
 
 #include "tiles/tile_grid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// The heights of one tile, metres over the ellipsoid (or over the zero level of the data), rows from the north. Each

@@ -8,6 +8,7 @@
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// The relation between rows of the imagery and latitude. `equirectangular` is paper 1's formula (3), rows linear in

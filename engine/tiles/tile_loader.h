@@ -79,7 +79,7 @@ class Loader {
 };
 extern template class Loader<TileTexels>;
 
-/// Loads imagery: premultiplied texels, ready for upload.
+/// Loads imagery: texels ready for upload, premultiplied. thread: main
 class TileLoader : public Loader<TileTexels> {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});

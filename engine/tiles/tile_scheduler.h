@@ -100,7 +100,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
     return !(waiting_.empty() && arrived_.empty()) && finished_bytes_ < max_finished_bytes_;
   }
 
-  // thread: network
+  // thread: a thread of the source
   void arrive(const TileId& id, Encoded encoded);
 
   const std::shared_ptr<TileSource> source_;
@@ -180,7 +180,7 @@ void TileScheduler<Decoded>::request(std::span<const TileRequest> wanted) {
     std::erase_if(wishes, [&](const TileRequest& wish) { return under_way(wish.id); });
     waiting_.swap(wishes);
   }
-  // Called without the lock, because the network thread may be waiting for the lock.
+  // Without the lock: a thread of the source may be about to take it.
   for (const TileId& id : dropped) remote_->cancel(id);
   for (const TileRequest& wish : moved) remote_->set_priority(wish.id, wish.priority);
   work_changed_.notify_all();
@@ -312,7 +312,7 @@ Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile
   }
 }
 
-// ---- thread: network
+// ---- thread: a thread of the source
 
 template <class Decoded>
 void TileScheduler<Decoded>::arrive(const TileId& id, Encoded encoded) {

@@ -66,8 +66,8 @@ class RemoteTiles {
  public:
   using Done = std::function<void(Result<EncodedTile, TileFailure>)>;
   virtual ~RemoteTiles() = default;
-  /// Requests one tile that is not already in flight. `done` is called once, on the network thread, and must be quick.
-  /// After cancel() has returned, `done` is not called any more; a call in progress may still finish.
+  /// Asks for one tile that is not under way already. A thread of the source calls `done` once. The thread never calls
+  /// `done` after cancel() has returned, unless `done` runs at that moment.
   virtual void fetch(const TileId& id, double priority, Done done) = 0;
   virtual void set_priority(const TileId& id, double priority) = 0;  ///< larger first
   virtual void cancel(const TileId& id) = 0;

@@ -6,6 +6,7 @@
 #include "codecs/image.h"
 #include "tiles/tile_source.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 inline constexpr int kMaxMips = 5;

@@ -4,6 +4,7 @@
 
 #include "geo/camera.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 using Seconds = std::chrono::duration<double>;

@@ -2,6 +2,7 @@
 
 #include "geo/camera.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// An eye that looks at a fixed point, and can be tilted and turned around that point. The functions of this header are

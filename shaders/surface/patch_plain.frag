@@ -1,5 +1,5 @@
-// Plain patches: interpolated coordinates, three taps per pixel on a rank-1 lattice. Exact for footprints up to 3
-// texels, accurate enough up to 12 (kPlainFootprint_texels in patch_pass.cpp).
+// Plain patches: interpolated coordinates, three taps on a rank-1 lattice over the pixel. kPlainFootprint_texels
+// (engine/surface/patch_selection.h) says up to which length of a pixel, and with what error.
 void main() {
   vec2 p = window_point;
   Cell cell = cell_at(p);

@@ -43,8 +43,8 @@ void check(const HttpOptions& options) {
 }  // namespace
 
 struct HttpFetcher::Impl {
-  Impl(const HttpOptions& options, std::function<void(HttpReply&&)> on_reply)
-      : network((begin_curl(), options), std::move(on_reply), tally), thread([this] { run(); }) {}
+  Impl(const HttpOptions& options, ReplyQueue& replies)
+      : network((begin_curl(), options), replies, tally), thread([this] { run(); }) {}
   ~Impl() {
     {
       const std::lock_guard lock(mutex);
@@ -62,7 +62,7 @@ struct HttpFetcher::Impl {
   [[nodiscard]] bool take_commands();
   void apply(Command&& command);
 
-  http::HttpTally tally;
+  const std::shared_ptr<http::HttpTally> tally = std::make_shared<http::HttpTally>();
   http::Network network;
   std::mutex mutex;  ///< guards the three members below
   std::vector<Command> inbox;
@@ -111,16 +111,15 @@ void HttpFetcher::Impl::run() {
   }
 }
 
-HttpFetcher::HttpFetcher(const HttpOptions& options, std::function<void(HttpReply&&)> on_reply) {
+HttpFetcher::HttpFetcher(const HttpOptions& options, ReplyQueue& replies) {
   check(options);
-  assert(on_reply != nullptr);
-  impl_ = std::make_unique<Impl>(options, std::move(on_reply));
+  impl_ = std::make_unique<Impl>(options, replies);
 }
 
 HttpFetcher::~HttpFetcher() = default;
 
 void HttpFetcher::submit(HttpRequest request) {
-  ++impl_->tally.waiting;
+  ++impl_->tally->waiting;
   impl_->push(std::move(request), true);
 }
 
@@ -129,7 +128,7 @@ void HttpFetcher::set_priority(std::uint64_t id, double priority) { impl_->push(
 void HttpFetcher::cancel(std::uint64_t id) { impl_->push(Cancel{id}, true); }
 
 HttpCounts HttpFetcher::counts() const {
-  const http::HttpTally& tally = impl_->tally;
+  const http::HttpTally& tally = *impl_->tally;
   return {.waiting = tally.waiting,
           .in_flight = tally.in_flight,
           .requests = tally.requests,

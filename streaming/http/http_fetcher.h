@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,14 +74,17 @@ struct HttpCounts {
   std::uint64_t body_bytes = 0;
 };
 
+class ReplyQueue;
+
 /// One thread with libcurl's multi interface, for viewer and preloader alike: reuses connections, multiplexes HTTP/2,
 /// takes the waiting request of the highest priority whenever a host may be asked (connections, token bucket, not told
 /// to wait by 429 or 503 with Retry-After, which hold for the whole host). Every request that is not cancelled ends in
 /// exactly one reply.
 class HttpFetcher {
  public:
-  /// `on_reply` is called on the network thread, one at a time, and must be quick.
-  HttpFetcher(const HttpOptions& options, std::function<void(HttpReply&&)> on_reply);
+  /// Replies go to `replies`, which outlives the fetcher. The network thread calls nothing else of its user's, and does
+  /// nothing that blocks.
+  HttpFetcher(const HttpOptions& options, ReplyQueue& replies);
   ~HttpFetcher();  ///< gives up all that is under way, without replies
   HttpFetcher(const HttpFetcher&) = delete;
   HttpFetcher& operator=(const HttpFetcher&) = delete;

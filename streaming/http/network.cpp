@@ -36,10 +36,10 @@ std::string fault_of(const HttpRequest& request) {
 
 }  // namespace
 
-Network::Network(const HttpOptions& options, OnReply on_reply, HttpTally& tally)
+Network::Network(const HttpOptions& options, ReplyQueue& replies, std::shared_ptr<HttpTally> tally)
     : options_(options),
-      on_reply_(std::move(on_reply)),
-      tally_(tally),
+      replies_(replies),
+      tally_(std::move(tally)),
       multi_(curl_multi_init()),
       now_(std::chrono::steady_clock::now()) {
   if (!multi_) throw std::bad_alloc();
@@ -90,12 +90,12 @@ void Network::cancel(std::uint64_t id) {
   Job& job = *found->second;
   if (job.state == Job::State::in_flight) return abandon(remove(job));
   static_cast<void>(remove(job));
-  --tally_.waiting;
+  --tally_->waiting;
 }
 
 // Over HTTP/2 a single stream can be ended. Over HTTP/1.1 the connection would end too.
 void Network::abandon(std::unique_ptr<Job> job) {
-  --tally_.in_flight;
+  --tally_->in_flight;
   if (job->host->gate.multiplexes()) return end_early(*job);
   job->state = Job::State::abandoned;
   job->due = std::chrono::steady_clock::now() + kAbandonedLife;
@@ -187,7 +187,7 @@ void Network::send_ready(Host& host) {
     if (!job.is_hop) ++job.attempts;
     if (job.address.scheme == Address::Scheme::file) {
       ++files;
-      read_local_file(job);
+      reply_file(job);
     } else {
       send(job);
     }
@@ -211,22 +211,27 @@ void Network::send(Job& job) {
   curl_multi_add_handle(multi_.get(), job.transfer->handle());
   job.host->gate.sent(now_);
   job.state = Job::State::in_flight;
-  ++tally_.in_flight;
-  --tally_.waiting;
-  ++tally_.requests;
-  if (job.attempts > 1 && !job.is_hop) ++tally_.retries;
+  ++tally_->in_flight;
+  --tally_->waiting;
+  ++tally_->requests;
+  if (job.attempts > 1 && !job.is_hop) ++tally_->retries;
   job.is_hop = false;
 }
 
-void Network::read_local_file(Job& job) {
-  auto bytes = read_file(job.address.path, options_.max_response_bytes);
-  if (!bytes) {
-    const bool missing = bytes.error().problem == FileProblem::missing;
-    return reply(job, missing ? HttpOutcome::nothing : HttpOutcome::refused, 0, bytes.error().message);
-  }
-  HttpReply found = begin_reply(job, HttpOutcome::content, 0);
-  found.body = std::move(*bytes);
-  hand_over(job, std::move(found));
+// A disk may be slow: who takes the reply reads the file.
+void Network::reply_file(Job& job) {
+  hand_over(job, begin_reply(job, HttpOutcome::content, 0),
+            [path = job.address.path, most = options_.max_response_bytes, tally = tally_](HttpReply& reply) {
+              auto bytes = read_file(path, most);
+              if (!bytes) {
+                const bool missing = bytes.error().problem == FileProblem::missing;
+                reply.outcome = missing ? HttpOutcome::nothing : HttpOutcome::refused;
+                reply.why = bytes.error().message;
+                return;
+              }
+              reply.body = std::move(*bytes);
+              tally->body_bytes += reply.body.size();
+            });
 }
 
 std::unique_ptr<Transfer> Network::detach(Job& job) {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <map>
+#include <memory>
 #include <random>
 #include <unordered_map>
 #include <vector>
 
+#include "streaming/http/reply_queue.h"
 #include "streaming/http/request_queue.h"
 
 namespace terrella::http {
@@ -24,10 +25,9 @@ struct HttpTally {
 class Network {
  public:
   using Time = HostGate::Time;
-  using OnReply = std::function<void(HttpReply&&)>;
 
-  /// Throws std::bad_alloc if curl cannot start. The submitting thread increments `tally.waiting`.
-  Network(const HttpOptions& options, OnReply on_reply, HttpTally& tally);
+  /// Throws std::bad_alloc if curl cannot begin. Who submits raises `tally->waiting`.
+  Network(const HttpOptions& options, ReplyQueue& replies, std::shared_ptr<HttpTally> tally);
   ~Network();
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
@@ -55,7 +55,7 @@ class Network {
   void end_abandoned();
   void send_ready(Host& host);
   void send(Job& job);
-  void read_local_file(Job& job);
+  void reply_file(Job& job);
   [[nodiscard]] bool collect();
   void finish(Job& job, CURLcode code);
   void redirect(Job& job, const Verdict& verdict, int status, Url url);
@@ -73,12 +73,12 @@ class Network {
   void reply(Job& job, HttpOutcome outcome, int status, std::string why);
   void reply_given_up(Job& job);
   void reply_answer(Job& job, const Verdict& verdict, int status, Transfer& transfer);
-  void hand_over(Job& job, HttpReply&& reply);
+  void hand_over(Job& job, HttpReply&& reply, ReplyQueue::Finish finish = {});
   [[nodiscard]] Time next_event() const;
 
   const HttpOptions options_;
-  const OnReply on_reply_;
-  HttpTally& tally_;
+  ReplyQueue& replies_;
+  const std::shared_ptr<HttpTally> tally_;  ///< shared with files that are read after the fetcher is gone
   std::unique_ptr<CURLM, MultiFree> multi_;
   std::vector<std::unique_ptr<Transfer>> idle_;
   std::map<std::string, Host> hosts_;

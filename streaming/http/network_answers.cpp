@@ -78,8 +78,8 @@ void Network::redirect(Job& job, const Verdict& verdict, int status, Url url) {
 // Updates the two counts in this order so that their sum is never 0 while a request is in progress.
 void Network::put_back(Job& job) {
   job.state = Job::State::ready;
-  ++tally_.waiting;
-  --tally_.in_flight;
+  ++tally_->waiting;
+  --tally_->in_flight;
 }
 
 void Network::try_again(Job& job, const Verdict& verdict, int status, const Transfer& transfer) {
@@ -158,13 +158,13 @@ void Network::reply_answer(Job& job, const Verdict& verdict, int status, Transfe
   hand_over(job, std::move(reply));
 }
 
-// The callback may submit the same id again, so the job is removed first.
-void Network::hand_over(Job& job, HttpReply&& reply) {
-  std::atomic<std::size_t>& count = job.state == Job::State::in_flight ? tally_.in_flight : tally_.waiting;
-  tally_.body_bytes += reply.body.size();
+// Whoever is told may ask again under the same identity, so the job ends before.
+void Network::hand_over(Job& job, HttpReply&& reply, ReplyQueue::Finish finish) {
+  std::atomic<std::size_t>& count = job.state == Job::State::in_flight ? tally_->in_flight : tally_->waiting;
+  tally_->body_bytes += reply.body.size();
   const std::unique_ptr<Job> ended = remove(job);
   leave_host(*ended);
-  on_reply_(std::move(reply));
+  replies_.push(std::move(reply), std::move(finish));
   --count;
 }
 

@@ -1,6 +1,7 @@
 #include "streaming/mercator/mercator_source.h"
 
 #include <algorithm>
+#include <condition_variable>
 #include <limits>
 #include <mutex>
 #include <unordered_map>
@@ -38,29 +39,19 @@ class StoredTiles {
   const std::shared_ptr<DecodedTiles> decoded_ = std::make_shared<DecodedTiles>(kMercatorDecodedBytes);
 };
 
-/// Fetches the stored tiles for many tiles at once. Each stored tile is fetched once, however many tiles wait for it.
-/// Calls to the stored tiles' network may be made with the lock held; that network calls back from its own thread
-/// without locks.
+/// Fetches for many tiles at once what they are made of: each stored tile once, however many wait for it. Its lock is
+/// never held while a stored tile is looked for, because the disk may be slow and `main` takes the lock.
 class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
  public:
   FetchDesk(RemoteTiles& network, const StoredTiles& stored, const TileGrid& mercator)
       : network_(network), stored_(stored), decoded_(stored.decoded()), mercator_(mercator) {}
 
+  // thread: worker
   void fetch(const TileId& id, double priority, RemoteTiles::Done done) {
-    auto wish = std::make_shared<Wish>(Wish{MercatorJob(mercator_, id), priority, std::move(done)});
-    wish->job.advance(look_up());
-    {
-      const std::lock_guard lock(mutex_);
-      settle_what_came(wish->job);
-      const std::vector<TileId> missing = wish->job.missing();
-      if (!missing.empty()) {
-        wishes_.insert_or_assign(id, wish);
-        wait_for(id, missing, priority);
-        return;
-      }
-    }
-    // Another tile has meanwhile loaded the stored tiles of this one.
-    wish->done(wish->job.result(decoded_));
+    auto wish = std::make_shared<Wish>(MercatorJob(mercator_, id), priority, std::move(done));
+    std::unique_lock lock(mutex_);
+    wishes_.insert_or_assign(id, wish);
+    work_on(lock, id, wish);
   }
 
   void set_priority(const TileId& id, double priority) {
@@ -68,44 +59,92 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     const auto wish = wishes_.find(id);
     if (wish == wishes_.end()) return;
     wish->second->priority = priority;
-    for (const TileId& stored : wish->second->job.missing()) network_.set_priority(stored, priority_of(stored));
+    for (const TileId& stored : wish->second->missing) network_.set_priority(stored, priority_of(stored));
   }
 
   void cancel(const TileId& id) {
     const std::lock_guard lock(mutex_);
     const auto wish = wishes_.extract(id);
-    if (!wish.empty()) stop_waiting(id, wish.mapped()->job.missing());
+    if (!wish.empty()) stop_waiting(id, wish.mapped()->missing);
   }
 
-  /// Ends all callbacks.
+  /// Waits for the look-ups that run. Nothing is called back any more.
   void close() {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     closed_ = true;
     for (const auto& [stored, waiting] : waiting_) network_.cancel(stored);
     waiting_.clear();
     wishes_.clear();
+    idle_.wait(lock, [this] { return working_ == 0; });
   }
 
  private:
+  struct Answer {
+    TileId stored;
+    MercatorJob::Found found;
+  };
   struct Wish {
-    MercatorJob job;
+    Wish(MercatorJob its_job, double its_priority, RemoteTiles::Done its_done)
+        : job(std::move(its_job)), priority(its_priority), done(std::move(its_done)) {}
+    MercatorJob job;  ///< belongs to the thread that works on the wish, without the lock
     double priority;
     RemoteTiles::Done done;
+    bool in_work = false;
+    std::vector<Answer> answers;  ///< that came and were not worked on yet
+    std::vector<TileId> missing;  ///< the stored tiles that it waits for
   };
 
-  [[nodiscard]] MercatorJob::LookUp look_up() const {
-    return [this](const TileId& stored) { return stored_.find(stored); };
+  /// Goes on with a wish until it is finished, or waits for the network. Only one thread does so at a time.
+  void work_on(std::unique_lock<std::mutex>& lock, const TileId& id, const std::shared_ptr<Wish>& wish) {
+    if (closed_ || std::exchange(wish->in_work, true)) return;
+    ++working_;
+    bool finished = false;
+    while (is_wanted(id, wish) && !finished) {
+      const std::vector<TileId> missing = look(lock, *wish);
+      if (!is_wanted(id, wish)) break;
+      finished = missing.empty();
+      if (finished) {
+        stop_waiting(id, wishes_.extract(id).mapped()->missing);
+      } else if (wish->answers.empty()) {
+        wait_for(lock, id, *wish, missing);
+        if (wish->answers.empty()) break;
+      }
+    }
+    wish->in_work = false;
+    if (--working_ == 0) idle_.notify_all();
+    lock.unlock();
+    if (finished) wish->done(wish->job.result(decoded_));
   }
 
   // Call the functions below with the lock held.
 
-  /// Looks up again the tiles that were in flight at the job's first lookup. If nobody waits for them any more, they
-  /// may have arrived.
-  void settle_what_came(MercatorJob& job) const {
-    for (const TileId& stored : job.missing()) {
-      if (!waiting_.contains(stored)) job.settle(stored, stored_.find(stored));
+  [[nodiscard]] bool is_wanted(const TileId& id, const std::shared_ptr<Wish>& wish) const {
+    const auto found = wishes_.find(id);
+    return !closed_ && found != wishes_.end() && found->second == wish;
+  }
+
+  /// Settles the answers that came and looks for tiles that are not known. Gives up the lock meanwhile. Other wishes
+  /// may have brought a missing tile during the look, so it looks for a second time. Returns what has to be fetched.
+  std::vector<TileId> look(std::unique_lock<std::mutex>& lock, Wish& wish) {
+    const auto find = [this](const TileId& stored) { return stored_.find(stored); };
+    std::vector<TileId> missing;
+    std::vector<TileId> came;
+    for (int again = 0; again < 2; ++again) {
+      const std::vector<Answer> answers = std::exchange(wish.answers, {});
+      const std::uint64_t arrivals = arrivals_;
+      lock.unlock();
+      for (const Answer& answer : answers) wish.job.settle(answer.stored, answer.found);
+      for (const TileId& stored : came) wish.job.settle(stored, find(stored));
+      wish.job.advance(find);
+      missing = wish.job.missing();
+      lock.lock();
+      came.clear();
+      if (arrivals == arrivals_) break;
+      std::ranges::copy_if(missing, std::back_inserter(came),
+                           [this](const TileId& stored) { return !waiting_.contains(stored); });
+      if (came.empty() || closed_) break;
     }
-    job.advance(look_up());
+    return missing;
   }
 
   [[nodiscard]] double priority_of(const TileId& stored) const {
@@ -114,17 +153,25 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     return most;
   }
 
-  void wait_for(const TileId& id, const std::vector<TileId>& missing, double priority) {
+  /// Gives up the lock while it asks the network.
+  void wait_for(std::unique_lock<std::mutex>& lock, const TileId& id, Wish& wish, const std::vector<TileId>& missing) {
+    std::vector<TileId> unasked;
+    wish.missing = missing;
     for (const TileId& stored : missing) {
       const auto [waiting, is_new] = waiting_.try_emplace(stored);
       if (std::ranges::find(waiting->second, id) == waiting->second.end()) waiting->second.push_back(id);
-      if (!is_new) {
-        network_.set_priority(stored, priority_of(stored));
-        continue;
-      }
+      is_new ? unasked.push_back(stored) : network_.set_priority(stored, priority_of(stored));
+    }
+    const double priority = wish.priority;
+    lock.unlock();
+    for (const TileId& stored : unasked) {
       network_.fetch(stored, priority, [desk = weak_from_this(), stored](Encoded answer) {
         if (const auto self = desk.lock()) self->arrive(stored, std::move(answer));
       });
+    }
+    lock.lock();
+    for (const TileId& stored : unasked) {
+      if (!waiting_.contains(stored)) network_.cancel(stored);  // given up meanwhile, or here already
     }
   }
 
@@ -139,49 +186,34 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     }
   }
 
-  // thread: network
+  // thread: a thread of the stored tiles' source
   void arrive(const TileId& stored, Encoded&& answer) {
     const MercatorJob::Found found = found_of(std::move(answer));
-    std::vector<std::shared_ptr<Wish>> finished;
-    {
-      const std::lock_guard lock(mutex_);
-      if (closed_) return;
-      const auto waiting = waiting_.extract(stored);
-      if (waiting.empty()) return;
-      for (const TileId& id : waiting.mapped()) {
-        if (auto wish = settle(id, stored, found)) finished.push_back(std::move(wish));
-      }
+    std::vector<std::pair<TileId, std::shared_ptr<Wish>>> wishes;
+    std::unique_lock lock(mutex_);
+    ++arrivals_;
+    const auto waiting = waiting_.extract(stored);
+    if (waiting.empty()) return;
+    for (const TileId& id : waiting.mapped()) {
+      const std::shared_ptr<Wish>& wish = wishes_.at(id);
+      wish->answers.push_back({stored, found});
+      wishes.emplace_back(id, wish);
     }
-    for (const auto& wish : finished) wish->done(wish->job.result(decoded_));
-  }
-
-  /// Returns the wish if this finished it.
-  std::shared_ptr<Wish> settle(const TileId& id, const TileId& stored, const MercatorJob::Found& found) {
-    const auto place = wishes_.find(id);
-    if (place == wishes_.end()) return nullptr;
-    std::shared_ptr<Wish> wish = place->second;
-    const std::vector<TileId> before = wish->job.missing();
-    wish->job.settle(stored, found);
-    wish->job.advance(look_up());
-    const std::vector<TileId> after = wish->job.missing();
-    if (after.empty()) {
-      wishes_.erase(place);
-      stop_waiting(id, before);
-      return wish;
+    for (const auto& [id, wish] : wishes) {
+      if (!lock.owns_lock()) lock.lock();
+      work_on(lock, id, wish);
     }
-    std::vector<TileId> further;
-    std::ranges::copy_if(after, std::back_inserter(further),
-                         [&](const TileId& one) { return std::ranges::find(before, one) == before.end(); });
-    wait_for(id, further, wish->priority);
-    return nullptr;
   }
 
   RemoteTiles& network_;
   const StoredTiles& stored_;  ///< valid until close()
   const std::shared_ptr<DecodedTiles> decoded_;
   const TileGrid mercator_;
-  std::mutex mutex_;  ///< guards the members below
+  std::mutex mutex_;  ///< guards what follows
+  std::condition_variable idle_;
   bool closed_ = false;
+  int working_ = 0;             ///< threads in work_on()
+  std::uint64_t arrivals_ = 0;  ///< counts the answers of the network
   std::unordered_map<TileId, std::shared_ptr<Wish>, TileIdHash> wishes_;
   std::unordered_map<TileId, std::vector<TileId>, TileIdHash> waiting_;  ///< tiles that wait for each stored tile
 };

@@ -19,7 +19,7 @@ double catmull_rom(double distance) {
   return 0.0;
 }
 
-Taps trimmed(std::int64_t first, const std::vector<double>& weights) {
+Taps without_zeros(std::int64_t first, const std::vector<double>& weights) {
   const auto counts = [](double weight) { return std::abs(weight) >= kLeastWeight; };
   const auto begin = std::ranges::find_if(weights, counts);
   auto end = weights.end();
@@ -44,7 +44,7 @@ Taps taps_over(double centre, double length, std::int64_t least, std::int64_t mo
     all += weight;
   }
   for (double& weight : weights) weight /= all;
-  return trimmed(first, weights);
+  return without_zeros(first, weights);
 }
 
 }  // namespace

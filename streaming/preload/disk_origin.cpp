@@ -40,8 +40,8 @@ HttpReply answer_of(Result<EncodedTile, TileFailure>&& tile, std::uint64_t numbe
 
 class DiskOrigin : public TileOrigin {
  public:
-  DiskOrigin(std::shared_ptr<TileSource> source, int threads, OnAnswer on_answer)
-      : source_(std::move(source)), on_answer_(std::move(on_answer)) {
+  DiskOrigin(std::shared_ptr<TileSource> source, int threads, ReplyQueue& answers)
+      : source_(std::move(source)), answers_(answers) {
     for (int i = 0; i < threads; ++i) {
       threads_.emplace_back([this](const std::stop_token& stop) { read_all(stop); });
     }
@@ -76,7 +76,7 @@ class DiskOrigin : public TileOrigin {
       lock.unlock();
       HttpReply reply = answer_of(source_->read(question.id), question.number);
       const std::size_t bytes = reply.body.size();
-      on_answer_(std::move(reply));
+      answers_.push(std::move(reply));
       lock.lock();
       --counts_.in_flight;
       counts_.body_bytes += bytes;
@@ -84,7 +84,7 @@ class DiskOrigin : public TileOrigin {
   }
 
   std::shared_ptr<TileSource> source_;
-  OnAnswer on_answer_;
+  ReplyQueue& answers_;
   mutable std::mutex mutex_;
   std::condition_variable_any work_;
   std::deque<TileQuestion> waiting_;
@@ -94,9 +94,8 @@ class DiskOrigin : public TileOrigin {
 
 }  // namespace
 
-std::unique_ptr<TileOrigin> disk_origin(std::shared_ptr<TileSource> source, int threads,
-                                        TileOrigin::OnAnswer on_answer) {
-  return std::make_unique<DiskOrigin>(std::move(source), threads, std::move(on_answer));
+std::unique_ptr<TileOrigin> disk_origin(std::shared_ptr<TileSource> source, int threads, ReplyQueue& answers) {
+  return std::make_unique<DiskOrigin>(std::move(source), threads, answers);
 }
 
 }  // namespace terrella

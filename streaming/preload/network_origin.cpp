@@ -7,8 +7,8 @@ namespace {
 
 class NetworkOrigin : public TileOrigin {
  public:
-  NetworkOrigin(const RemoteTileSet& set, const HttpOptions& options, OnAnswer on_answer)
-      : set_(set), fetcher_(options, std::move(on_answer)) {}
+  NetworkOrigin(const RemoteTileSet& set, const HttpOptions& options, ReplyQueue& answers)
+      : set_(set), fetcher_(options, answers) {}
 
   void ask(TileQuestion question) override {
     HttpRequest request;
@@ -29,9 +29,8 @@ class NetworkOrigin : public TileOrigin {
 
 }  // namespace
 
-std::unique_ptr<TileOrigin> network_origin(const RemoteTileSet& set, const HttpOptions& options,
-                                           TileOrigin::OnAnswer on_answer) {
-  return std::make_unique<NetworkOrigin>(set, options, std::move(on_answer));
+std::unique_ptr<TileOrigin> network_origin(const RemoteTileSet& set, const HttpOptions& options, ReplyQueue& answers) {
+  return std::make_unique<NetworkOrigin>(set, options, answers);
 }
 
 }  // namespace terrella

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "streaming/preload/answer_queue.h"
 #include "streaming/preload/store_tally.h"
 #include "streaming/preload/wanted_tiles.h"
 #include "streaming/sets/tile_check.h"
@@ -19,20 +18,20 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kBetweenReports{100};
 constexpr milliseconds kLongestWait{5};
-constexpr int kTilesAtATime = 4096;  // or runs of tiles
+constexpr std::size_t kAnswersAtATime = 32;
+constexpr int kTilesAtATime = 4096;  // or runs of them
 constexpr const char* kNoRoom = "the cache is full of tiles that are not to be evicted";
 
 class Run {
  public:
   Run(const TilePlan& plan, TileCache& cache,
-      const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
-      const PreloadOptions& options)
+      const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin, const PreloadOptions& options)
       : plan_(plan),
         cache_(cache),
         options_(options),
         wanted_(plan, cache, options.refresh_older_than),
         tally_(std::make_shared<StoreTally>(options.on_stored)),
-        origin_(make_origin([this](HttpReply&& reply) { answers_.push(std::move(reply)); })) {
+        origin_(make_origin(answers_)) {
     counts_.planned = plan.total();
   }
 
@@ -115,7 +114,7 @@ class Run {
 
   void take_answers(milliseconds longest) {
     note_tiles_without_room();
-    for (HttpReply& reply : answers_.take(longest)) {
+    for (HttpReply& reply : answers_.take_all(longest)) {
       const auto asked = asked_.find(reply.id);
       if (asked == asked_.end()) continue;
       const Asked about = asked->second;
@@ -227,8 +226,8 @@ class Run {
   const PreloadOptions& options_;
   WantedTiles wanted_;
   std::shared_ptr<StoreTally> tally_;
-  AnswerQueue answers_;
-  std::map<std::uint64_t, Asked> asked_;  ///< keyed by number, in the order of requests
+  ReplyQueue answers_{kAnswersAtATime};
+  std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
   std::vector<std::pair<Asked, std::string>> failed_;
   PreloadCounts counts_;
   mutable HttpCounts last_asked_;
@@ -256,7 +255,7 @@ Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pi
 }
 
 Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
-                              const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
+                              const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                               const PreloadOptions& options) {
   return Run(plan, cache, make_origin, options).run();
 }

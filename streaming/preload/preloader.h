@@ -72,16 +72,15 @@ struct PreloadResult {
 /// tiles. thread: any but the cache's writer
 [[nodiscard]] Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pinned);
 
-/// Loads the tiles of a plan into a cache.
-/// Tiles that are cached and fresh cause no request. Other tiles are requested, with validators if the cache has a
-/// tile, then checked and stored. Failed tiles get one more try at the end.
-/// A missing tile is not recorded in the cache, so the next run requests it again. A missing tile never replaces an
-/// older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile, the tiles
-/// that it does not have are no longer requested and count as missing too.
-/// `make_origin` receives the function to call with answers. Fails only if the cache cannot be read or written (disk
-/// full); tiles stored before stay. Blocks. thread: any but the cache's writer
-[[nodiscard]] Result<PreloadResult> preload(
-    const TilePlan& plan, TileCache& cache,
-    const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin, const PreloadOptions& options);
+/// Brings what a plan names into a cache: passes over what is there and fresh without a request, asks for the rest,
+/// with validators where there is something, checks what comes and stores it; at the end asks once more for what
+/// failed. What is lacking is not noted in the cache, so that the next run asks for it again, and never takes the place
+/// of an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile,
+/// tiles that it does not have are not asked for any more: they are lacking too. `make_origin` gets the queue that
+/// takes the answers. Fails only if the cache cannot be read or written (disk full); what was stored before stays.
+/// Blocks. thread: any but the cache's writer
+[[nodiscard]] Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
+                                            const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
+                                            const PreloadOptions& options);
 
 }  // namespace terrella

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "streaming/preload/answer_queue.h"
-
 namespace terrella {
 namespace {
 
@@ -35,10 +33,10 @@ std::vector<TileId> spread(const TilePlan& plan, int most) {
 }  // namespace
 
 SizeSample sample_sizes(const TilePlan& plan, int most,
-                        const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
+                        const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                         const std::function<bool()>& go_on) {
-  AnswerQueue answers;
-  const auto origin = make_origin([&](HttpReply&& reply) { answers.push(std::move(reply)); });
+  ReplyQueue answers;
+  const auto origin = make_origin(answers);
   SizeSample sample;
   double bytes = 0.0;
   double seconds = 0.0;
@@ -46,7 +44,7 @@ SizeSample sample_sizes(const TilePlan& plan, int most,
     const auto begun = Clock::now();
     origin->ask({static_cast<std::uint64_t>(++sample.asked), id, {}, {}});
     std::vector<HttpReply> replies;
-    while (replies.empty() && go_on()) replies = answers.take(std::chrono::milliseconds(2));
+    while (replies.empty() && go_on()) replies = answers.take_all(std::chrono::milliseconds(2));
     if (replies.empty()) break;
     const HttpReply& reply = replies.front();
     if (reply.outcome == HttpOutcome::content || reply.outcome == HttpOutcome::nothing) {

@@ -20,10 +20,10 @@ struct SizeSample {
   std::string why;                ///< reason of the last failure
 };
 
-/// Requests at most `most` tiles spread over the plan, one after the other. Finer levels, which hold most tiles, get
-/// more samples. Stops at the first two failures, or when `go_on` returns false. Blocks. thread: any
-[[nodiscard]] SizeSample sample_sizes(
-    const TilePlan& plan, int most, const std::function<std::unique_ptr<TileOrigin>(TileOrigin::OnAnswer)>& make_origin,
-    const std::function<bool()>& go_on);
+/// Asks for at most `most` tiles spread over the plan, one after the other; finer levels, which most tiles are of, more
+/// often. Stops at the first two that do not answer, or when `go_on` says so. Blocks. thread: any
+[[nodiscard]] SizeSample sample_sizes(const TilePlan& plan, int most,
+                                      const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
+                                      const std::function<bool()>& go_on);
 
 }  // namespace terrella

@@ -45,17 +45,17 @@ class TilePlan {
   [[nodiscard]] std::int64_t total() const;
 };
 
-/// Plans all tiles of the levels [first_level, last_level], within the grid's own levels, that overlap a region. An
-/// empty region is the whole planet. Stores only the region: counting and walking descend the quadtree and handle nodes
-/// outside or inside the region as a whole.
+/// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
+/// the whole planet. Nothing is kept but the region: counting and walking go down the quadtree, pass over what lies
+/// outside as a whole and take what lies inside as a whole. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
                                                     int first_level, int last_level);
 
-/// Plans the tiles of a list, each once.
+/// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
-/// Part `index` of `count`, index in [1, count]. Each part is one contiguous share of the walk in every level. Parts
-/// are disjoint, together form the whole, and differ by at most one tile per level.
+/// thread: any. Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts
+/// are disjoint, together the whole, and differ by at most a tile a level.
 struct Shard {
   std::int64_t index = 1;
   std::int64_t count = 1;

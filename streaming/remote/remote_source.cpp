@@ -4,9 +4,13 @@
 
 #include <ctime>
 #include <mutex>
+#include <system_error>
+#include <thread>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
+#include "streaming/http/reply_queue.h"
 #include "streaming/sets/tile_check.h"
 
 namespace terrella {
@@ -18,6 +22,8 @@ constexpr seconds kTileLife{7 * 24 * 3600};
 constexpr seconds kAbsenceLife{24 * 3600};
 // What a server sent by mistake is worth asking for again soon.
 constexpr seconds kBrokenLife{3600};
+// Threads that bring replies to the cache and to who asked. One may wait for a disk while the other goes on.
+constexpr int kAnswerers = 2;
 
 std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr)); }
 
@@ -31,9 +37,12 @@ Encoded tile_of(CacheRecord&& record) {
 class RemoteSource : public TileSource, public RemoteTiles {
  public:
   RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
-      : set_(std::move(set)),
-        cache_(std::move(cache)),
-        fetcher_(options, [this](HttpReply&& reply) { settle(std::move(reply)); }) {}
+      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(options, replies_) {
+    start_answering();
+  }
+  ~RemoteSource() override { replies_.close(); }
+  RemoteSource(const RemoteSource&) = delete;
+  RemoteSource& operator=(const RemoteSource&) = delete;
 
   [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
 
@@ -105,10 +114,44 @@ class RemoteSource : public TileSource, public RemoteTiles {
     return std::move(asked.mapped());
   }
 
-  // thread: network
+  void start_answering() {
+    for (int i = 0; i < kAnswerers; ++i) {
+      try {
+        answerers_.emplace_back([this] {
+          while (auto reply = replies_.take()) settle(*std::move(reply));
+        });
+      } catch (const std::system_error&) {
+        if (answerers_.empty()) throw;
+        return;  // the system has no more threads: one will do
+      }
+    }
+  }
+
+  [[nodiscard]] std::optional<TileId> id_of_request(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    const auto asked = asked_.find(number);
+    return asked == asked_.end() ? std::nullopt : std::optional(asked->second.id);
+  }
+
+  // thread: answering
   void settle(HttpReply&& reply) {
-    std::optional<Asked> asked = forget(reply.id);
-    if (asked) asked->done(answer(asked->id, std::move(reply)));
+    const std::uint64_t number = reply.id;
+    const std::optional<TileId> id = id_of_request(number);
+    if (!id) return;
+    Encoded encoded = answer_or_failure(*id, std::move(reply));
+    // The cache may have been slow, and the tile cancelled meanwhile.
+    if (const std::optional<Asked> asked = forget(number)) asked->done(std::move(encoded));
+  }
+
+  /// An exception that leaves a thread would end the program.
+  Encoded answer_or_failure(const TileId& id, HttpReply&& reply) {
+    try {
+      return answer(id, std::move(reply));
+    } catch (const std::exception& error) {
+      return TileFailure{Absence::failed, error.what()};
+    } catch (...) {
+      return TileFailure{Absence::failed, "unknown exception"};
+    }
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
@@ -182,7 +225,9 @@ class RemoteSource : public TileSource, public RemoteTiles {
   std::uint64_t last_number_ = 0;
   std::unordered_map<std::uint64_t, Asked> asked_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< of the latest request for a tile
-  HttpFetcher fetcher_;                                            ///< last: its thread uses the rest
+  ReplyQueue replies_;
+  HttpFetcher fetcher_;
+  std::vector<std::jthread> answerers_;  ///< last: they use the rest
 };
 
 }  // namespace

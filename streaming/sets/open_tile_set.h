@@ -8,15 +8,16 @@
 
 namespace terrella {
 
-/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), a GeoPackage in EPSG:4326 or EPSG:3857
-/// (Terrella's, GDAL's), or MBTiles. `geodetic_mbtiles` treats an MBTiles file as geodetic, whatever its metadata say.
-/// Sets in Web Mercator become geodetic (streaming/mercator/mercator_source.h). The error names the path, the fault and
-/// a cure. Image files must be cut first (streaming/cut.h).
+/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 or
+/// EPSG:3857 (ours, GDAL's), or MBTiles; `geodetic_mbtiles` says that the latter's profile is, whatever it says. Sets
+/// in Web Mercator become geodetic ones (streaming/mercator/mercator_source.h). The error names the path, what is
+/// wrong, and what to do. Image files are cut first (streaming/cut.h). Blocks for
+/// the disk. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,
                                                                 bool geodetic_mbtiles = false);
 
-/// Like open_tile_set(), but leaves sets in Web Mercator as stored. Nothing can draw such a grid; use this to copy
-/// tiles.
+/// The same with sets in Web Mercator as they are stored: of a grid that nothing can draw, to be copied.
+/// thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::path& path,
                                                                        bool geodetic_mbtiles = false);
 

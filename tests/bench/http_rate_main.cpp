@@ -4,33 +4,27 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
-#include <condition_variable>
 #include <fstream>
 #include <map>
-#include <mutex>
 #include <vector>
 
-#include "streaming/http/http_fetcher.h"
+#include "streaming/http/reply_queue.h"
 
 namespace {
 
 using namespace terrella;
 
 struct Tally {
-  std::mutex mutex;
-  std::condition_variable changed;
   std::size_t ended = 0;
   std::uint64_t bytes = 0;
   std::map<HttpOutcome, std::size_t> outcomes;
   std::string first_fault;
 
   void add(const HttpReply& reply) {
-    const std::lock_guard lock(mutex);
     ++ended;
     bytes += reply.body.size();
     ++outcomes[reply.outcome];
     if (first_fault.empty()) first_fault = reply.why;
-    changed.notify_one();
   }
 };
 
@@ -58,15 +52,15 @@ void run(const std::vector<std::string>& urls, const HttpOptions& options) {
   const double cpu_before_s = cpu_s();
   const auto begin = std::chrono::steady_clock::now();
   {
-    HttpFetcher fetcher(options, [&](HttpReply&& reply) { tally.add(reply); });
+    ReplyQueue replies;
+    HttpFetcher fetcher(options, replies);
     for (std::size_t i = 0; i < urls.size(); ++i) {
       HttpRequest request;
       request.id = i;
       request.url = urls[i];
       fetcher.submit(std::move(request));
     }
-    std::unique_lock lock(tally.mutex);
-    tally.changed.wait(lock, [&] { return tally.ended == urls.size(); });
+    while (tally.ended < urls.size()) tally.add(*replies.take());
   }
   const double wall_s = Seconds(std::chrono::steady_clock::now() - begin).count();
   const auto count = static_cast<double>(urls.size());

@@ -85,10 +85,12 @@ std::vector<Seen> MisbehavingServer::log() const {
 }
 
 Replies::Replies(const HttpOptions& options)
-    : fetcher_(options, [this](HttpReply&& reply) {
-        const std::lock_guard lock(mutex_);
-        replies_.push_back(std::move(reply));
-        changed_.notify_all();
+    : fetcher_(options, queue_), taker_([this] {
+        while (auto reply = queue_.take()) {
+          const std::lock_guard lock(mutex_);
+          replies_.push_back(*std::move(reply));
+          changed_.notify_all();
+        }
       }) {}
 
 std::uint64_t Replies::get(const std::string& url, double priority) {

@@ -10,9 +10,10 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "streaming/http/http_fetcher.h"
+#include "streaming/http/reply_queue.h"
 #include "tests/support/scratch_folder.h"
 
 namespace terrella::test {
@@ -57,6 +58,9 @@ class MisbehavingServer {
 class Replies {
  public:
   explicit Replies(const HttpOptions& options);
+  ~Replies() { queue_.close(); }
+  Replies(const Replies&) = delete;
+  Replies& operator=(const Replies&) = delete;
   [[nodiscard]] HttpFetcher& fetcher() { return fetcher_; }
   std::uint64_t get(const std::string& url, double priority = 0.0);
   void get(HttpRequest request) { fetcher_.submit(std::move(request)); }
@@ -73,7 +77,9 @@ class Replies {
   std::condition_variable changed_;
   std::vector<HttpReply> replies_;
   std::uint64_t next_id_ = 1;
+  ReplyQueue queue_;
   HttpFetcher fetcher_;
+  std::jthread taker_;
 };
 
 /// Options with which a test is over soon.

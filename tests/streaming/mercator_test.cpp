@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <condition_variable>
+#include <future>
+#include <mutex>
 #include <numbers>
+#include <thread>
 
 #include "mercator_planet.h"
 #include "streaming/mercator/mercator_grid.h"
@@ -267,7 +271,21 @@ class FarPlanet : public TileSource, public RemoteTiles {
   explicit FarPlanet(std::unique_ptr<MercatorPlanet> planet) : planet_(std::move(planet)) {}
   [[nodiscard]] const TileSetInfo& info() const override { return planet_->info(); }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId&) override {
+    std::unique_lock lock(disk_);
+    disk_waits_ = !disk_turns_;
+    disk_changed_.notify_all();
+    disk_changed_.wait(lock, [this] { return disk_turns_; });
     return TileFailure{Absence::remote, {}};
+  }
+  /// A disk that does not turn holds up read().
+  void turn_disk(bool turns) {
+    const std::lock_guard lock(disk_);
+    disk_turns_ = turns;
+    disk_changed_.notify_all();
+  }
+  void wait_until_disk_waits() {
+    std::unique_lock lock(disk_);
+    disk_changed_.wait(lock, [this] { return disk_waits_; });
   }
   [[nodiscard]] RemoteTiles* remote() override { return this; }
   void fetch(const TileId& id, double priority, Done done) override {
@@ -311,6 +329,10 @@ class FarPlanet : public TileSource, public RemoteTiles {
   const std::unique_ptr<MercatorPlanet> planet_;
   std::mutex mutex_;
   std::map<TileId, Done> asked_;
+  std::mutex disk_;
+  std::condition_variable disk_changed_;
+  bool disk_turns_ = true;
+  bool disk_waits_ = false;
 };
 
 struct FarMercator : testing::Test {
@@ -368,6 +390,25 @@ TEST_F(FarMercator, WhatNobodyWaitsForIsCancelled) {
   EXPECT_EQ(network->asked(), 0U);
   network->answer_all();
   EXPECT_TRUE(answers.empty());
+}
+
+TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
+  stored->lack({5, 10, 14}, Absence::absent);
+  std::vector<Result<EncodedTile, TileFailure>> answers;
+  tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
+  network->turn_disk(false);
+  std::thread answering([this] { network->answer_all(); });
+  network->wait_until_disk_waits();
+  auto called = std::async(std::launch::async, [this] {
+    tiles->remote()->set_priority({5, 10, 6}, 3.0);
+    tiles->remote()->cancel({5, 10, 6});
+  });
+  EXPECT_EQ(called.wait_for(std::chrono::seconds(5)), std::future_status::ready);
+  network->turn_disk(true);
+  answering.join();
+  called.wait();
+  EXPECT_TRUE(answers.empty());
+  EXPECT_EQ(network->asked(), 0U);
 }
 
 TEST_F(FarMercator, OneThatFailsEndsTheWaitAtOnce) {

@@ -13,6 +13,29 @@ def public_headers():
     return (BUILD / 'tests/structure/public_headers.txt').read_text().split(';')
 
 
+def declarations(text):
+    """The declarations of a header, each with its comment: what stands between empty lines outside of braces."""
+    lines = text.split('namespace terrella {\n', 1)[-1].splitlines()
+    depth, block = 0, []
+    for line in lines:
+        code = line.split('//')[0]
+        depth += code.count('{') - code.count('}')
+        if line.strip() or depth > 0:
+            block.append(line)
+        elif block:
+            yield '\n'.join(block)
+            block = []
+    yield '\n'.join(block)
+
+
+def has_functions(declaration):
+    for line in declaration.splitlines():
+        code = re.sub(r'operator==\(.*= default;', '', line.split('//')[0]).split(' = ')[0]
+        if re.search(r'(?<![<\w])[\w=+*-]+\(', code):
+            return True
+    return False
+
+
 class Headers(unittest.TestCase):
     def test_application_finds_public_headers_only(self):
         known = targets.Targets()
@@ -29,6 +52,24 @@ class Headers(unittest.TestCase):
         self.assertGreater(text.count('#error'), 300)
         good, message = known.compile(APPLICATION, text, '-fsyntax-only')
         self.assertTrue(good, message)
+
+    def test_page_of_the_library_names_headers_that_are_installed(self):
+        table = (SOURCE / 'engine/README.md').read_text().split('| header `<terrella/…>` |')[1].split('\n\n')[0]
+        named = set(re.findall(r'`([\w/]+\.h)`', table))
+        self.assertGreater(len(named), 10)
+        self.assertEqual(named - {re.sub('^engine/(globe/)?', '', header) for header in public_headers()}, set())
+
+    def test_each_declaration_says_which_thread_may_use_it(self):
+        silent = []
+        for header in public_headers():
+            text = (SOURCE / header).read_text()
+            if re.search(r'^// thread: any, for all of this header$', text, re.MULTILINE):
+                continue
+            for declaration in declarations(text):
+                is_value = re.search(r'^struct ', declaration, re.MULTILINE)  # belongs to who has it
+                if has_functions(declaration) and not is_value and 'thread:' not in declaration:
+                    silent.append(f'{header}: {declaration.splitlines()[0]}')
+        self.assertEqual(silent, [])
 
 
 if __name__ == '__main__':

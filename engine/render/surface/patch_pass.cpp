@@ -20,10 +20,7 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Largest footprint, in texels, for which three taps per pixel are accurate enough (shaders/surface/patch_plain.frag).
-constexpr double kPlainFootprint_texels = 12.0;
-// With a footprint under this many texels, a pixel lies within one bilinear cell, and one tap at full precision
-// suffices.
+// Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 constexpr std::string_view kFirstLayer = "FIRST_LAYER";
 
