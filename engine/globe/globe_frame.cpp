@@ -73,7 +73,7 @@ void Globe::Impl::select(Viewport viewport) {
   select_patches(first.tree(), view, selection, first.patches(), further);
   if (patch_shuffle) std::shuffle(first.patches().begin(), first.patches().end(), std::mt19937(*patch_shuffle));
   for (std::size_t k = 1; has_night() && k < stack.size(); ++k) stack[k]->keep_side(sun());
-  for (ImageLayer* layer : stack) layer->cover(view, layer == &first, frame);
+  for (ImageLayer* layer : stack) layer->cover(view, layer == &first);
 }
 
 // A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
@@ -188,7 +188,10 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
   select_within_budget(viewport);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
-  for (ImageLayer* layer : stack) layer->ask();
+  for (ImageLayer* layer : stack) {
+    layer->note_use(frame);
+    layer->ask();
+  }
   ask_heights();
   if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
   const FrameCounts counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);

@@ -118,10 +118,15 @@ void ImageLayer::keep_side(const std::optional<glm::dvec3>& sun) {
                 [&](const SelectedPatch& patch) { return !may_show(look_.daylight, *patch.node, ellipsoid_, *sun); });
 }
 
-void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
+void ImageLayer::cover(const View& view, bool first) {
   tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
-  cover_with_tiles(*tree_, view, patches_, tiles_.residency(), frame, coverage_, texels_per_pixel(),
-                   first ? OutOfBounds::ancestor : OutOfBounds::nothing);
+  cover_with_tiles({.tree = *tree_,
+                    .view = view,
+                    .patches = patches_,
+                    .residency = tiles_.residency(),
+                    .texels_per_pixel = texels_per_pixel(),
+                    .out_of_bounds = first ? OutOfBounds::ancestor : OutOfBounds::nothing},
+                   coverage_);
 }
 
 // Root tiles come first: an ancestor for everything.
@@ -134,6 +139,8 @@ void ImageLayer::ask() {
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
   stream_->request(requests);
 }
+
+void ImageLayer::note_use(std::uint64_t frame) { terrella::note_use(coverage_.uses, frame, tiles_.residency()); }
 
 void ImageLayer::end_frame(std::uint64_t frame) {
   tree_->end_frame();

@@ -66,7 +66,8 @@ class ImageLayer {
   /// Leaves patches out on which nothing of it shows. Without a Sun there is no night.
   void keep_side(const std::optional<glm::dvec3>& sun);
   /// Finds a tile for each cell of patches().
-  void cover(const View& view, bool first, std::uint64_t frame);
+  void cover(const View& view, bool first);
+  void note_use(std::uint64_t frame);  ///< of the tiles that cover() took
   void ask();
   void end_frame(std::uint64_t frame);  ///< what frames have not used for long goes
   void stop_asking();

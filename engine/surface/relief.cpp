@@ -206,13 +206,13 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
 void Relief::want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted) {
   if (!exists(grid(), id)) return;
   TileResidency::Entry& entry = tiles_.entry(id);
-  if (entry.last_wanted == round_) return;
+  if (entry.last_seen == round_) return;
   stamp(entry);
   if (entry.state == TileState::unknown) wanted.push_back({id, priority});
 }
 
 void Relief::stamp(TileResidency::Entry& entry) const {
-  entry.last_wanted = entry.last_needed = entry.last_drawn = round_;
+  entry.last_seen = entry.last_needed = entry.last_drawn = round_;
 }
 
 void Relief::keep_to_budget() {

@@ -61,9 +61,14 @@ struct Settled {
 
   void frame_once() {
     select_patches(tree, view, options, patches);
-    cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
+    cover();
     tree.end_frame();
     residency.end_frame(frame, kGrid.min_level);
+  }
+
+  void cover() {
+    cover_with_tiles({.tree = tree, .view = view, .patches = patches, .residency = residency}, coverage);
+    note_use(coverage.uses, ++frame, residency);
   }
 
   Body body = earth();
@@ -101,9 +106,7 @@ void patches_alone(benchmark::State& state, const Case& what) {
 
 void tiles_alone(benchmark::State& state, const Case& what) {
   Settled settled(what);
-  for (auto _ : state) {
-    cover_with_tiles(settled.tree, settled.view, settled.patches, settled.residency, ++settled.frame, settled.coverage);
-  }
+  for (auto _ : state) settled.cover();
   report(state, settled);
 }
 
