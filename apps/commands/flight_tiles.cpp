@@ -34,7 +34,10 @@ class Gatherer {
     const View view = make_view(camera, view_.body.ellipsoid, view_.size);
     select_patches(*tree_, view, {}, patches_);
     const TileResidency nothing_yet;
-    cover_with_tiles({.tree = *tree_, .view = view, .patches = patches_, .residency = nothing_yet}, coverage_);
+    TreeGrowth growth(*tree_);
+    cover_with_tiles({.tree = *tree_, .growth = growth, .view = view, .patches = patches_, .residency = nothing_yet},
+                     coverage_);
+    tree_->adopt(growth);
     for (const WantedTile& wanted : coverage_.wanted) add_with_ancestors(wanted.id);
   }
 

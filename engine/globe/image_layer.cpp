@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "surface/daylight.h"
-
 namespace terrella {
 namespace {
 
 constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
-constexpr int kAnyLevel = -1000;
 
 // The other ways of texturing are there to be compared with: they take tiles as every tool knows them.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
@@ -77,20 +74,29 @@ bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
 }
 
-// Slot 0 and those of the root tiles are never given up.
-bool ImageLayer::coarsen() {
-  const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
-  if (!stream_ || coverage_.tiles <= room * 9 / 10) return false;
-  detail_ *= 0.75;
-  return true;
+// Slot 0 and those of the root tiles are never given up; a tenth is left for tiles on their way.
+LayerSnapshot ImageLayer::snapshot() {
+  LayerSnapshot layer{.tree = tree_.get(),
+                      .tiles = &tiles_.residency(),
+                      .texels_per_pixel = texels_per_pixel_,
+                      .detail = detail_,
+                      .max_tile_level = look_.max_level,
+                      .daylight = look_.daylight};
+  if (stream_) layer.room = (tiles_.capacity() - 1 - static_cast<int>(roots_.size())) * 9 / 10;
+  if (look_.min_level > grid_.min_level) layer.least_level = look_.min_level;
+  return layer;
 }
 
-FurtherImagery ImageLayer::as_further() {
-  return {.tree = tree_.get(),
-          .texels_per_pixel = texels_per_pixel(),
-          .least_level = look_.min_level <= grid_.min_level ? kAnyLevel : look_.min_level,
-          .max_tile_level = look_.max_level,
-          .out = &patches_};
+void ImageLayer::execute(LayerPlan plan, std::uint64_t frame) {
+  tree_->adopt(plan.growth);
+  patches_ = std::move(plan.patches);
+  coverage_ = std::move(plan.coverage);
+  detail_ = plan.detail;
+  note_use(coverage_.uses, frame, tiles_.residency());
+}
+
+void ImageLayer::copy_relief() {
+  for (const SelectedPatch& patch : patches_) PatchTree::copy_relief(*patch.surface, *patch.node);
 }
 
 std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
@@ -112,23 +118,6 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
   return bytes;
 }
 
-void ImageLayer::keep_side(const std::optional<glm::dvec3>& sun) {
-  if (!sun || look_.daylight == Daylight::both) return;
-  std::erase_if(patches_,
-                [&](const SelectedPatch& patch) { return !may_show(look_.daylight, *patch.node, ellipsoid_, *sun); });
-}
-
-void ImageLayer::cover(const View& view, bool first) {
-  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
-  cover_with_tiles({.tree = *tree_,
-                    .view = view,
-                    .patches = patches_,
-                    .residency = tiles_.residency(),
-                    .texels_per_pixel = texels_per_pixel(),
-                    .out_of_bounds = first ? OutOfBounds::ancestor : OutOfBounds::nothing},
-                   coverage_);
-}
-
 // Root tiles come first: an ancestor for everything.
 void ImageLayer::ask() {
   if (!stream_) return;
@@ -140,8 +129,6 @@ void ImageLayer::ask() {
   stream_->request(requests);
 }
 
-void ImageLayer::note_use(std::uint64_t frame) { terrella::note_use(coverage_.uses, frame, tiles_.residency()); }
-
 void ImageLayer::end_frame(std::uint64_t frame) {
   tree_->end_frame();
   tiles_.residency().end_frame(frame, grid_.min_level);
@@ -152,6 +139,7 @@ void ImageLayer::stop_asking() {
 }
 
 LayerFrame ImageLayer::frame(bool first, bool has_night) {
+  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
           .coverage = &coverage_,

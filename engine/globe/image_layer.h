@@ -11,8 +11,8 @@
 #include "globe/globe.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
+#include "surface/frame_plan.h"
 #include "surface/layers.h"
-#include "surface/tile_coverage.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -54,20 +54,15 @@ class ImageLayer {
   [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
   [[nodiscard]] const std::vector<SelectedPatch>& patches() const { return patches_; }
   [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
-  /// Asked for; less than the globe's where a view wants more tiles than there is room for.
-  [[nodiscard]] double texels_per_pixel() const { return texels_per_pixel_ * detail_; }
   void restore_detail() { detail_ = 1.0; }
-  /// Asks for less detail if the last view wanted more tiles than there is room for; true if so.
-  bool coarsen();
-  [[nodiscard]] FurtherImagery as_further();
+  /// The layer as a plan reads it.
+  [[nodiscard]] LayerSnapshot snapshot();
+  /// Takes a plan over: its patches, its tiles and their use, what the tree lacked.
+  void execute(LayerPlan plan, std::uint64_t frame);
+  void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
 
   /// Uploads what has arrived; returns the bytes. Tiles that are lacking are added to `lacking`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
-  /// Leaves patches out on which nothing of it shows. Without a Sun there is no night.
-  void keep_side(const std::optional<glm::dvec3>& sun);
-  /// Finds a tile for each cell of patches().
-  void cover(const View& view, bool first);
-  void note_use(std::uint64_t frame);  ///< of the tiles that cover() took
   void ask();
   void end_frame(std::uint64_t frame);  ///< what frames have not used for long goes
   void stop_asking();
@@ -96,7 +91,7 @@ class ImageLayer {
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
-  double detail_ = 1.0;
+  double detail_ = 1.0;            ///< part of texels_per_pixel_ that views have room for
   bool has_transparency_ = false;  ///< a tile came that has some
 };
 

@@ -67,6 +67,7 @@ class Coverer {
  public:
   Coverer(const CoverInput& input, TileCoverage& out)
       : tree_(input.tree),
+        growth_(input.growth),
         view_(input.view),
         memo_(input.tree.grid(), input.residency, out.uses),
         out_(out),
@@ -99,9 +100,9 @@ class Coverer {
       choose_levels(patches);
     }
     const Choice* choice = choices_.data();
-    for (const SelectedPatch& patch : patches) {
-      cover(patch, choice);
-      choice += patch.node->window.cells.size();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      cover(patches[k], *windows_[k], choice);
+      choice += windows_[k]->cells.size();
     }
   }
 
@@ -115,16 +116,18 @@ class Coverer {
 
   void choose_levels(const std::vector<SelectedPatch>& patches) {
     choices_.clear();
+    windows_.clear();
     for (const SelectedPatch& patch : patches) choose_levels(patch);
   }
 
   void choose_levels(const SelectedPatch& patch) {
-    const TileWindow& win = tree_.window(*patch.node, patch.tile_level, patch.squeeze);
+    const TileWindow& win = growth_.window(*patch.node, patch.tile_level, patch.squeeze);
+    windows_.push_back(&win);
     const TileId last = last_tile(win.level);
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
         Choice& choice = choices_.emplace_back();
-        if (!in_view(patch, x, y)) continue;
+        if (!in_view(patch, win, x, y)) continue;
         const TileId id = tile_of(win, x, y, last);
         choice.spare = levels_to_spare(id, texels_wanted(win.cells[index(win, x, y)]));
         choice.use = memo_.judged(ancestor(id, choice.spare), patch.squeezed || choice.spare > 0);
@@ -149,8 +152,7 @@ class Coverer {
     return spare;
   }
 
-  void cover(const SelectedPatch& patch, const Choice* choice) {
-    const TileWindow& win = patch.node->window;
+  void cover(const SelectedPatch& patch, const TileWindow& win, const Choice* choice) {
     out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
     const TileId last = last_tile(win.level);
     bool uncovered = false;
@@ -239,18 +241,17 @@ class Coverer {
     return sides;
   }
 
-  [[nodiscard]] bool in_view(const SelectedPatch& patch, int x, int y) {
+  [[nodiscard]] bool in_view(const SelectedPatch& patch, const TileWindow& win, int x, int y) {
     if (!patch.cut_by_view) return true;
-    const PatchNode& node = *patch.node;
-    const CellExtent& cell = node.window.cells[index(node.window, x, y)];
-    const PatchRelief& relief = node.relief;
+    const CellExtent& cell = win.cells[index(win, x, y)];
+    const PatchRelief& relief = patch.body().relief;
     const BoundingSphere whole{
         cell.whole.center_m + relief.middle_m * cell.up,
         cell.whole.radius_m * (1.0 + std::abs(relief.middle_m) * least_radius_per_m_) + relief.half_m};
     const unsigned cut = beyond(whole.center_m, -whole.radius_m, limits_);
     if (cut == 0 || beyond(whole.center_m, 0.0, cut) == 0) return true;
     if (beyond(whole.center_m, whole.radius_m, cut) != 0) return false;
-    return part_in_view(tree_.cell_lattice(*patch.node, x, y), std::abs(relief.middle_m) + relief.half_m, cut);
+    return part_in_view(growth_.lattice(*patch.node, win, x, y), std::abs(relief.middle_m) + relief.half_m, cut);
   }
 
   // A quad is out of view if one limit has all its corners beyond it.
@@ -321,7 +322,7 @@ class Coverer {
 
   void want(const SelectedPatch& patch, TileUse& use) {
     if (std::exchange(use.wanted, true)) return;
-    const BoundingSphere& sphere = patch.node->sphere;
+    const BoundingSphere& sphere = patch.body().sphere;
     const double depth = std::max(1.0, glm::dot(sphere.center_m - view_.eye.xyz_m, view_.forward));
     out_.wanted.push_back({use.id, -use.id.level + sphere.radius_m / (depth + sphere.radius_m)});
   }
@@ -350,7 +351,8 @@ class Coverer {
     return draw;
   }
 
-  PatchTree& tree_;
+  const PatchTree& tree_;
+  TreeGrowth& growth_;
   const View& view_;
   UseMemo memo_;
   TileCoverage& out_;
@@ -361,7 +363,8 @@ class Coverer {
   double horizon_ = 1.0;        ///< what the dot product is, at least, of what some eye sees
   double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
   unsigned limits_ = kAllLimits;
-  std::vector<Choice> choices_;  ///< of all cells in order
+  std::vector<const TileWindow*> windows_;  ///< of the patches in order
+  std::vector<Choice> choices_;             ///< of all cells in order
   double radians_per_pixel_ = 0.0;
   int chosen_ = 0;  ///< tiles that cells would take by themselves
   bool narrow_texels_are_long_ = false;
@@ -397,7 +400,7 @@ std::size_t TileUses::place(const TileId& id) const {
 }
 
 void TileUses::grow() {
-  table_.assign(std::max<std::size_t>(256, 2 * table_.size()), kNone);
+  table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), kNone);
   for (std::uint32_t k = 0; k < uses_.size(); ++k) table_[place(uses_[k].id)] = k;
 }
 

@@ -81,7 +81,8 @@ struct TileCoverage {
 enum class OutOfBounds { ancestor, nothing };
 
 struct CoverInput {
-  PatchTree& tree;
+  const PatchTree& tree;
+  TreeGrowth& growth;  ///< of that tree
   const View& view;
   const std::vector<SelectedPatch>& patches;
   const TileResidency& residency;
@@ -91,9 +92,10 @@ struct CoverInput {
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
 /// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile: note_use()
-/// does. Longitude wraps; cells beyond the planet repeat its edge. A cell that asks for less than its patch takes a
-/// coarser tile. Away from the equator a cell takes a tile whose texels are a little longer than a pixel if the view
-/// would want far more texels of a full grid than it has pixels. thread: main
+/// does. Windows that the tree lacks are made in the growth. Longitude wraps; cells beyond the planet repeat its edge.
+/// A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell takes a tile whose
+/// texels are a little longer than a pixel if the view would want far more texels of a full grid than it has pixels.
+/// thread: any
 void cover_with_tiles(const CoverInput& input, TileCoverage& out);
 
 /// Tells the residency which tiles a frame uses: what it draws and needs is not evicted, what it saw not forgotten.

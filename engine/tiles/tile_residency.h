@@ -49,6 +49,7 @@ class TileResidency {
   }
   void erase(const TileId& id) { entries_.erase(id); }
   [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
+  [[nodiscard]] const std::unordered_map<TileId, Entry, TileIdHash>& entries() const { return entries_; }
   [[nodiscard]] std::size_t count(TileState state) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(entries_, [state](const auto& item) { return item.second.state == state; }));

@@ -36,7 +36,10 @@ std::vector<TileGrid> grids() {
 /// Covers, and notes nothing.
 void cover(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches, const TileResidency& residency,
            TileCoverage& coverage) {
-  cover_with_tiles({.tree = tree, .view = view, .patches = patches, .residency = residency}, coverage);
+  TreeGrowth growth(tree);
+  cover_with_tiles({.tree = tree, .growth = growth, .view = view, .patches = patches, .residency = residency},
+                   coverage);
+  tree.adopt(growth);
 }
 
 /// A selected patch by hand: whole, in view, with a window at a level where it has not too many cells.
@@ -45,8 +48,8 @@ SelectedPatch selected(PatchTree& tree, const PatchId& id, int tile_level) {
   return {.node = &node, .tile_level = tile_level, .squeeze = tree.window_squeeze(node, tile_level)};
 }
 
-const TileWindow& window_of(PatchTree& tree, PatchNode& node, int level) {
-  return tree.window(node, level, tree.window_squeeze(node, level));
+TileWindow window_of(const PatchTree& tree, const PatchNode& node, int level) {
+  return tree.make_window(node, level, tree.window_squeeze(node, level));
 }
 
 /// The finest level at which a patch's window has no more than `cells` a side.
@@ -67,7 +70,7 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
       const PatchId id =
           k % 5 == 0 ? patch_beside(90, draw.between(-180, 180), 1 + k % 20) : random_patch(draw, 1 + k % 22);
       PatchNode& node = node_of(tree, id);
-      const TileWindow& win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
+      const TileWindow win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
       ASSERT_GE(win.x0, 0);
       ASSERT_GE(win.y0, 0);
       ASSERT_LE(win.x0 + win.w, squeezed_columns(grid, win.level, win.squeeze));
@@ -179,7 +182,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
   const PatchId id = patch_beside(20, 30, 6);
   TileResidency residency;
   std::map<int, int> level_of_slot = {{0, -1}};
-  const TileWindow win = tree.window(node_of(tree, id), 8, 0);
+  const TileWindow win = tree.make_window(node_of(tree, id), 8, 0);
   TileCoverage coverage;
   cover(tree, view, {selected(tree, id, 8)}, residency, coverage);
   EXPECT_EQ(coverage.uncovered, 1) << "nothing is resident";

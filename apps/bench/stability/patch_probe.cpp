@@ -115,7 +115,11 @@ void PatchProbe::load(PatchScene& scene) {
                     GL_STREAM_READ);
   const TileResidency none;
   TileCoverage coverage;
-  cover_with_tiles({.tree = scene.tree, .view = scene.view, .patches = scene.patches, .residency = none}, coverage);
+  TreeGrowth growth(scene.tree);
+  cover_with_tiles(
+      {.tree = scene.tree, .growth = growth, .view = scene.view, .patches = scene.patches, .residency = none},
+      coverage);
+  scene.tree.adopt(growth);
   draws_ = std::move(coverage.draws);
 }
 

@@ -13,7 +13,7 @@ namespace terrella {
 /// thread: main
 class PatchBuffers {
  public:
-  explicit PatchBuffers(PatchTree& tree);
+  explicit PatchBuffers(const PatchTree& tree);
 
   /// The patch's place (vertices from place · vertices_per_patch()), filled if it was not there or its heights have
   /// changed; the place of the patch drawn longest ago gives way. Places asked for in one frame stay: the buffer grows
@@ -37,7 +37,7 @@ class PatchBuffers {
   void grow();
   void fill(const PatchNode& node, int place);
 
-  PatchTree& tree_;
+  const PatchTree& tree_;
   int vertices_per_patch_;
   PatchIndices indices_;
   gl::Buffer vertices_, slopes_;
