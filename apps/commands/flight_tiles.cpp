@@ -33,8 +33,11 @@ class Gatherer {
     if (tree_->size() > kMostPatches) tree_ = new_tree();
     const View view = make_view(camera, view_.body.ellipsoid, view_.size);
     select_patches(*tree_, view, {}, patches_);
-    TileResidency nothing_yet;
-    cover_with_tiles(*tree_, view, patches_, nothing_yet, 1, coverage_);
+    const TileResidency nothing_yet;
+    TreeGrowth growth(*tree_);
+    cover_with_tiles({.tree = *tree_, .growth = growth, .view = view, .patches = patches_, .residency = nothing_yet},
+                     coverage_);
+    tree_->adopt(growth);
     for (const WantedTile& wanted : coverage_.wanted) add_with_ancestors(wanted.id);
   }
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <random>
+#include <utility>
 
 #include "globe/globe_impl.h"
 #include "surface/far_side_curtain.h"
@@ -11,11 +11,7 @@ namespace {
 
 using FrameClock = std::chrono::steady_clock;
 
-// Largest number of steps that reduce the detail to fit the budget. Each step takes a quarter off; 16 steps are six
-// tile levels.
-constexpr int kMostCoarser = 16;
-
-// Direction of the Sun if no time is set: over the viewer's left shoulder, so that the visible side is lit.
+// Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
@@ -44,41 +40,39 @@ Viewport Globe::Impl::eye_picture(Viewport viewport) const {
   return viewport;
 }
 
-void Globe::Impl::select(Viewport viewport) {
+void Globe::Impl::look(Viewport viewport) {
   view = make_view(camera, options.body.ellipsoid, eye_picture(viewport));
   eyes.reset();
-  if (options.stereo.mode != Stereo::off) {
-    eyes = stereo_eyes(view, ground(), options.stereo);
-    view = eyes->both;
-  }
-  ImageLayer& first = *stack.front();
+  if (options.stereo.mode == Stereo::off) return;
+  eyes = stereo_eyes(view, ground(), options.stereo);
+  view = eyes->both;
+}
+
+PatchSelectionOptions Globe::Impl::selection_options() const {
   PatchSelectionOptions selection;
-  selection.texels_per_pixel = first.texels_per_pixel();
   selection.max_error_px = options.max_error_px;
-  selection.max_tile_level = first.look().max_level;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;
     selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
   }
-  std::vector<FurtherImagery> further;
-  for (std::size_t k = 1; k < stack.size(); ++k) further.push_back(stack[k]->as_further());
-  select_patches(first.tree(), view, selection, first.patches(), further);
-  if (patch_shuffle) std::shuffle(first.patches().begin(), first.patches().end(), std::mt19937(*patch_shuffle));
-  for (std::size_t k = 1; has_night() && k < stack.size(); ++k) stack[k]->keep_side(sun());
-  for (ImageLayer* layer : stack) layer->cover(view, layer == &first, frame);
+  return selection;
 }
 
-// A view that wants more tiles than fit is drawn a little coarser. Otherwise it would never be finished.
-void Globe::Impl::select_within_budget(Viewport viewport) {
-  select(viewport);
-  for (int step = 0; step < kMostCoarser; ++step) {
-    bool coarser = false;
-    for (ImageLayer* layer : stack) coarser = layer->coarsen() || coarser;
-    if (!coarser) return;
-    select(viewport);
-  }
+FrameSnapshot Globe::Impl::snapshot() {
+  stack.front()->tree().refresh_bounds();
+  FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = patch_shuffle};
+  if (has_night()) snapshot.sun = sun();
+  for (ImageLayer* layer : stack) snapshot.layers.push_back(layer->snapshot());
+  return snapshot;
+}
+
+void Globe::Impl::execute(FramePlan plan) {
+  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(std::move(plan.layers[k]), frame);
+  stack.front()->tree().make_meshes(plan.meshes);
+  for (std::size_t k = 1; relief && k < stack.size(); ++k) stack[k]->copy_relief();
+  stats.relief_put_off = plan.put_off;
 }
 
 // In each frame a different layer is the first to upload.
@@ -115,7 +109,6 @@ void Globe::Impl::ask_heights() {
   heights->request(requests);
   stats.heights_missing = static_cast<int>(wanted.size());
   stats.heights_lacked = relief->missing();
-  stats.relief_put_off = relief->put_off();
 }
 
 // Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
@@ -180,7 +173,8 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
   const auto start = FrameClock::now();
   const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
-  select_within_budget(viewport);
+  look(viewport);
+  execute(plan_frame(view, snapshot(), selection_options()));
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
   for (ImageLayer* layer : stack) layer->ask();
   ask_heights();

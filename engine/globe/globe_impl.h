@@ -10,6 +10,7 @@
 #include "globe/image_layer.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
+#include "surface/frame_plan.h"
 #include "surface/relief.h"
 #include "tiles/arrival_bell.h"
 #include "tiles/height_loader.h"
@@ -60,8 +61,10 @@ struct Globe::Impl {
   FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
   void stack_layers();
   [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
-  void select(Viewport viewport);
-  void select_within_budget(Viewport viewport);
+  void look(Viewport viewport);
+  [[nodiscard]] PatchSelectionOptions selection_options() const;
+  [[nodiscard]] FrameSnapshot snapshot();
+  void execute(FramePlan plan);
   void count();
   void take_heights();
   void ask_heights();

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
-#include "surface/daylight.h"
-
 namespace terrella {
 namespace {
 
 constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
-constexpr int kAnyLevel = -1000;
 
 // The other texturing methods exist for comparison, so they draw the full grid, as every tool does.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
@@ -77,20 +74,29 @@ bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
 }
 
-// Slot 0 and those of the root tiles are never evicted.
-bool ImageLayer::coarsen() {
-  const int room = tiles_.capacity() - 1 - static_cast<int>(roots_.size());
-  if (!stream_ || coverage_.tiles <= room * 9 / 10) return false;
-  detail_ *= 0.75;
-  return true;
+// Slot 0 and those of the root tiles are never given up; a tenth is left for tiles on their way.
+LayerSnapshot ImageLayer::snapshot() {
+  LayerSnapshot layer{.tree = tree_.get(),
+                      .tiles = &tiles_.residency(),
+                      .texels_per_pixel = texels_per_pixel_,
+                      .detail = detail_,
+                      .max_tile_level = look_.max_level,
+                      .daylight = look_.daylight};
+  if (stream_) layer.room = (tiles_.capacity() - 1 - static_cast<int>(roots_.size())) * 9 / 10;
+  if (look_.min_level > grid_.min_level) layer.least_level = look_.min_level;
+  return layer;
 }
 
-FurtherImagery ImageLayer::as_further() {
-  return {.tree = tree_.get(),
-          .texels_per_pixel = texels_per_pixel(),
-          .least_level = look_.min_level <= grid_.min_level ? kAnyLevel : look_.min_level,
-          .max_tile_level = look_.max_level,
-          .out = &patches_};
+void ImageLayer::execute(LayerPlan plan, std::uint64_t frame) {
+  tree_->adopt(plan.growth);
+  patches_ = std::move(plan.patches);
+  coverage_ = std::move(plan.coverage);
+  detail_ = plan.detail;
+  note_use(coverage_.uses, frame, tiles_.residency());
+}
+
+void ImageLayer::copy_relief() {
+  for (const SelectedPatch& patch : patches_) PatchTree::copy_relief(*patch.surface, *patch.node);
 }
 
 std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
@@ -112,19 +118,7 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
   return bytes;
 }
 
-void ImageLayer::keep_side(const std::optional<glm::dvec3>& sun) {
-  if (!sun || look_.daylight == Daylight::both) return;
-  std::erase_if(patches_,
-                [&](const SelectedPatch& patch) { return !may_show(look_.daylight, *patch.node, ellipsoid_, *sun); });
-}
-
-void ImageLayer::cover(const View& view, bool first, std::uint64_t frame) {
-  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
-  cover_with_tiles(*tree_, view, patches_, tiles_.residency(), frame, coverage_, texels_per_pixel(),
-                   first ? OutOfBounds::ancestor : OutOfBounds::nothing);
-}
-
-// Root tiles come first, because they are the fallback for every other tile.
+// Root tiles come first: an ancestor for everything.
 void ImageLayer::ask() {
   if (!stream_) return;
   std::vector<TileRequest> requests;
@@ -145,6 +139,7 @@ void ImageLayer::stop_asking() {
 }
 
 LayerFrame ImageLayer::frame(bool first, bool has_night) {
+  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
           .coverage = &coverage_,

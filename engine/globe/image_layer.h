@@ -11,8 +11,8 @@
 #include "globe/globe.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
+#include "surface/frame_plan.h"
 #include "surface/layers.h"
-#include "surface/tile_coverage.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -55,19 +55,15 @@ class ImageLayer {
   [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
   [[nodiscard]] const std::vector<SelectedPatch>& patches() const { return patches_; }
   [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
-  /// Requested detail; less than the globe's if a view wants more tiles than fit.
-  [[nodiscard]] double texels_per_pixel() const { return texels_per_pixel_ * detail_; }
   void restore_detail() { detail_ = 1.0; }
-  /// Lowers the detail if the last view wanted more tiles than fit; true if so.
-  bool coarsen();
-  [[nodiscard]] FurtherImagery as_further();
+  /// The layer as a plan reads it.
+  [[nodiscard]] LayerSnapshot snapshot();
+  /// Takes a plan over: its patches, its tiles and their use, what the tree lacked.
+  void execute(LayerPlan plan, std::uint64_t frame);
+  void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `lacking`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
-  /// Drops patches on which nothing of the layer shows. Without a Sun there is no night.
-  void keep_side(const std::optional<glm::dvec3>& sun);
-  /// Finds a tile for each cell of patches().
-  void cover(const View& view, bool first, std::uint64_t frame);
   void ask();
   void end_frame(std::uint64_t frame);  ///< evicts and forgets what frames have not used for long
   void stop_asking();
@@ -96,8 +92,8 @@ class ImageLayer {
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
-  double detail_ = 1.0;
-  bool has_transparency_ = false;  ///< a loaded tile has transparency
+  double detail_ = 1.0;            ///< part of texels_per_pixel_ that views have room for
+  bool has_transparency_ = false;  ///< a tile came that has some
 };
 
 }  // namespace terrella

@@ -32,7 +32,7 @@ namespace terrella {
 
 /// An image layer in a frame. Draws belong to patches, one to one.
 struct LayerFrame {
-  PatchTree* tree = nullptr;
+  const PatchTree* tree = nullptr;
   const std::vector<SelectedPatch>* patches = nullptr;
   const TileCoverage* coverage = nullptr;
   const TileTextures* tiles = nullptr;

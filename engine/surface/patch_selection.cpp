@@ -28,16 +28,21 @@ constexpr double kMagnified = 2.0;
 constexpr double kLeastSegment_px = 1.0;
 // Deeper, a patch's vertices are centimetres apart.
 constexpr int kMostReliefLevel = 20;
+// Room for the patches of most views.
+constexpr std::size_t kUsualPatches = 512;
 
 class Selector {
  public:
-  Selector(PatchTree& tree, const View& view, const PatchSelectionOptions& options, std::uint64_t stamp,
-           std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further)
+  Selector(const PatchTree& tree, TreeGrowth& growth, const View& view, const PatchSelectionOptions& options,
+           PatchSelection& out, std::span<const FurtherImagery> further)
       : tree_(tree),
+        relief_(tree.relief()),
+        meshes_left_(relief_ == nullptr ? 0 : relief_->meshes_left()),
+        growth_(growth),
         view_(view),
         options_(options),
-        stamp_(stamp),
-        out_(out),
+        plan_(out),
+        out_(out.patches),
         further_(further),
         planes_(view_planes(view)),
         imagery_{
@@ -45,7 +50,7 @@ class Selector {
     const Ellipsoid& e = tree.ellipsoid();
     find_horizon(e);
     // No surface point is nearer than the height; 1 % off for the mesh, which sags.
-    if (tree.relief() == nullptr) least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
+    if (relief_ == nullptr) least_distance_m_ = 0.99 * std::abs(e.to_geodetic(view.eye).height_m);
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     // Off the axis a perspective picture magnifies: the corner of the picture is where a metre is most pixels.
     const double corner = view.tan_half_fov_y * std::hypot(1.0, view.aspect());
@@ -53,15 +58,14 @@ class Selector {
     band_rad_ = options.band * std::numbers::pi;
   }
 
-  void visit(PatchNode& node, bool inside) {
-    if (tree_.relief() != nullptr) tree_.relief()->refresh_bounds(tree_, node);
+  void visit(const PatchNode& node, bool inside) {
     if (behind_horizon(node)) return;
     if (!inside) {
       const int side = classify(planes_, view_, node.sphere);
       if (side < 0) return;
       inside = side > 0;
     }
-    SelectedPatch patch = assess(imagery_, node);
+    SelectedPatch patch = assess(imagery_, node, node);
     if (needs_split(node, patch) || further_needs_split(node)) {
       split(node, inside);
     } else {
@@ -74,7 +78,7 @@ class Selector {
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t k = 0; k < out_.size(); ++k) changed = split_coarse_neighbours(*out_[k].node) || changed;
-      std::erase_if(out_, [this](const SelectedPatch& p) { return p.node->leaf_stamp != stamp_; });
+      std::erase_if(out_, [this](const SelectedPatch& p) { return !growth_.is_leaf(*p.node); });
     }
     for (SelectedPatch& patch : out_) patch.coarse_sides = coarse_sides(*patch.node);
   }
@@ -84,11 +88,10 @@ class Selector {
     for (const FurtherImagery& imagery : further_) {
       imagery.out->clear();
       for (const SelectedPatch& patch : out_) {
-        PatchNode* node = node_of(imagery, *patch.node);
-        if (node == nullptr || wanted_level(imagery, *node) < imagery.least_level) continue;
-        if (node->relief.made != patch.node->relief.made) node->relief = patch.node->relief;
-        SelectedPatch also = assess(imagery, *node);
-        also.in_band = bent(*node) && in_band(*node);
+        const PatchNode* node = node_of(imagery, *patch.node);
+        if (node == nullptr || wanted_level(imagery, *node, *patch.node) < imagery.least_level) continue;
+        SelectedPatch also = assess(imagery, *node, *patch.node);
+        also.in_band = bent(*node, *patch.node) && in_band(*node);
         also.coarse_sides = patch.coarse_sides;
         also.cut_by_view = patch.cut_by_view;
         also.surface = patch.node;
@@ -164,8 +167,8 @@ class Selector {
   struct PixelOnGround {
     double short_m, east_m, north_m;
   };
-  [[nodiscard]] PixelOnGround pixel_on_ground(const PatchNode& node, double nearest_m) const {
-    const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
+  [[nodiscard]] PixelOnGround pixel_on_ground(const PatchNode& node, const PatchNode& body, double nearest_m) const {
+    const glm::dvec3 to_eye = view_.eye.xyz_m - body.sphere.center_m;
     const double distance = std::max(glm::length(to_eye), 1e-9);
     const double up = glm::dot(to_eye, node.normal) / distance;
     const double east = (node.frame.x * to_eye.y - node.frame.y * to_eye.x) / distance;
@@ -177,9 +180,9 @@ class Selector {
             std::sqrt(along * along * (cosine * cosine) + across * across * (sine * sine))};
   }
 
-  [[nodiscard]] PixelOnGround nearest_pixel(const PatchNode& node) const {
-    const Column c = column(node);
-    return pixel_on_ground(node, std::max(c.to_axis_m - 0.7 * c.radius_m, c.nearest_m));
+  [[nodiscard]] PixelOnGround nearest_pixel(const PatchNode& node, const PatchNode& body) const {
+    const Column c = column(body);
+    return pixel_on_ground(node, body, std::max(c.to_axis_m - 0.7 * c.radius_m, c.nearest_m));
   }
 
   [[nodiscard]] double texel0_m(const FurtherImagery& imagery, const PatchNode& node) const {
@@ -187,8 +190,8 @@ class Selector {
     return tree_.ellipsoid().a_m() * (std::numbers::pi / 180.0) * grid.root_span_deg / grid.tile_px * node.row_stretch;
   }
 
-  [[nodiscard]] int wanted_level(const FurtherImagery& imagery, const PatchNode& node) const {
-    return wanted_level(texel0_m(imagery, node) * imagery.texels_per_pixel, nearest_pixel(node));
+  [[nodiscard]] int wanted_level(const FurtherImagery& imagery, const PatchNode& node, const PatchNode& body) const {
+    return wanted_level(texel0_m(imagery, node) * imagery.texels_per_pixel, nearest_pixel(node, body));
   }
   [[nodiscard]] static int wanted_level(double texel0_m, const PixelOnGround& pixel) {
     const double level = std::ceil(std::log2(texel0_m / pixel.short_m) - 0.02);
@@ -200,10 +203,11 @@ class Selector {
     return std::clamp(imagery.max_tile_level, grid.min_level, grid.max_level);
   }
 
-  [[nodiscard]] SelectedPatch assess(const FurtherImagery& imagery, PatchNode& node) const {
+  [[nodiscard]] SelectedPatch assess(const FurtherImagery& imagery, const PatchNode& node,
+                                     const PatchNode& body) const {
     SelectedPatch patch;
     patch.node = &node;
-    const PixelOnGround pixel = nearest_pixel(node);
+    const PixelOnGround pixel = nearest_pixel(node, body);
     const double texel0_m = this->texel0_m(imagery, node);
     const bool near_pole = node.min_colatitude_rad < band_rad_;
     const TileGrid& grid = imagery.tree->grid();
@@ -233,24 +237,24 @@ class Selector {
     return std::max(pixel.east_m / std::min(narrow, 1.0), pixel.north_m);
   }
 
-  [[nodiscard]] bool needs_split(PatchNode& node, SelectedPatch& patch) const {
+  [[nodiscard]] bool needs_split(const PatchNode& node, SelectedPatch& patch) {
     if (node.id.level < 1) return true;
     if (node.id.level >= kMaxPatchLevel) return false;
     if (node.geometric_error_m * error_scale_px_ / nearest_m(node) > options_.max_error_px) return true;
-    return imagery_needs_split(imagery_, node, patch) || follows_ground_badly(node, patch);
+    return imagery_needs_split(imagery_, node, node, patch) || follows_ground_badly(node, patch);
   }
 
-  [[nodiscard]] bool imagery_needs_split(const FurtherImagery& imagery, const PatchNode& node,
+  [[nodiscard]] bool imagery_needs_split(const FurtherImagery& imagery, const PatchNode& node, const PatchNode& body,
                                          SelectedPatch& patch) const {
-    const bool is_bent = bent(node);
+    const bool is_bent = bent(node, body);
     patch.in_band = is_bent && in_band(node);
-    if (is_bent && (!patch.in_band || reaches_far_over_the_band(node))) return true;
-    return window_too_wide(imagery, node, patch) || reaches_to_the_eye(imagery, node, patch);
+    if (is_bent && (!patch.in_band || reaches_far_over_the_band(body))) return true;
+    return window_too_wide(imagery, node, patch) || reaches_to_the_eye(imagery, body, patch);
   }
 
   // Interpolated texture coordinates are off by more than they may be.
-  [[nodiscard]] bool bent(const PatchNode& node) const {
-    const double px = error_scale_px_ / nearest_m(node);
+  [[nodiscard]] bool bent(const PatchNode& node, const PatchNode& body) const {
+    const double px = error_scale_px_ / nearest_m(body);
     return node.geometric_error_m * node.texture_error_factor * px > options_.max_error_px;
   }
   [[nodiscard]] bool in_band(const PatchNode& node) const { return node.min_colatitude_rad < band_rad_; }
@@ -258,24 +262,21 @@ class Selector {
   [[nodiscard]] bool further_needs_split(const PatchNode& node) const {
     if (node.id.level >= kMaxPatchLevel) return false;
     for (const FurtherImagery& imagery : further_) {
-      PatchNode* own = node_of(imagery, node);
-      if (own == nullptr || wanted_level(imagery, *own) < imagery.least_level) continue;
-      SelectedPatch patch = assess(imagery, *own);
-      if (imagery_needs_split(imagery, *own, patch)) return true;
+      const PatchNode* own = node_of(imagery, node);
+      if (own == nullptr || wanted_level(imagery, *own, node) < imagery.least_level) continue;
+      SelectedPatch patch = assess(imagery, *own, node);
+      if (imagery_needs_split(imagery, *own, node, patch)) return true;
     }
     return false;
   }
 
   // What further imagery has of a patch; nothing where it is not drawn.
-  [[nodiscard]] static PatchNode* node_of(const FurtherImagery& imagery, const PatchNode& node) {
+  [[nodiscard]] static const PatchNode* node_of(const FurtherImagery& imagery, const PatchNode& node) {
     const GeoRect& bounds = imagery.tree->grid().bounds;
     const double wide_deg = std::max(0.0, node.east_deg - node.west_deg);
     if (!meets_longitudes(bounds, node.lon_center_deg + node.west_deg, wide_deg)) return nullptr;
-    PatchNode& own = imagery.tree->node(node.id);
+    const PatchNode& own = imagery.growth->node(node.id);
     if (own.north_row_deg < bounds.south.deg() || own.south_row_deg > bounds.north.deg()) return nullptr;
-    own.sphere = node.sphere;
-    own.relief.middle_m = node.relief.middle_m;
-    own.relief.half_m = node.relief.half_m;
     return &own;
   }
 
@@ -290,18 +291,40 @@ class Selector {
   }
 
   // Heights move points along the normal: looked at from above they move less on the screen.
-  [[nodiscard]] bool follows_ground_badly(PatchNode& node, const SelectedPatch& patch) const {
-    if (tree_.relief() == nullptr || node.id.level >= kMostReliefLevel) return false;
+  // Without a mesh nothing is known, and the patch stays as it is until it has one.
+  [[nodiscard]] bool follows_ground_badly(const PatchNode& node, const SelectedPatch& patch) {
+    if (relief_ == nullptr || node.id.level >= kMostReliefLevel) return false;
     // A child's side is half the patch's, which is √2 of its radius.
     const double child_side_m = node.relief.flat.radius_m * (0.5 * std::numbers::sqrt2);
     if (child_side_m < kLeastSegment_px * tree_.segments() * patch.pixel_m) return false;
-    tree_.relief()->refresh_mesh(tree_, node);
+    if (want_mesh(node)) ++plan_.undecided;
+    if (node.relief.heights_m.empty()) return false;
     const glm::dvec3 to_eye = view_.eye.xyz_m - node.sphere.center_m;
     const double distance = std::max(glm::length(to_eye), 1e-9);
     const double up = glm::dot(to_eye, node.normal) / distance;
     const double sine = std::min(1.0, std::sqrt(std::max(0.0, 1.0 - up * up)) + node.sphere.radius_m / distance);
     const double error_px = node.relief.error_m * sine * error_scale_px_ / nearest_m(node);
-    return error_px > kMostReliefError_px && tree_.relief()->may_split(node);
+    return error_px > kMostReliefError_px && may_split(node);
+  }
+
+  // True if heights have changed since the mesh was made, or there is none.
+  bool want_mesh(const PatchNode& node) {
+    if (!node.relief.heights_m.empty() && node.relief.mesh_seen == relief_->changes_seen()) return false;
+    if (!growth_.mark_mesh(node)) return false;
+    plan_.meshes.push_back(&node);
+    const bool stale = relief_->is_stale(tree_, node);
+    if (stale) --meshes_left_;
+    return stale;
+  }
+
+  // Not, and it is counted, if the children's meshes were never made and the budget is spent: the patch is drawn for a
+  // frame more. What must be drawn is made in any case.
+  [[nodiscard]] bool may_split(const PatchNode& node) {
+    const PatchFamily* family = growth_.known_children(node);
+    const auto has_no_mesh = [](const PatchNode* child) { return child->relief.heights_m.empty(); };
+    if (meshes_left_ > 0 || (family != nullptr && std::ranges::none_of(*family, has_no_mesh))) return true;
+    ++plan_.put_off;
+    return false;
   }
 
   // A patch as large as the eye is near has one tile level for pixels of very different size: the tile level was chosen
@@ -324,16 +347,15 @@ class Selector {
     return node.min_colatitude_rad >= band_rad_ && node.east_deg - node.west_deg > most_columns;
   }
 
-  void split(PatchNode& node, bool inside) {
-    node.split_stamp = stamp_;
-    node.leaf_stamp = 0;
-    tree_.ensure_children(node);
-    for (PatchNode* child : node.children) visit(*child, inside);
+  void split(const PatchNode& node, bool inside) {
+    growth_.mark_split(node);
+    const PatchFamily family = growth_.children(node);
+    for (const PatchNode* child : family) visit(*child, inside);
   }
 
-  void emit(PatchNode& node, SelectedPatch patch, bool inside) {
-    node.leaf_stamp = stamp_;
-    if (tree_.relief() != nullptr) tree_.relief()->refresh_mesh(tree_, node);
+  void emit(const PatchNode& node, SelectedPatch patch, bool inside) {
+    growth_.mark_leaf(node);
+    if (relief_ != nullptr) want_mesh(node);
     patch.cut_by_view = !inside || nearly_behind_horizon(node);
     out_.push_back(patch);
   }
@@ -345,33 +367,19 @@ class Selector {
     return c * node.cos_cone - s * node.sin_cone < cos_horizon_;
   }
 
-  // The deepest node of the tree that holds the neighbour across a side. The search goes on from where it ended last;
-  // the tree forgets that where it drops the node.
-  [[nodiscard]] PatchNode& node_beside(PatchNode& node, int side) const {
-    PatchNode*& found = node.beside[static_cast<std::size_t>(side)];
-    if (found != nullptr && (found->id.level == node.id.level || found->children[0] == nullptr)) return *found;
-    const PatchId id = neighbour(node.id, static_cast<PatchSide>(side));
-    if (found == nullptr) found = &tree_.root(id.face);
-    while (found->id.level < id.level && found->children[0] != nullptr) {
-      const int shift = id.level - found->id.level - 1;
-      found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
-    }
-    return *found;
-  }
-
   // The leaf that covers the neighbour across a side, or nullptr where nothing is drawn (culled) or finer patches are.
   // This selection came to a node if it split its parent.
-  [[nodiscard]] PatchNode* leaf_beside(PatchNode& node, int side) const {
-    PatchNode* other = &node_beside(node, side);
-    while (other->parent != nullptr && other->parent->split_stamp != stamp_) other = other->parent;
-    return other->leaf_stamp == stamp_ ? other : nullptr;
+  [[nodiscard]] const PatchNode* leaf_beside(const PatchNode& node, int side) const {
+    const PatchNode* other = &growth_.beside(node, static_cast<PatchSide>(side));
+    while (other->parent != nullptr && !growth_.is_split(*other->parent)) other = other->parent;
+    return growth_.is_leaf(*other) ? other : nullptr;
   }
 
-  bool split_coarse_neighbours(PatchNode& node) {
+  bool split_coarse_neighbours(const PatchNode& node) {
     bool changed = false;
-    if (node.leaf_stamp != stamp_) return false;
+    if (!growth_.is_leaf(node)) return false;
     for (int side = 0; side < 4; ++side) {
-      PatchNode* other = leaf_beside(node, side);
+      const PatchNode* other = leaf_beside(node, side);
       if (other == nullptr || other->id.level >= node.id.level - 1) continue;
       split(*other, false);
       changed = true;
@@ -379,7 +387,7 @@ class Selector {
     return changed;
   }
 
-  [[nodiscard]] unsigned coarse_sides(PatchNode& node) const {
+  [[nodiscard]] unsigned coarse_sides(const PatchNode& node) const {
     unsigned mask = 0;
     for (int side = 0; side < 4; ++side) {
       const PatchNode* other = leaf_beside(node, side);
@@ -388,10 +396,13 @@ class Selector {
     return mask;
   }
 
-  PatchTree& tree_;
+  const PatchTree& tree_;
+  const Relief* relief_;
+  int meshes_left_;
+  TreeGrowth& growth_;
   const View& view_;
   const PatchSelectionOptions& options_;
-  std::uint64_t stamp_;
+  PatchSelection& plan_;
   std::vector<SelectedPatch>& out_;
   std::span<const FurtherImagery> further_;
   ViewPlanes planes_;
@@ -431,16 +442,31 @@ int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& s
   return result;
 }
 
-void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
-                    std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further) {
-  out.clear();
+PatchSelection plan_patches(const PatchTree& tree, TreeGrowth& growth, const View& view,
+                            const PatchSelectionOptions& options, std::span<const FurtherImagery> further) {
+  PatchSelection plan;
   for (const FurtherImagery& imagery : further) imagery.out->clear();
-  if (tree.relief() != nullptr) tree.relief()->begin_selection();
-  if (!finite(view)) return;
-  Selector selector(tree, view, options, tree.next_stamp(), out, further);
+  if (!finite(view)) return plan;
+  plan.patches.reserve(kUsualPatches);
+  growth.clear_selection();
+  Selector selector(tree, growth, view, options, plan, further);
   for (int f = 0; f < kCubeFaces; ++f) selector.visit(tree.root(static_cast<CubeFace>(f)), false);
   selector.balance();
   selector.select_further();
+  return plan;
+}
+
+void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
+                    std::vector<SelectedPatch>& out) {
+  tree.refresh_bounds();
+  for (bool decided = false; !decided;) {
+    TreeGrowth growth(tree, tree.relief());
+    PatchSelection plan = plan_patches(tree, growth, view, options);
+    tree.adopt(growth);
+    tree.make_meshes(plan.meshes);
+    decided = plan.undecided == 0;
+    out = std::move(plan.patches);
+  }
 }
 
 }  // namespace terrella

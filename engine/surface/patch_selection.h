@@ -6,6 +6,7 @@
 
 #include "geo/camera.h"
 #include "surface/patch_tree.h"
+#include "surface/tree_growth.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -31,7 +32,7 @@ struct PatchSelectionOptions {
 
 /// One patch to draw.
 struct SelectedPatch {
-  PatchNode* node = nullptr;
+  const PatchNode* node = nullptr;
   int tile_level = 0;         ///< of its window
   bool squeezed = true;       ///< takes squeezed tiles where there are any, at that level; else those of the full grid
   int squeeze = 0;            ///< of its window
@@ -39,15 +40,19 @@ struct SelectedPatch {
   bool in_band = false;       ///< needs per-fragment coordinates
   bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one
   double pixel_m = 1.0;       ///< what a pixel covers on its nearest part, across the line of sight
-  double footprint_texels = 1.0;  ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
-  PatchNode* surface = nullptr;   ///< of further imagery: the node of the first tree that it lies on
+  double footprint_texels = 1.0;       ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
+  const PatchNode* surface = nullptr;  ///< of further imagery: the node of the first tree that it lies on
+
+  /// The node that knows the patch's bounds.
+  [[nodiscard]] const PatchNode& body() const { return surface != nullptr ? *surface : *node; }
 };
 
 /// Tiles of another grid over the same patches.
 struct FurtherImagery {
-  PatchTree* tree = nullptr;      ///< of the same body, tessellation and relief
-  double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
-  int least_level = 0;            ///< patches whose view asks for coarser tiles are left out
+  const PatchTree* tree = nullptr;  ///< of the same body, tessellation and relief
+  TreeGrowth* growth = nullptr;     ///< of that tree
+  double texels_per_pixel = 1.0;    ///< as PatchSelectionOptions has it
+  int least_level = 0;              ///< patches whose view asks for coarser tiles are left out
   int max_tile_level = kMaxTileLevel;
   std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
 };
@@ -60,11 +65,24 @@ struct ViewPlanes {
 /// -1 outside, 0 cut, 1 inside.
 [[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
 
+/// What a selection comes to.
+struct PatchSelection {
+  std::vector<SelectedPatch> patches;
+  std::vector<const PatchNode*> meshes;  ///< of relief, to be made before the patches are drawn
+  int put_off = 0;    ///< patches drawn coarser than their relief asks for, as the budget of meshes is spent
+  int undecided = 0;  ///< patches of which nothing or nothing new is known until their meshes are made
+};
+
 /// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
-/// view, the tree (whose nodes it makes and stamps) and the options. An eye under the surface sees every patch in
-/// front of it that the inner sphere does not hide. A view with NaN selects nothing. Further imagery takes part in what
-/// is split: each patch suits all grids. thread: main
+/// view, the tree and the options: nodes that the tree lacks are made in the growths, and no mesh is made. An eye under
+/// the surface sees every patch in front of it that the inner sphere does not hide. A view with NaN selects nothing.
+/// Further imagery takes part in what is split: each patch suits all grids. thread: any
+[[nodiscard]] PatchSelection plan_patches(const PatchTree& tree, TreeGrowth& growth, const View& view,
+                                          const PatchSelectionOptions& options,
+                                          std::span<const FurtherImagery> further = {});
+
+/// Plans until every patch is decided, makes the meshes and lets the tree adopt what was made. thread: main
 void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
-                    std::vector<SelectedPatch>& out, std::span<const FurtherImagery> further = {});
+                    std::vector<SelectedPatch>& out);
 
 }  // namespace terrella

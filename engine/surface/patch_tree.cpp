@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <span>
 #include <utility>
+
+#include "surface/relief.h"
+#include "surface/tree_growth.h"
 
 namespace terrella {
 namespace {
@@ -92,8 +94,7 @@ struct Extent {
   [[nodiscard]] double row_deg(double part) const { return south_deg + part * (north_deg - south_deg); }
 };
 
-Extent cell_extent(const PatchTree& tree, const PatchNode& node, int x, int y) {
-  const TileWindow& win = node.window;
+Extent cell_extent(const PatchTree& tree, const PatchNode& node, const TileWindow& win, int x, int y) {
   const TileBounds cell = tile_bounds(tree.grid(), TileId{win.level, win.x0 + x, win.y0 + y, win.squeeze});
   return {std::max(cell.west_deg - node.lon_center_deg, node.west_deg),
           std::min(cell.east_deg - node.lon_center_deg, node.east_deg), std::max(cell.south_deg, node.south_row_deg),
@@ -144,16 +145,15 @@ glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const
 PatchTree::PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping)
     : ellipsoid_(ellipsoid), grid_(grid), segments_(segments), mapping_(mapping) {
   for (int f = 0; f < kCubeFaces; ++f) {
-    roots_[static_cast<std::size_t>(f)] = &make_node(PatchId{static_cast<CubeFace>(f), 0, 0, 0}, nullptr);
+    PatchNode& node = roots_[static_cast<std::size_t>(f)];
+    node.index = static_cast<std::uint32_t>(f);
+    node.serial = ++serial_;
+    measure(node, PatchId{static_cast<CubeFace>(f), 0, 0, 0});
   }
 }
 
-PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
-  PatchNode& node = free_.empty() ? nodes_.emplace_back() : *free_.back();
-  if (!free_.empty()) free_.pop_back();
-  node.serial = ++serial_;
+void PatchTree::measure(PatchNode& node, const PatchId& id) const {
   node.id = id;
-  node.parent = parent_node;
   const EcefDir center = patch_point(id, 1, 1, 2, mapping_);
   node.normal = center.xyz;
   node.sphere.center_m = ellipsoid_.position(center).xyz_m;
@@ -180,23 +180,75 @@ PatchNode& PatchTree::make_node(const PatchId& id, PatchNode* parent_node) {
       grid_.projection == Projection::equal_area ? std::numbers::sqrt2 : 2.0 * std::numbers::inv_sqrt3;
   node.texture_error_factor = std::max(1.0, worst_course / std::tan(std::min(colat, 1.5)));
   node.row_stretch = least_row_stretch(grid_, 0.5 * std::numbers::pi - node.max_colatitude_rad);
-  return node;
+}
+
+void PatchTree::touch(PatchNode& node) {
+  if (std::exchange(node.children_used, frame_) != frame_) used_ += 4;
 }
 
 void PatchTree::ensure_children(PatchNode& node) {
-  if (std::exchange(node.children_used, frame_) != frame_) used_ += 4;
-  if (node.children[0] != nullptr) return;
-  const auto ids = terrella::children(node.id);
-  for (std::size_t k = 0; k < 4; ++k) node.children[k] = &make_node(ids[k], &node);
+  TreeGrowth growth(*this);
+  static_cast<void>(growth.children(node));
+  adopt(growth);
 }
 
-PatchNode& PatchTree::node(const PatchId& id) {
-  PatchNode* found = &root(id.face);
-  for (int shift = id.level - 1; shift >= 0; --shift) {
-    ensure_children(*found);
-    found = found->children[((id.x >> shift) & 1U) + 2 * ((id.y >> shift) & 1U)];
+std::size_t PatchTree::place_of_new_family(std::size_t k) const {
+  const std::size_t family = k < free_.size() ? free_[free_.size() - 1 - k] : families_.size() + k - free_.size();
+  return roots_.size() + 4 * family;
+}
+
+void PatchTree::adopt(TreeGrowth& growth) {
+  for (std::size_t k = 0; k < growth.made_.size(); ++k) {
+    PatchFamily& children = own(*growth.parents_[k]).children;
+    for (std::size_t n = 0; n < 4; ++n) children[n] = &(*growth.made_[k])[n];
+    const std::size_t family = free_.empty() ? families_.size() : free_.back();
+    if (free_.empty()) {
+      families_.emplace_back();
+    } else {
+      free_.pop_back();
+    }
+    families_[family] = std::move(growth.made_[k]);
   }
-  return *found;
+  serial_ += 4 * growth.made_.size();
+  for (const PatchNode* node : growth.used_) touch(own(*node));
+  for (const TreeGrowth::Beside& b : growth.beside_) {
+    own(*b.node).beside[static_cast<std::size_t>(b.side)] = &own(*b.found);
+  }
+  for (auto& [node, window] : growth.windows_) own(*node).window = std::move(window);
+  for (TreeGrowth::Lattice& l : growth.lattices_) {
+    TileWindow* window = own(*l.node).window.get();
+    if (window == l.window) window->cells[l.cell].lattice = std::move(l.lattice);
+  }
+  growth = TreeGrowth();
+}
+
+template <class Visit>
+void PatchTree::visit_nodes(Visit visit) {
+  for (PatchNode& node : roots_) visit(node);
+  for (const auto& family : families_) {
+    if (family) std::ranges::for_each(*family, visit);
+  }
+}
+
+void PatchTree::make_meshes(const std::vector<const PatchNode*>& nodes) {
+  for (const PatchNode* node : nodes) relief_->refresh_mesh(*this, own(*node));
+}
+
+// The bounds' count stays: a tree that comes to be the first one works out its cones then.
+void PatchTree::copy_relief(const PatchNode& from, const PatchNode& to) {
+  PatchNode& node = own(to);
+  node.sphere = from.sphere;
+  node.relief.middle_m = from.relief.middle_m;
+  node.relief.half_m = from.relief.half_m;
+  if (node.relief.made == from.relief.made) return;
+  const std::uint64_t bounds_seen = node.relief.bounds_seen;
+  node.relief = from.relief;
+  node.relief.bounds_seen = bounds_seen;
+}
+
+void PatchTree::refresh_bounds() {
+  if (relief_ == nullptr || std::exchange(bounds_seen_, relief_->changes_seen()) == relief_->changes_seen()) return;
+  visit_nodes([this](PatchNode& node) { std::as_const(*relief_).refresh_bounds(*this, node); });
 }
 
 void PatchTree::end_frame(std::size_t many) {
@@ -213,24 +265,25 @@ void PatchTree::drop_oldest(std::size_t nodes) {
     return node.children[0] != nullptr && node.children_used < frame_;
   };
   std::vector<std::uint64_t> ages;
-  for (const PatchNode& node : nodes_) {
+  visit_nodes([&](const PatchNode& node) {
     if (is_old(node)) ages.push_back(node.children_used);
-  }
+  });
   if (ages.empty()) return;
   const auto last = ages.begin() + static_cast<std::ptrdiff_t>(std::min(nodes / 4, ages.size() - 1));
   std::nth_element(ages.begin(), last, ages.end());
-  const auto kept = free_.size();
-  for (PatchNode& node : nodes_) {
-    if (!is_old(node) || node.children_used > *last) continue;
-    free_.insert(free_.end(), node.children.begin(), node.children.end());
+  const std::size_t kept = free_.size();
+  visit_nodes([&](PatchNode& node) {
+    if (!is_old(node) || node.children_used > *last) return;
+    free_.push_back((node.children[0]->index - roots_.size()) / 4);
+    for (PatchNode* child : node.children) child->serial = 0;
     node.children = {};
-  }
-  for (PatchNode* node : std::span(free_).subspan(kept)) *node = PatchNode{};
-  for (PatchNode& node : nodes_) {
+  });
+  visit_nodes([](PatchNode& node) {
     for (PatchNode*& beside : node.beside) {
       if (beside != nullptr && beside->serial == 0) beside = nullptr;
     }
-  }
+  });
+  for (std::size_t k = kept; k < free_.size(); ++k) families_[free_[k]].reset();
 }
 
 int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
@@ -240,9 +293,8 @@ int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
   return std::min(squeeze_of_row(grid_, tile_level, span.first), squeeze_of_row(grid_, tile_level, span.end - 1));
 }
 
-const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze) {
-  TileWindow& win = node.window;
-  if (win.level == tile_level && win.squeeze == squeeze) return win;
+TileWindow PatchTree::make_window(const PatchNode& node, int tile_level, int squeeze) const {
+  TileWindow win;
   const WindowRows span = window_rows(grid_, node, tile_level);
   win.level = tile_level;
   win.squeeze = squeeze;
@@ -254,23 +306,18 @@ const TileWindow& PatchTree::window(PatchNode& node, int tile_level, int squeeze
   win.x0 = std::min(static_cast<std::int64_t>(std::floor(std::ldexp(west + kSliver, -win.squeeze))), last);
   const auto end = static_cast<std::int64_t>(std::ceil(std::ldexp(east - kSliver, -win.squeeze)));
   win.w = static_cast<int>(std::max(win.x0 + 1, end) - win.x0);
-  win.cells.clear();
   win.cells.reserve(static_cast<std::size_t>(win.w) * static_cast<std::size_t>(win.h));
   for (int y = 0; y < win.h; ++y) {
     for (int x = 0; x < win.w; ++x) {
-      const BoundingSphere whole = cell_sphere(*this, node, cell_extent(*this, node, x, y));
+      const BoundingSphere whole = cell_sphere(*this, node, cell_extent(*this, node, win, x, y));
       win.cells.push_back({whole, ellipsoid_.surface_normal({whole.center_m}).xyz, {}});
     }
   }
   return win;
 }
 
-const SurfaceLattice& PatchTree::cell_lattice(PatchNode& node, int x, int y) {
-  CellExtent& cell =
-      node.window
-          .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(node.window.w) + static_cast<std::size_t>(x)];
-  if (cell.lattice.points_m.empty()) cell.lattice = lattice_over(*this, node, cell_extent(*this, node, x, y));
-  return cell.lattice;
+SurfaceLattice PatchTree::make_lattice(const PatchNode& node, const TileWindow& window, int x, int y) const {
+  return lattice_over(*this, node, cell_extent(*this, node, window, x, y));
 }
 
 }  // namespace terrella

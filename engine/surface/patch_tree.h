@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <vector>
 
 #include "geo/camera.h"
@@ -30,8 +30,8 @@ inline constexpr int kLatticeQuads = 4;
 /// What a cell of a window shares with its patch.
 struct CellExtent {
   BoundingSphere whole;
-  glm::dvec3 up{0.0};      ///< geodetic normal in its middle
-  SurfaceLattice lattice;  ///< empty until it is asked for
+  glm::dvec3 up{0.0};                       ///< geodetic normal in its middle
+  std::unique_ptr<SurfaceLattice> lattice;  ///< none until a plan needs it
 };
 
 /// The tiles of one level that a patch lies on: columns x0…x0+w-1, rows y0…y0+h-1. Patches do not line up with tiles;
@@ -61,9 +61,13 @@ struct PatchRelief {
   std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
 
+struct PatchNode;
+using PatchFamily = std::array<PatchNode*, 4>;
+
 /// What never changes about a patch, worked out once and kept in the tree.
 struct PatchNode {
   PatchId id;
+  std::uint32_t index = 0;   ///< place among the nodes that there are
   std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
   BoundingSphere sphere;
   /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
@@ -85,12 +89,10 @@ struct PatchNode {
   double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
   PatchNode* parent = nullptr;
-  std::array<PatchNode*, 4> children{};  ///< all or none
-  std::uint64_t children_used = 0;       ///< number of the frame that came to them last
-  std::array<PatchNode*, 4> beside{};    ///< by PatchSide, across it: the deepest node found to hold that neighbour
-  std::uint64_t leaf_stamp = 0;          ///< number of the selection that drew this patch last
-  std::uint64_t split_stamp = 0;         ///< number of the selection that split this patch last
-  TileWindow window;                     ///< of the level last asked for
+  PatchFamily children{};              ///< all or none
+  std::uint64_t children_used = 0;     ///< number of the frame that came to them last
+  std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
+  std::unique_ptr<TileWindow> window;  ///< of the level that the last plan took
   PatchRelief relief;
 };
 
@@ -99,6 +101,8 @@ struct PatchNode {
 [[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
 
 class Relief;
+class TreeGrowth;
+using PatchFamilyNodes = std::array<PatchNode, 4>;
 
 /// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited, and
 /// dropped when no frame has come to them for long. thread: main
@@ -107,18 +111,24 @@ class PatchTree {
   /// `segments` a side of each patch: even, in [2, 128].
   PatchTree(const Ellipsoid& ellipsoid, const TileGrid& grid, int segments, CubeMapping mapping = CubeMapping::tangent);
 
-  [[nodiscard]] PatchNode& root(CubeFace face) { return *roots_[static_cast<std::size_t>(face)]; }
-  /// A node by its name, made if it is not there.
-  [[nodiscard]] PatchNode& node(const PatchId& id);
+  [[nodiscard]] PatchNode& root(CubeFace face) { return roots_[static_cast<std::size_t>(face)]; }
+  [[nodiscard]] const PatchNode& root(CubeFace face) const { return roots_[static_cast<std::size_t>(face)]; }
   /// The four children, made if they are not there.
   void ensure_children(PatchNode& node);
+  /// Takes what a plan made and used. The growth must have begun with the tree as it is.
+  void adopt(TreeGrowth& growth);
+  /// Makes the meshes of nodes that a plan wants.
+  void make_meshes(const std::vector<const PatchNode*>& nodes);
+  /// A node of this tree takes the bounds and the mesh of the same patch in another tree.
+  static void copy_relief(const PatchNode& from, const PatchNode& to);
+  /// Brings the bounds of all nodes up to date with the relief's heights.
+  void refresh_bounds();
   /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
   [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
-  /// The node's window at a tile level, its columns squeezed as given (0 or window_squeeze()); kept until another one
-  /// is asked for.
-  const TileWindow& window(PatchNode& node, int tile_level, int squeeze);
-  /// Of cell (x, y) of the node's window as it is, counted from its north-west corner.
-  const SurfaceLattice& cell_lattice(PatchNode& node, int x, int y);
+  /// A node's window at a tile level, its columns squeezed as given (0 or window_squeeze()).
+  [[nodiscard]] TileWindow make_window(const PatchNode& node, int tile_level, int squeeze) const;
+  /// Of cell (x, y) of a node's window, counted from its north-west corner.
+  [[nodiscard]] SurfaceLattice make_lattice(const PatchNode& node, const TileWindow& window, int x, int y) const;
 
   /// The ground that patches follow; none: the ellipsoid. Set once, before the first selection; it must outlive the
   /// tree.
@@ -129,31 +139,40 @@ class PatchTree {
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] CubeMapping mapping() const { return mapping_; }
-  [[nodiscard]] std::size_t size() const { return nodes_.size() - free_.size(); }
+  [[nodiscard]] std::size_t size() const { return roots_.size() + 4 * (families_.size() - free_.size()); }
   /// A frame is done. Where there are more than `many` nodes, and over three times as many as the frame came to, those
   /// go that frames came to longest ago; never one that this frame came to.
   void end_frame(std::size_t many = kManyNodes);
-  /// A number for one selection: marks in nodes that carry another one are out of date.
-  [[nodiscard]] std::uint64_t next_stamp() { return ++stamp_; }
 
  private:
+  friend class TreeGrowth;
   static constexpr std::size_t kManyNodes = 2048;
 
-  PatchNode& make_node(const PatchId& id, PatchNode* parent);
+  [[nodiscard]] std::size_t places() const { return roots_.size() + 4 * families_.size(); }
+  [[nodiscard]] std::uint64_t last_serial() const { return serial_; }
+  /// PatchNode::index of the first node of the family that is made `k` families from now.
+  [[nodiscard]] std::size_t place_of_new_family(std::size_t k) const;
+  /// Fills a new node.
+  void measure(PatchNode& node, const PatchId& id) const;
+  void touch(PatchNode& node);
   void drop_oldest(std::size_t nodes);
+  template <class Visit>
+  void visit_nodes(Visit visit);
+  /// The tree's own node, which a plan knows as one that it must not change.
+  [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
 
   Ellipsoid ellipsoid_;
   TileGrid grid_;
   int segments_;
   CubeMapping mapping_;
   Relief* relief_ = nullptr;
-  std::deque<PatchNode> nodes_;
-  std::vector<PatchNode*> free_;  ///< of nodes_, dropped
   std::uint64_t serial_ = 0;
+  std::array<PatchNode, kCubeFaces> roots_;
+  std::vector<std::unique_ptr<PatchFamilyNodes>> families_;
+  std::vector<std::size_t> free_;  ///< places in families_ that hold none
   std::uint64_t frame_ = 1;
   std::size_t used_ = 0;  ///< nodes that this frame came to
-  std::array<PatchNode*, kCubeFaces> roots_{};
-  std::uint64_t stamp_ = 0;
+  std::uint64_t bounds_seen_ = 0;
 };
 
 }  // namespace terrella

@@ -68,15 +68,6 @@ int Relief::touched(const PatchTree& tree, const TileId& id, const std::vector<S
       std::ranges::count_if(patches, [&](const SelectedPatch& patch) { return touches(tree, *patch.node, change); }));
 }
 
-bool Relief::may_split(const PatchNode& node) {
-  const bool children_made = node.children[0] != nullptr && std::ranges::none_of(node.children, [](const PatchNode* c) {
-                               return c->relief.heights_m.empty();
-                             });
-  if (children_made || meshes_left_ > 0) return true;
-  ++put_off_;
-  return false;
-}
-
 bool Relief::touches(const PatchTree& tree, const PatchNode& node, const Change& change) const {
   const bool same_rows = tree.grid().latitude == grid().latitude && tree.grid().projection == grid().projection;
   if (tree.grid().projection != grid().projection) return true;
@@ -96,7 +87,7 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::ui
   return false;
 }
 
-void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) {
+void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   const bool changed = changed_since(tree, node, relief.bounds_seen);
   relief.bounds_seen = changes_seen();
@@ -118,7 +109,7 @@ void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) {
 
 void Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) {
   PatchRelief& relief = node.relief;
-  const bool changed = relief.heights_m.empty() || changed_since(tree, node, relief.mesh_seen);
+  const bool changed = is_stale(tree, node);
   relief.mesh_seen = changes_seen();
   if (!changed) return;
   measure_vertices(tree, node);
@@ -206,13 +197,13 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
 void Relief::want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted) {
   if (!exists(grid(), id)) return;
   TileResidency::Entry& entry = tiles_.entry(id);
-  if (entry.last_wanted == round_) return;
+  if (entry.last_seen == round_) return;
   stamp(entry);
   if (entry.state == TileState::unknown) wanted.push_back({id, priority});
 }
 
 void Relief::stamp(TileResidency::Entry& entry) const {
-  entry.last_wanted = entry.last_needed = entry.last_drawn = round_;
+  entry.last_seen = entry.last_needed = entry.last_drawn = round_;
 }
 
 void Relief::keep_to_budget() {

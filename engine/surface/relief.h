@@ -48,21 +48,21 @@ class Relief : public GroundHeights {
   /// How many meshes of these patches the coming of a tile puts out of date.
   [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
 
-  /// From now on this many meshes may be made before may_split() asks for patience: a frame's share.
+  /// From now on a selection may ask for this many new meshes before it puts off patches: a frame's share.
   void set_mesh_budget(int meshes) { meshes_left_ = meshes; }
-  /// A selection begins: none of its patches has been put off.
-  void begin_selection() { put_off_ = 0; }
-  /// Whether a patch that follows the ground badly gives way to its children now. Not, and it is counted, if they were
-  /// never made and the budget is spent: it is drawn for a frame more. What must be drawn is made in any case.
-  [[nodiscard]] bool may_split(const PatchNode& node);
-  /// Patches that the last selection drew coarser than it should.
-  [[nodiscard]] int put_off() const { return put_off_; }
+  [[nodiscard]] int meshes_left() const { return meshes_left_; }
   /// Of the tiles that are there.
   [[nodiscard]] std::size_t bytes() const { return field_.size() * tile_bytes_; }
   [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
 
   /// Brings a node's bounds up to date with the heights: its sphere, the cone that the horizon is tested by.
-  void refresh_bounds(const PatchTree& tree, PatchNode& node);
+  void refresh_bounds(const PatchTree& tree, PatchNode& node) const;
+  /// Counts the changes of heights.
+  [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
+  /// True if refresh_mesh() would make the mesh.
+  [[nodiscard]] bool is_stale(const PatchTree& tree, const PatchNode& node) const {
+    return node.relief.heights_m.empty() || changed_since(tree, node, node.relief.mesh_seen);
+  }
   /// The heights of its vertices, the slopes there and how far the ground lies from the mesh between them.
   void refresh_mesh(const PatchTree& tree, PatchNode& node);
 
@@ -78,7 +78,6 @@ class Relief : public GroundHeights {
   [[nodiscard]] bool touches(const PatchTree& tree, const PatchNode& node, const Change& change) const;
   [[nodiscard]] Change change_of(const TileId& id) const;
   [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const;
-  [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
   void note_change(const Change& change);
   void measure_vertices(const PatchTree& tree, PatchNode& node) const;
   void measure_error(const PatchTree& tree, PatchNode& node) const;
@@ -95,7 +94,6 @@ class Relief : public GroundHeights {
   std::deque<Change> changes_;  ///< the latest ones
   std::uint64_t changes_forgotten_ = 0;
   int meshes_left_ = 0;
-  int put_off_ = 0;
   std::uint64_t meshes_made_ = 0;
   GroundRange range_;  ///< as the tiles have it
   TileResidency tiles_;

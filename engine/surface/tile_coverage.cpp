@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "geo/scaled_space.h"
 
@@ -24,66 +25,61 @@ constexpr int kFewTiles = 64;
 // To texels so long along the meridian, in pixels, but from where they are about a quarter as wide as long.
 constexpr double kLongestTexel_px = 1.55, kCloseToPole = 0.07;
 
-// Entries looked up in this frame. Cells side by side climb through the same ancestors, so some remembered entries a
-// level save most walks through the hash table. Nothing is erased while a frame's cells are found.
-class EntryMemo {
+// Uses looked up in this plan. Cells side by side climb through the same ancestors, so some remembered uses a level
+// save most walks through the hash table.
+class UseMemo {
  public:
-  EntryMemo(const TileGrid& grid, TileResidency& residency) : grid_(grid), residency_(residency) {}
+  UseMemo(const TileGrid& grid, const TileResidency& residency, TileUses& uses)
+      : grid_(grid), residency_(residency), uses_(uses) {}
 
-  struct Line {
-    TileId id{-1, 0, 0};  ///< in the full grid
-    bool squeezed = false;
-    TileId tile;  ///< that stands for it (reduced_tile())
-    TileResidency::Entry* entry = nullptr;
-    bool judged = false;
-  };
-
-  /// Without an entry where none was ever made: then the tile is unknown. Valid until the next call.
-  [[nodiscard]] const Line& find(const TileId& id, bool squeezed) {
-    Line& line = line_of(id);
-    if (line.id == id && line.squeezed == squeezed) return line;
-    const TileId tile = squeezed ? reduced_tile(grid_, id) : id;
-    line = {id, squeezed, tile, residency_.find(tile), false};
-    return line;
+  /// The use of the tile that stands for `id` of the full grid (reduced_tile()).
+  [[nodiscard]] std::uint32_t find(const TileId& id, bool squeezed) {
+    Line& line = lines_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>((id.x & 7) | (id.y & 3) << 3)];
+    if (line.x != id.x || line.y != id.y || line.squeezed != squeezed) {
+      line = {id.x, id.y, uses_.find(squeezed ? reduced_tile(grid_, id) : id, residency_), squeezed};
+    }
+    return line.use;
   }
-  /// Made if it is not there; a tile that the grid does not have is told apart from one not asked for.
-  [[nodiscard]] const Line& judged(const TileId& id, bool squeezed) {
-    Line& line = line_of(id);
-    if (line.id == id && line.squeezed == squeezed && line.judged) return line;
-    const TileId tile = squeezed ? reduced_tile(grid_, id) : id;
-    TileResidency::Entry& entry = residency_.entry(tile);
-    if (entry.state == TileState::unknown && !exists(grid_, tile)) entry.state = TileState::outside;
-    line = {id, squeezed, tile, &entry, true};
-    return line;
+  /// The same for a cell in view. Tells a tile that the grid does not have from one that was never requested.
+  [[nodiscard]] std::uint32_t judged(const TileId& id, bool squeezed) {
+    const std::uint32_t index = find(id, squeezed);
+    TileUse& use = uses_[index];
+    if (!std::exchange(use.judged, true) && use.state == TileState::unknown && !exists(grid_, use.id)) {
+      use.state = TileState::outside;
+    }
+    return index;
   }
 
  private:
-  [[nodiscard]] Line& line_of(const TileId& id) {
-    const std::int64_t place = (id.x & 7) | (id.y & 3) << 3;
-    return lines_[static_cast<std::size_t>(id.level)][static_cast<std::size_t>(place)];
-  }
+  struct Line {
+    std::int64_t x = -1, y = -1;
+    std::uint32_t use = 0;
+    bool squeezed = false;
+  };
 
   const TileGrid& grid_;
-  TileResidency& residency_;
+  const TileResidency& residency_;
+  TileUses& uses_;
   std::array<std::array<Line, 32>, kMaxTileLevel + 1> lines_;
 };
 
 class Coverer {
  public:
-  Coverer(PatchTree& tree, const View& view, TileResidency& residency, std::uint64_t frame, TileCoverage& out,
-          double texels_per_pixel, OutOfBounds out_of_bounds)
-      : tree_(tree),
-        view_(view),
-        memo_(tree.grid(), residency),
-        frame_(frame),
+  Coverer(const CoverInput& input, TileCoverage& out)
+      : tree_(input.tree),
+        growth_(input.growth),
+        view_(input.view),
+        memo_(input.tree.grid(), input.residency, out.uses),
         out_(out),
-        planes_(view_planes(view)),
-        out_of_bounds_(out_of_bounds) {
+        planes_(view_planes(input.view)),
+        out_of_bounds_(input.out_of_bounds) {
+    const PatchTree& tree = input.tree;
+    const View& view = input.view;
     const Ellipsoid& e = tree.ellipsoid();
     radians_per_pixel_ = 1.0 / view.pixels_per_radian();
     const double texel0_m = e.a_m() * (std::numbers::pi / 180.0) * tree.grid().root_span_deg / tree.grid().tile_px;
-    texel0_asked_m_ = texel0_m * texels_per_pixel;
-    most_asked_ = texels_per_pixel;
+    texel0_asked_m_ = texel0_m * input.texels_per_pixel;
+    most_asked_ = input.texels_per_pixel;
     const glm::dvec3 eye_scaled = view.eye.xyz_m / semi_axes_m(e);
     eye_over_axes2_ = eye_scaled / semi_axes_m(e);
     horizon_per_m_ = glm::length(eye_scaled) / e.b_m();
@@ -99,41 +95,43 @@ class Coverer {
     if (too_many_texels()) {
       narrow_texels_are_long_ = true;
       for (const Choice& choice : choices_) {
-        if (choice.entry != nullptr) choice.entry->last_chosen = 0;
+        if (choice.use != kUnseen) out_.uses[choice.use].chosen = false;
       }
       choose_levels(patches);
     }
     const Choice* choice = choices_.data();
-    for (const SelectedPatch& patch : patches) {
-      cover(patch, choice);
-      choice += patch.node->window.cells.size();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      cover(patches[k], *windows_[k], choice);
+      choice += windows_[k]->cells.size();
     }
   }
 
  private:
+  static constexpr std::uint32_t kUnseen = ~0U;  ///< the cell is out of view
   /// What a cell would take by itself.
   struct Choice {
-    TileResidency::Entry* entry = nullptr;  ///< none: the cell is out of view
-    int spare = 0;                          ///< levels coarser than the window
+    std::uint32_t use = kUnseen;
+    int spare = 0;  ///< levels coarser than the window
   };
 
   void choose_levels(const std::vector<SelectedPatch>& patches) {
     choices_.clear();
+    windows_.clear();
     for (const SelectedPatch& patch : patches) choose_levels(patch);
   }
 
   void choose_levels(const SelectedPatch& patch) {
-    const TileWindow& win = tree_.window(*patch.node, patch.tile_level, patch.squeeze);
+    const TileWindow& win = growth_.window(*patch.node, patch.tile_level, patch.squeeze);
+    windows_.push_back(&win);
     const TileId last = last_tile(win.level);
     for (int y = 0; y < win.h; ++y) {
       for (int x = 0; x < win.w; ++x) {
         Choice& choice = choices_.emplace_back();
-        if (!in_view(patch, x, y)) continue;
+        if (!in_view(patch, win, x, y)) continue;
         const TileId id = tile_of(win, x, y, last);
         choice.spare = levels_to_spare(id, texels_wanted(win.cells[index(win, x, y)]));
-        choice.entry = memo_.judged(ancestor(id, choice.spare), patch.squeezed || choice.spare > 0).entry;
-        if (choice.entry->last_chosen != frame_) ++chosen_;
-        choice.entry->last_chosen = frame_;
+        choice.use = memo_.judged(ancestor(id, choice.spare), patch.squeezed || choice.spare > 0);
+        if (!std::exchange(out_.uses[choice.use].chosen, true)) ++chosen_;
       }
     }
   }
@@ -154,8 +152,7 @@ class Coverer {
     return spare;
   }
 
-  void cover(const SelectedPatch& patch, const Choice* choice) {
-    const TileWindow& win = patch.node->window;
+  void cover(const SelectedPatch& patch, const TileWindow& win, const Choice* choice) {
     out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
     const TileId last = last_tile(win.level);
     bool uncovered = false;
@@ -244,18 +241,17 @@ class Coverer {
     return sides;
   }
 
-  [[nodiscard]] bool in_view(const SelectedPatch& patch, int x, int y) {
+  [[nodiscard]] bool in_view(const SelectedPatch& patch, const TileWindow& win, int x, int y) {
     if (!patch.cut_by_view) return true;
-    const PatchNode& node = *patch.node;
-    const CellExtent& cell = node.window.cells[index(node.window, x, y)];
-    const PatchRelief& relief = node.relief;
+    const CellExtent& cell = win.cells[index(win, x, y)];
+    const PatchRelief& relief = patch.body().relief;
     const BoundingSphere whole{
         cell.whole.center_m + relief.middle_m * cell.up,
         cell.whole.radius_m * (1.0 + std::abs(relief.middle_m) * least_radius_per_m_) + relief.half_m};
     const unsigned cut = beyond(whole.center_m, -whole.radius_m, limits_);
     if (cut == 0 || beyond(whole.center_m, 0.0, cut) == 0) return true;
     if (beyond(whole.center_m, whole.radius_m, cut) != 0) return false;
-    return part_in_view(tree_.cell_lattice(*patch.node, x, y), std::abs(relief.middle_m) + relief.half_m, cut);
+    return part_in_view(growth_.lattice(*patch.node, win, x, y), std::abs(relief.middle_m) + relief.half_m, cut);
   }
 
   // A quad is out of view if one limit has all its corners beyond it.
@@ -274,18 +270,17 @@ class Coverer {
   // A cell out of view takes what is there; nobody asks for its tile or counts it.
   Found find_unseen(const SelectedPatch& patch, TileId id) {
     for (int up = 0;; ++up, id = parent(id)) {
-      const EntryMemo::Line& line = memo_.find(id, patch.squeezed || up > 0);
-      if (line.entry != nullptr && line.entry->state == TileState::resident) return drawn(line, up);
-      if (id.level <= tree_.grid().min_level) return {up, line.tile.squeeze, 0, false};
+      TileUse& use = out_.uses[memo_.find(id, patch.squeezed || up > 0)];
+      if (use.state == TileState::resident) return drawn(use, up);
+      if (id.level <= tree_.grid().min_level) return {up, use.id.squeeze, 0, false};
     }
   }
 
   Found find(const SelectedPatch& patch, const TileId& id, const Choice& choice) {
-    if (choice.entry == nullptr) return find_unseen(patch, id);
+    if (choice.use == kUnseen) return find_unseen(patch, id);
     TileId finer = id;
     for (int up = 0; up < choice.spare; ++up, finer = parent(finer)) {
-      const EntryMemo::Line& line = memo_.find(finer, patch.squeezed || up > 0);
-      if (line.entry != nullptr && line.entry->last_chosen == frame_) return find_seen(patch, finer, up);
+      if (out_.uses[memo_.find(finer, patch.squeezed || up > 0)].chosen) return find_seen(patch, finer, up);
     }
     return find_seen(patch, finer, choice.spare);
   }
@@ -296,50 +291,47 @@ class Coverer {
     bool in_bounds = true;
     bool asked = false;  // one tile is asked for: the finest that can still come
     for (;;) {
-      const EntryMemo::Line& line = memo_.judged(id, patch.squeezed || up > 0);
-      TileResidency::Entry& entry = *line.entry;
-      if (entry.state == TileState::outside && out_of_bounds_ == OutOfBounds::nothing) {
-        return {up, line.tile.squeeze, 0, false};
+      TileUse& use = out_.uses[memo_.judged(id, patch.squeezed || up > 0)];
+      if (use.state == TileState::outside && out_of_bounds_ == OutOfBounds::nothing) {
+        return {up, use.id.squeeze, 0, false};
       }
-      if (entry.state == TileState::outside) in_bounds = in_bounds && counted;
-      if (!counted && entry.state != TileState::outside) {
+      if (use.state == TileState::outside) in_bounds = in_bounds && counted;
+      if (!counted && use.state != TileState::outside) {
         counted = true;
-        count(entry);
+        count(use);
       }
-      if (entry.state == TileState::resident) {
-        if (!asked) entry.last_needed = frame_;
+      if (use.state == TileState::resident) {
+        use.needed = use.needed || !asked;
         out_.shown = out_.shown || in_bounds;
-        return drawn(line, up);
+        return drawn(use, up);
       }
-      if (!asked && entry.state == TileState::unknown) {
+      if (!asked && use.state == TileState::unknown) {
         asked = true;
-        want(patch, line.tile, entry);
+        want(patch, use);
       }
-      if (id.level <= tree_.grid().min_level) return {up, line.tile.squeeze, 0, true};
+      if (id.level <= tree_.grid().min_level) return {up, use.id.squeeze, 0, true};
       id = parent(id);
       ++up;
     }
   }
 
-  [[nodiscard]] Found drawn(const EntryMemo::Line& line, int levels_up) const {
-    line.entry->last_drawn = frame_;
-    return {levels_up, line.tile.squeeze, line.entry->slot, false};
+  [[nodiscard]] static Found drawn(TileUse& use, int levels_up) {
+    use.drawn = true;
+    return {levels_up, use.id.squeeze, use.slot, false};
   }
 
-  void want(const SelectedPatch& patch, const TileId& id, TileResidency::Entry& entry) {
-    if (entry.last_wanted == frame_) return;
-    entry.last_wanted = frame_;
-    const BoundingSphere& sphere = patch.node->sphere;
+  void want(const SelectedPatch& patch, TileUse& use) {
+    if (std::exchange(use.wanted, true)) return;
+    const BoundingSphere& sphere = patch.body().sphere;
     const double depth = std::max(1.0, glm::dot(sphere.center_m - view_.eye.xyz_m, view_.forward));
-    out_.wanted.push_back({id, -id.level + sphere.radius_m / (depth + sphere.radius_m)});
+    out_.wanted.push_back({use.id, -use.id.level + sphere.radius_m / (depth + sphere.radius_m)});
   }
 
-  void count(TileResidency::Entry& entry) {
-    if (entry.last_counted == frame_) return;
-    entry.last_counted = frame_;
+  void count(TileUse& use) {
+    if (std::exchange(use.counted, true)) return;
     ++out_.tiles;
-    if (entry.state == TileState::unknown) ++out_.missing;
-    if (entry.state == TileState::missing) ++out_.lacking;
+    if (use.state == TileState::unknown) ++out_.missing;
+    if (use.state == TileState::missing) ++out_.lacking;
   }
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
@@ -359,10 +351,10 @@ class Coverer {
     return draw;
   }
 
-  PatchTree& tree_;
+  const PatchTree& tree_;
+  TreeGrowth& growth_;
   const View& view_;
-  EntryMemo memo_;
-  std::uint64_t frame_;
+  UseMemo memo_;
   TileCoverage& out_;
   ViewPlanes planes_;
   OutOfBounds out_of_bounds_;
@@ -371,7 +363,8 @@ class Coverer {
   double horizon_ = 1.0;        ///< what the dot product is, at least, of what some eye sees
   double horizon_per_m_ = 0.0;  ///< what a metre is, at most, in the horizon's dot product
   unsigned limits_ = kAllLimits;
-  std::vector<Choice> choices_;  ///< of all cells in order
+  std::vector<const TileWindow*> windows_;  ///< of the patches in order
+  std::vector<Choice> choices_;             ///< of all cells in order
   double radians_per_pixel_ = 0.0;
   int chosen_ = 0;  ///< tiles that cells would take by themselves
   bool narrow_texels_are_long_ = false;
@@ -393,16 +386,54 @@ std::vector<TileId> root_tiles(const TileGrid& grid) {
   return tiles;
 }
 
-void cover_with_tiles(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches,
-                      TileResidency& residency, std::uint64_t frame, TileCoverage& out, double texels_per_pixel,
-                      OutOfBounds out_of_bounds) {
+void TileUses::clear() {
+  uses_.clear();
+  std::ranges::fill(table_, kNone);
+}
+
+// Where the tile's index stands, or where it would.
+std::size_t TileUses::place(const TileId& id) const {
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = TileIdHash{}(id)&mask;
+  while (table_[at] != kNone && uses_[table_[at]].id != id) at = (at + 1) & mask;
+  return at;
+}
+
+void TileUses::grow() {
+  table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), kNone);
+  for (std::uint32_t k = 0; k < uses_.size(); ++k) table_[place(uses_[k].id)] = k;
+}
+
+std::uint32_t TileUses::find(const TileId& id, const TileResidency& residency) {
+  if (2 * (uses_.size() + 1) > table_.size()) grow();
+  std::uint32_t& index = table_[place(id)];
+  if (index != kNone) return index;
+  index = static_cast<std::uint32_t>(uses_.size());
+  const TileResidency::Entry* entry = residency.find(id);
+  TileUse& use = uses_.emplace_back(TileUse{.id = id});
+  if (entry != nullptr) use.state = entry->state, use.slot = entry->slot;
+  return index;
+}
+
+void cover_with_tiles(const CoverInput& input, TileCoverage& out) {
   out.draws.clear();
   out.cells.clear();
   out.wanted.clear();
+  out.uses.clear();
   out.tiles = out.missing = out.lacking = out.uncovered = 0;
   out.shown = false;
-  Coverer coverer(tree, view, residency, frame, out, texels_per_pixel, out_of_bounds);
-  coverer.cover(patches);
+  Coverer(input, out).cover(input.patches);
+}
+
+void note_use(const TileUses& uses, std::uint64_t frame, TileResidency& residency) {
+  for (const TileUse& use : uses.all()) {
+    if (!use.judged && !use.drawn) continue;
+    TileResidency::Entry& entry = residency.entry(use.id);
+    entry.last_seen = frame;
+    if (use.drawn) entry.last_drawn = frame;
+    if (use.needed) entry.last_needed = frame;
+    if (use.state == TileState::outside) entry.state = TileState::outside;
+  }
 }
 
 }  // namespace terrella

@@ -32,15 +32,10 @@ class TileResidency {
   using Clock = std::chrono::steady_clock;
   struct Entry {
     TileState state = TileState::unknown;
-    int slot = -1;                   ///< texture slot, if resident
-    std::uint64_t last_drawn = 0;    ///< frame number, for eviction
-    std::uint64_t last_needed = 0;   ///< frame number: drawn where nothing finer can still come, so not to be evicted
-    std::uint64_t last_wanted = 0;   ///< frame number, so that a frame lists a tile once
-    std::uint64_t last_chosen = 0;   ///< frame number: what a cell would take by itself
-    std::uint64_t last_counted = 0;  ///< frame number, so that a frame counts a tile once
-    [[nodiscard]] std::uint64_t last_seen() const {
-      return std::max({last_drawn, last_needed, last_wanted, last_chosen, last_counted});
-    }
+    int slot = -1;                  ///< texture slot, if resident
+    std::uint64_t last_drawn = 0;   ///< frame number, for eviction
+    std::uint64_t last_needed = 0;  ///< frame number: drawn where nothing finer can still come, so not to be evicted
+    std::uint64_t last_seen = 0;    ///< frame number: a frame took the tile into account
   };
 
   [[nodiscard]] Entry& entry(const TileId& id) { return entries_[id]; }
@@ -54,6 +49,7 @@ class TileResidency {
   }
   void erase(const TileId& id) { entries_.erase(id); }
   [[nodiscard]] std::unordered_map<TileId, Entry, TileIdHash>& entries() { return entries_; }
+  [[nodiscard]] const std::unordered_map<TileId, Entry, TileIdHash>& entries() const { return entries_; }
   [[nodiscard]] std::size_t count(TileState state) const {
     return static_cast<std::size_t>(
         std::ranges::count_if(entries_, [state](const auto& item) { return item.second.state == state; }));
@@ -95,7 +91,7 @@ class TileResidency {
     if (entries_.size() <= std::max(many, most_)) return;
     std::erase_if(entries_, [&](const auto& item) {
       return item.second.state != TileState::resident && item.first.level > coarsest_level &&
-             item.second.last_seen() + kLong < frame;
+             item.second.last_seen + kLong < frame;
     });
     most_ = 2 * entries_.size();
   }

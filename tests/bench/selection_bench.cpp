@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "surface/patch_selection.h"
+#include "surface/frame_plan.h"
 #include "surface/tile_coverage.h"
 
 namespace {
@@ -60,10 +60,22 @@ struct Settled {
   }
 
   void frame_once() {
-    select_patches(tree, view, options, patches);
-    cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
+    FramePlan plan =
+        plan_frame(view, {.layers = {{.tree = &tree, .tiles = &residency}}, .sun = {}, .patch_shuffle = {}}, options);
+    tree.adopt(plan.layers[0].growth);
+    patches = std::move(plan.layers[0].patches);
+    coverage = std::move(plan.layers[0].coverage);
+    note_use(coverage.uses, ++frame, residency);
     tree.end_frame();
     residency.end_frame(frame, kGrid.min_level);
+  }
+
+  void cover() {
+    TreeGrowth growth(tree);
+    cover_with_tiles({.tree = tree, .growth = growth, .view = view, .patches = patches, .residency = residency},
+                     coverage);
+    tree.adopt(growth);
+    note_use(coverage.uses, ++frame, residency);
   }
 
   Body body = earth();
@@ -101,9 +113,7 @@ void patches_alone(benchmark::State& state, const Case& what) {
 
 void tiles_alone(benchmark::State& state, const Case& what) {
   Settled settled(what);
-  for (auto _ : state) {
-    cover_with_tiles(settled.tree, settled.view, settled.patches, settled.residency, ++settled.frame, settled.coverage);
-  }
+  for (auto _ : state) settled.cover();
   report(state, settled);
 }
 

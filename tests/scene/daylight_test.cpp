@@ -1,5 +1,6 @@
 // On which patches a layer by day or by night has anything to show.
 #include "surface/daylight.h"
+#include "patch_test_support.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ TEST(Daylight, PatchesAreLeftOutWhereNothingShowsAndOnlyThere) {
       int left_out = 0, in_vain = 0, patches = 0;
       for (int face = 0; face < 6; ++face) {
         for (std::uint32_t k = 0; k < 64; ++k) {
-          const PatchNode& patch = tree.node({static_cast<CubeFace>(face), 3, k % 8, k / 8});
+          const PatchNode& patch = node_of(tree, {static_cast<CubeFace>(face), 3, k % 8, k / 8});
           for (const Daylight side : {Daylight::day, Daylight::night}) {
             EXPECT_TRUE(may_show(Daylight::both, patch, e, sun));
             const bool shows = shows_somewhere(side, patch.id, sun), may = may_show(side, patch, e, sun);

@@ -224,7 +224,6 @@ TEST(PatchSelection, WhatNoFrameComesToGoesAndNothingElseChanges) {
   Draw draw(14);
   PatchTree used(earth().ellipsoid, deep_grid(), kSegments), above(earth().ellipsoid, deep_grid(), kSegments);
   std::vector<SelectedPatch> first, again, further;
-  const FurtherImagery over{.tree = &above, .out = &further};
   std::size_t dropped = 0;
   for (int k = 0; k < 60; ++k) {
     // A flight between two places: what is given up comes back.
@@ -233,7 +232,11 @@ TEST(PatchSelection, WhatNoFrameComesToGoesAndNothingElseChanges) {
     const View view = make_view(camera, earth().ellipsoid, {320, 240});
     PatchTree fresh(earth().ellipsoid, deep_grid(), kSegments);
     select_patches(fresh, view, {}, first);
-    select_patches(used, view, {}, again, std::span(&over, 1));
+    TreeGrowth growth(used), growth_above(above);
+    const FurtherImagery over{.tree = &above, .growth = &growth_above, .out = &further};
+    again = plan_patches(used, growth, view, {}, std::span(&over, 1)).patches;
+    used.adopt(growth);
+    above.adopt(growth_above);
     for (PatchTree* tree : {&used, &above}) {
       const std::size_t before = tree->size();
       tree->end_frame(kMany);

@@ -33,14 +33,23 @@ std::vector<TileGrid> grids() {
   return all;
 }
 
+/// Covers, and notes nothing.
+void cover(PatchTree& tree, const View& view, const std::vector<SelectedPatch>& patches, const TileResidency& residency,
+           TileCoverage& coverage) {
+  TreeGrowth growth(tree);
+  cover_with_tiles({.tree = tree, .growth = growth, .view = view, .patches = patches, .residency = residency},
+                   coverage);
+  tree.adopt(growth);
+}
+
 /// A selected patch by hand: whole, in view, with a window at a level where it has not too many cells.
 SelectedPatch selected(PatchTree& tree, const PatchId& id, int tile_level) {
   PatchNode& node = node_of(tree, id);
   return {.node = &node, .tile_level = tile_level, .squeeze = tree.window_squeeze(node, tile_level)};
 }
 
-const TileWindow& window_of(PatchTree& tree, PatchNode& node, int level) {
-  return tree.window(node, level, tree.window_squeeze(node, level));
+TileWindow window_of(const PatchTree& tree, const PatchNode& node, int level) {
+  return tree.make_window(node, level, tree.window_squeeze(node, level));
 }
 
 /// The finest level at which a patch's window has no more than `cells` a side.
@@ -61,7 +70,7 @@ TEST(TileWindows, HoldEveryVertexOfTheirPatch) {
       const PatchId id =
           k % 5 == 0 ? patch_beside(90, draw.between(-180, 180), 1 + k % 20) : random_patch(draw, 1 + k % 22);
       PatchNode& node = node_of(tree, id);
-      const TileWindow& win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
+      const TileWindow win = window_of(tree, node, level_for(grid, node, 1 + k % 20));
       ASSERT_GE(win.x0, 0);
       ASSERT_GE(win.y0, 0);
       ASSERT_LE(win.x0 + win.w, squeezed_columns(grid, win.level, win.squeeze));
@@ -153,7 +162,7 @@ TEST(TileCoverage, EveryPointFindsItsTileOrTheNearestResidentAncestor) {
       TileResidency residency;
       const auto tiles = fill(draw, grid, window_of(tree, node, level), residency);
       TileCoverage coverage;
-      cover_with_tiles(tree, view, {selected(tree, id, level)}, residency, 1, coverage);
+      cover(tree, view, {selected(tree, id, level)}, residency, coverage);
       EXPECT_EQ(coverage.uncovered, 0);
       const auto vertices = patch_vertices(tree, node);
       for (int v = 0; v < 40; ++v) {
@@ -173,9 +182,9 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
   const PatchId id = patch_beside(20, 30, 6);
   TileResidency residency;
   std::map<int, int> level_of_slot = {{0, -1}};
-  const TileWindow win = tree.window(node_of(tree, id), 8, 0);
+  const TileWindow win = tree.make_window(node_of(tree, id), 8, 0);
   TileCoverage coverage;
-  cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, 1, coverage);
+  cover(tree, view, {selected(tree, id, 8)}, residency, coverage);
   EXPECT_EQ(coverage.uncovered, 1) << "nothing is resident";
   // Levels become resident one by one; each time all cells move on to the new one.
   for (int level = 0, slot = 1; level <= 8; ++level) {
@@ -188,7 +197,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
         level_of_slot[slot++] = level;
       }
     }
-    cover_with_tiles(tree, view, {selected(tree, id, 8)}, residency, 2U + static_cast<unsigned>(level), coverage);
+    cover(tree, view, {selected(tree, id, 8)}, residency, coverage);
     EXPECT_EQ(coverage.uncovered, 0);
     for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell & 0xFFFFU)), level);
     EXPECT_EQ(coverage.wanted.empty(), level == 8);
@@ -242,7 +251,8 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
       TileCoverage coverage;
       std::uint64_t frame = 0;
       do {
-        cover_with_tiles(tree, view, patches, residency, ++frame, coverage);
+        cover(tree, view, patches, residency, coverage);
+        ++frame;
         expect_each_once_and_in_the_grid(grid, coverage);
         const bool whole_planet = grid.bounds.north > Angle::degrees(80);
         EXPECT_TRUE(!whole_planet || coverage.uncovered == 0);
@@ -264,7 +274,7 @@ TEST(TileResidency, WhatNoFrameHasHadToDoWithForLongIsForgotten) {
   for (std::uint64_t frame = 1; frame <= kFrames; ++frame) {
     for (std::int64_t x = 0; x < 10; ++x) {
       TileResidency::Entry& entry = residency.entry({9, static_cast<std::int64_t>(10 * frame) + x, 0});
-      entry.last_wanted = frame;
+      entry.last_seen = frame;
       if (x < 5) entry.state = TileState::missing;
     }
     residency.end_frame(frame, 0);
@@ -301,7 +311,7 @@ TEST(TileCoverage, AsksForEveryTileThatTheViewShows) {
     select_patches(tree, view, {}, patches);
     TileResidency residency;
     TileCoverage coverage;
-    cover_with_tiles(tree, view, patches, residency, 1, coverage);
+    cover(tree, view, patches, residency, coverage);
     TileSet wanted;
     for (const WantedTile& w : coverage.wanted) wanted.insert(w.id);
     std::map<PatchId, int> levels;
@@ -343,7 +353,7 @@ int tiles_under(PatchTree& tree, double lat, double lon, double height_m, int po
   select_patches(tree, view, options, patches);
   TileResidency residency;
   TileCoverage coverage;
-  cover_with_tiles(tree, view, patches, residency, 1, coverage);
+  cover(tree, view, patches, residency, coverage);
   return coverage.tiles;
 }
 

@@ -113,9 +113,13 @@ void PatchProbe::load(PatchScene& scene) {
   glVertexArrayVertexBuffer(array_.name(), 0, vertices_.name(), 0, sizeof(PatchVertex));
   glNamedBufferData(feedback_.name(), static_cast<GLsizeiptr>(scene.vertices.size() * sizeof(glm::vec4)), nullptr,
                     GL_STREAM_READ);
-  TileResidency none;
+  const TileResidency none;
   TileCoverage coverage;
-  cover_with_tiles(scene.tree, scene.view, scene.patches, none, 1, coverage);
+  TreeGrowth growth(scene.tree);
+  cover_with_tiles(
+      {.tree = scene.tree, .growth = growth, .view = scene.view, .patches = scene.patches, .residency = none},
+      coverage);
+  scene.tree.adopt(growth);
   draws_ = std::move(coverage.draws);
 }
 

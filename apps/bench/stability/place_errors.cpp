@@ -51,15 +51,15 @@ class PlaceJudge {
     const PatchNode& node = *patch.node;
     const TileGrid& grid = scene_.tree.grid();
     const double lon_deg = node.lon_center_deg + wrapped_deg(place.lon.deg() - node.lon_center_deg);
-    const TileXY xy = tile_xy(grid, node.window.level, place.lat.deg(), lon_deg);
-    const glm::dvec2 off(point.x - (xy.x - static_cast<double>(node.window.x0)),
-                         point.y - (xy.y - static_cast<double>(node.window.y0)));
+    const TileXY xy = tile_xy(grid, node.window->level, place.lat.deg(), lon_deg);
+    const glm::dvec2 off(point.x - (xy.x - static_cast<double>(node.window->x0)),
+                         point.y - (xy.y - static_cast<double>(node.window->y0)));
     return std::hypot(off.x * std::cos(place.lat.rad()), off.y) * grid.tile_px;
   }
 
   // Distance on the screen between this pixel and the place drawn at this pixel.
   [[nodiscard]] double off_px(const SelectedPatch& patch, glm::dvec2 point, glm::dvec2 pixel_px) const {
-    const TileWindow& window = patch.node->window;
+    const TileWindow& window = *patch.node->window;
     const double span_deg = tile_span_deg(scene_.tree.grid(), window.level);
     const Ellipsoid& e = scene_.tree.ellipsoid();
     const double row_deg = 90.0 - (point.y + static_cast<double>(window.y0)) * span_deg;

@@ -7,7 +7,7 @@ namespace {
 constexpr int kFirstCapacity = 512;
 }
 
-PatchBuffers::PatchBuffers(PatchTree& tree)
+PatchBuffers::PatchBuffers(const PatchTree& tree)
     : tree_(tree),
       vertices_per_patch_((tree.segments() + 1) * (tree.segments() + 1)),
       indices_(patch_indices(tree.segments())),

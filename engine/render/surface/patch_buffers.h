@@ -13,7 +13,7 @@ namespace terrella {
 /// share. thread: main
 class PatchBuffers {
  public:
-  explicit PatchBuffers(PatchTree& tree);
+  explicit PatchBuffers(const PatchTree& tree);
 
   /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there or if
   /// its heights have changed, in place of the patch drawn longest ago. Places used in the current frame are kept: the
@@ -37,7 +37,7 @@ class PatchBuffers {
   void grow();
   void fill(const PatchNode& node, int place);
 
-  PatchTree& tree_;
+  const PatchTree& tree_;
   int vertices_per_patch_;
   PatchIndices indices_;
   gl::Buffer vertices_, slopes_;

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "surface/patch_tree.h"
+
+namespace terrella {
+
+/// What a plan adds to a tree: nodes, windows and marks. The tree stays as it is until PatchTree::adopt() takes the
+/// growth. A growth is valid until another one was adopted or the tree's frame ended. thread: any, one at a time
+class TreeGrowth {
+ public:
+  TreeGrowth() = default;
+  /// `relief`: raises the bounds of new nodes; none where another tree's bounds are read instead.
+  explicit TreeGrowth(const PatchTree& tree, const Relief* relief = nullptr);
+
+  /// The four children, made if they are not there. The node counts as used in this frame.
+  [[nodiscard]] const PatchFamily& children(const PatchNode& node);
+  /// The four children in the tree or the growth; nullptr if they were never made.
+  [[nodiscard]] const PatchFamily* known_children(const PatchNode& node) const;
+  /// The node that stands in the tree or in the growth under this name, made if there is none.
+  [[nodiscard]] const PatchNode& node(const PatchId& id);
+  /// The deepest node that holds the neighbour across a side.
+  [[nodiscard]] const PatchNode& beside(const PatchNode& node, PatchSide side);
+  /// The node's window at a tile level, its columns squeezed as given (0 or window_squeeze()).
+  [[nodiscard]] const TileWindow& window(const PatchNode& node, int tile_level, int squeeze);
+  /// Lattice of the cell (x, y) of the node's window that was asked for last.
+  [[nodiscard]] const SurfaceLattice& lattice(const PatchNode& node, const TileWindow& window, int x, int y);
+
+  /// A new selection begins: no node is a leaf or split.
+  void clear_selection();
+  [[nodiscard]] bool is_leaf(const PatchNode& node) const { return (marks_[node.index] & kLeaf) != 0; }
+  [[nodiscard]] bool is_split(const PatchNode& node) const { return (marks_[node.index] & kSplit) != 0; }
+  /// True the first time in a selection.
+  [[nodiscard]] bool mark_mesh(const PatchNode& node) {
+    const bool first = (marks_[node.index] & kMesh) == 0;
+    marks_[node.index] |= kMesh;
+    return first;
+  }
+  void mark_leaf(const PatchNode& node) { marks_[node.index] |= kLeaf; }
+  void mark_split(const PatchNode& node) {
+    marks_[node.index] = static_cast<std::uint8_t>((marks_[node.index] | kSplit) & ~kLeaf);
+  }
+
+ private:
+  friend class PatchTree;
+  static constexpr std::uint8_t kLeaf = 1, kSplit = 2, kUsed = 4, kGrown = 8, kMesh = 16;
+
+  struct Beside {
+    const PatchNode* node;
+    PatchSide side;
+    const PatchNode* found;
+  };
+  struct Lattice {
+    const PatchNode* node;
+    const TileWindow* window;
+    std::size_t cell;
+    std::unique_ptr<SurfaceLattice> lattice;
+  };
+
+  const PatchFamily& make_children(const PatchNode& node);
+
+  const PatchTree* tree_ = nullptr;
+  const Relief* relief_ = nullptr;
+  std::vector<std::uint8_t> marks_;  ///< by PatchNode::index
+  std::vector<std::unique_ptr<PatchFamilyNodes>> made_;
+  std::unordered_map<const PatchNode*, PatchFamily> children_;  ///< of nodes with kGrown
+  std::vector<const PatchNode*> parents_;                       ///< of made_
+  std::vector<const PatchNode*> used_;
+  std::vector<Beside> beside_;
+  std::unordered_map<const PatchNode*, std::unique_ptr<TileWindow>> windows_;
+  std::vector<Lattice> lattices_;
+};
+
+}  // namespace terrella
