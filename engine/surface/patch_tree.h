@@ -67,7 +67,6 @@ using PatchFamily = std::array<PatchNode*, 4>;
 /// What never changes about a patch, worked out once and kept in the tree.
 struct PatchNode {
   PatchId id;
-  std::uint32_t index = 0;   ///< place among the nodes that there are
   std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
   BoundingSphere sphere;
   /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
@@ -88,6 +87,7 @@ struct PatchNode {
   double max_colatitude_rad = 0.0;                  ///< of the point farthest from that pole
   double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
+  std::uint32_t index = 0;  ///< place among the nodes that there are
   PatchNode* parent = nullptr;
   PatchFamily children{};              ///< all or none
   std::uint64_t children_used = 0;     ///< number of the frame that came to them last

@@ -99,6 +99,8 @@ class Coverer {
       }
       choose_levels(patches);
     }
+    out_.draws.reserve(patches.size());
+    out_.cells.reserve(choices_.size());
     const Choice* choice = choices_.data();
     for (std::size_t k = 0; k < patches.size(); ++k) {
       cover(patches[k], *windows_[k], choice);
@@ -117,6 +119,8 @@ class Coverer {
   void choose_levels(const std::vector<SelectedPatch>& patches) {
     choices_.clear();
     windows_.clear();
+    windows_.reserve(patches.size());
+    choices_.reserve(2 * patches.size());
     for (const SelectedPatch& patch : patches) choose_levels(patch);
   }
 
@@ -401,6 +405,7 @@ std::size_t TileUses::place(const TileId& id) const {
 
 void TileUses::grow() {
   table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), kNone);
+  uses_.reserve(table_.size() / 2);
   for (std::uint32_t k = 0; k < uses_.size(); ++k) table_[place(uses_[k].id)] = k;
 }
 
