@@ -53,8 +53,8 @@ class TilePlan {
 /// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
-/// thread: any. Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts are
-/// disjoint, together the whole, and differ by at most a tile a level.
+/// thread: any. Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts
+/// are disjoint, together the whole, and differ by at most a tile a level.
 struct Shard {
   std::int64_t index = 1;
   std::int64_t count = 1;
