@@ -59,7 +59,9 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     const auto wish = wishes_.find(id);
     if (wish == wishes_.end()) return;
     wish->second->priority = priority;
-    for (const TileId& stored : wish->second->missing) network_.set_priority(stored, priority_of(stored));
+    for (const TileId& stored : wish->second->missing) {
+      if (waiting_.contains(stored)) network_.set_priority(stored, priority_of(stored));  // else it has come
+    }
   }
 
   void cancel(const TileId& id) {

@@ -406,7 +406,7 @@ TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
   EXPECT_EQ(called.wait_for(std::chrono::seconds(5)), std::future_status::ready);
   network->turn_disk(true);
   answering.join();
-  called.wait();
+  called.get();
   EXPECT_TRUE(answers.empty());
   EXPECT_EQ(network->asked(), 0U);
 }
