@@ -18,6 +18,7 @@
 #include "apps/preload/preload_room.h"
 #include "apps/preload/preload_source.h"
 #include "apps/setup/console.h"
+#include "apps/setup/open_cache.h"
 #include "apps/setup/open_files.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/tile_list_file.h"
@@ -62,17 +63,8 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
   return options;
 }
 
-Result<std::shared_ptr<TileCache>> open_cache(const PreloadCommand& command, const PreloadSource& source) {
-  CacheOptions options;
-  options.max_bytes = static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000;
-  options.on_locked = [output = command.output] {
-    print_message("terrella preload: {} is locked by another program; waiting for it, a minute at most\n", output);
-  };
-  auto cache = TileCache::open(command.output, source.set.info, source.key, options);
-  if (cache && !(*cache)->set_aside().empty()) {
-    print_message("terrella preload: {} was damaged; it is now {}, and a new one was begun\n", command.output,
-                  (*cache)->set_aside().string());
-  }
+Result<std::shared_ptr<TileCache>> cache_of(const PreloadCommand& command, const PreloadSource& source) {
+  auto cache = open_cache("terrella preload", command.output, source.set.info, source.key, command.cache_size_mb);
   if (!cache) return cache.error();
   return *std::move(cache);
 }
@@ -87,7 +79,7 @@ struct Held {
 Result<Held> count_held(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   std::error_code unknown;
   if (!std::filesystem::exists(command.output, unknown)) return Held{};
-  const auto cache = open_cache(command, source);
+  const auto cache = cache_of(command, source);
   if (!cache) return cache.error();
   WantedTiles wanted(plan, **cache, refresh_age(command));
   while (!wanted.done()) {
@@ -114,7 +106,7 @@ Status check_room(const PreloadCommand& command, const PreloadSource& source, co
 int release(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   std::error_code unknown;
   if (!std::filesystem::exists(command.output, unknown)) return fail("preload", command.output + ": no such file");
-  const auto cache = open_cache(command, source);
+  const auto cache = cache_of(command, source);
   if (!cache) return fail("preload", cache.error().message);
   const auto released = pin_planned(plan, **cache, false);
   if (!released) return fail("preload", released.error().message);
@@ -182,7 +174,7 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   if (!lacks) return fail("preload", lacks.error().message);
   auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
   if (!stored) return fail("preload", stored.error().message);
-  const auto cache = open_cache(command, source);
+  const auto cache = cache_of(command, source);
   if (!cache) return fail("preload", cache.error().message);
   PreloadOptions options = preload_options(command, source);
   options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };

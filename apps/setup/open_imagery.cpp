@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "apps/setup/data_dir.h"
-#include "apps/setup/no_cache.h"
+#include "apps/setup/open_cache.h"
 #include "apps/setup/open_remote.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"

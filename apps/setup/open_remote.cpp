@@ -9,7 +9,7 @@
 
 #include "apps/preload/preload_source.h"
 #include "apps/setup/console.h"
-#include "apps/setup/no_cache.h"
+#include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
 #include "base/hash_mix.h"
 #include "codecs/image.h"
@@ -29,7 +29,6 @@ namespace fs = std::filesystem;
 // tiles.
 constexpr int kTemplateMaxLevel = 18;
 constexpr std::size_t kMaxNameBytes = 60;
-constexpr std::uint64_t kMegabyte = 1'000'000;
 
 /// Makes a file name from the address without secrets, and a hash of the rest. A new key or password does not make a
 /// new source.
@@ -86,21 +85,13 @@ std::shared_ptr<TileCache> go_without(const Error& why) {
 }
 
 /// Opens the cache; nullptr if the cache is off or not writable. Refuses a file of another kind.
-Result<std::shared_ptr<TileCache>> open_cache(const SceneOptions& options, const RemoteTileSet& set) {
+Result<std::shared_ptr<TileCache>> cache_of(const SceneOptions& options, const RemoteTileSet& set) {
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file(options);
   if (!file) return go_without(file.error());
-  CacheOptions cache_options{.max_bytes = options.cache_size_mb * kMegabyte};
-  cache_options.on_locked = [name = file->string()] {
-    print_message("terrella: {} is locked by another program; waiting for it, a minute at most\n", name);
-  };
-  auto cache = TileCache::open(*file, set.info, source_key(set), cache_options);
+  auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb);
   if (!cache && cache.error().cannot_write) return go_without(cache.error());
   if (!cache) return cache.error();
-  if (!(*cache)->set_aside().empty()) {
-    print_message("terrella: {} was damaged; it is now {}, and a new one was begun\n", file->string(),
-                  (*cache)->set_aside().string());
-  }
   return *std::move(cache);
 }
 
@@ -141,7 +132,7 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
       options.tile_set, remote,
       [&http](const Url& url, const std::vector<std::string>& headers) { return fetch_document(http, url, headers); });
   if (!set) return set.error();
-  auto cache = open_cache(options, *set);
+  auto cache = cache_of(options, *set);
   if (!cache) return cache.error();
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();

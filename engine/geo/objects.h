@@ -56,7 +56,7 @@ struct LabelObject {
   ObjectColor color{255, 255, 255};
   float size_px = 10.0F;  ///< size of the marker
   double radius_m = 0.0;  ///< radius of the sphere
-  /// Of two labels that would overlap, the one with the higher priority is shown; on a tie, the first.
+  /// If two labels would overlap, only the label with the higher priority is shown; on a tie, the first.
   double priority = 0.0;
   bool through_surface = false;
 };

@@ -43,7 +43,7 @@ struct LayerFrame {
   [[nodiscard]] bool is_special() const { return daylight != Daylight::both || alpha != AlphaFrom::own; }
 };
 
-/// What one frame is drawn from.
+/// Input of one frame.
 struct FrameInput {
   Viewport size;
   glm::ivec2 corner_px{0};         ///< of the picture in the framebuffer, lower left
@@ -62,7 +62,7 @@ struct FrameInput {
   bool naive_translucency = false;
 };
 
-/// What the sky is made of; programs for it exist only if this is given.
+/// Data of the sky. Programs for the sky exist only if the data is given.
 struct SkyAssets {
   Body body;
   std::vector<Star> stars;
@@ -104,7 +104,7 @@ class GlobeRenderer {
   };
   /// Passes that draw the surface once more, after its depth is there.
   static constexpr DepthState kSameDepth{.test = GL_EQUAL, .write = false};
-  /// What the passes of one picture have in common.
+  /// Values that all passes of one picture share.
   struct Pass {
     const FrameInput& input;
     const EyePicture& eye;

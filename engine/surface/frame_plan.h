@@ -31,7 +31,7 @@ struct FrameSnapshot {
   std::optional<unsigned> patch_shuffle;  ///< seed of an order in which the lowest layer's patches are drawn
 };
 
-/// What a frame draws of one layer and changes in it.
+/// Plan of one layer: what a frame draws, and what executing the plan changes.
 struct LayerPlan {
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;
@@ -39,7 +39,7 @@ struct LayerPlan {
   double detail = 1.0;
 };
 
-/// What a frame draws and asks for.
+/// Plan of a frame: patches, tiles and meshes to draw and to request.
 struct FramePlan {
   std::vector<LayerPlan> layers;         ///< as the snapshot's
   std::vector<const PatchNode*> meshes;  ///< PatchSelection::meshes

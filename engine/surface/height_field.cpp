@@ -234,7 +234,7 @@ GroundRange HeightField::range_of_rows(const GeoRect& rows_box, double exaggerat
   return {.min_m = least, .max_m = most};
 }
 
-/// Where nothing is there the height is 0.
+/// The height is 0 if no tile is loaded.
 void HeightField::widen_by_box(const RowBox& box, Extrema& extrema) const {
   for (std::int64_t y = 0; y < rows(grid_, 0); ++y) {
     for (std::int64_t x = 0; x < columns(grid_, 0); ++x) {

@@ -62,7 +62,7 @@ class HeightField {
     /// elsewhere.
     std::int64_t own_columns = 0, own_rows = 0;
   };
-  /// Of a level, worked out once.
+  /// Values of a level, computed once.
   struct LevelSize {
     double span_deg = 0.0;  ///< of a tile
     double turn_px = 0.0;   ///< 360°, no whole number in some grids

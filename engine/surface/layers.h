@@ -17,7 +17,7 @@ enum class Daylight {
   night  ///< shines by itself: the light of the Sun does not change its colours
 };
 
-/// What a layer's transparency is taken from.
+/// Source of a layer's transparency.
 enum class AlphaFrom {
   own,        ///< its tiles' alpha; without any they are opaque
   brightness  ///< the largest of red, green and blue too: black shows what lies under it, as pictures of clouds have it

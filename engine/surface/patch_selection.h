@@ -65,7 +65,7 @@ struct ViewPlanes {
 /// -1 outside, 0 cut, 1 inside.
 [[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
 
-/// What a selection comes to.
+/// Result of a selection.
 struct PatchSelection {
   std::vector<SelectedPatch> patches;
   std::vector<const PatchNode*> meshes;  ///< of relief, to be made before the patches are drawn

@@ -27,7 +27,7 @@ struct SurfaceLattice {
 };
 inline constexpr int kLatticeQuads = 4;
 
-/// What a cell of a window shares with its patch.
+/// Values that a cell of a window shares with its patch.
 struct CellExtent {
   BoundingSphere whole;
   glm::dvec3 up{0.0};                       ///< geodetic normal in its middle
@@ -48,7 +48,7 @@ struct TileWindow {
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
 [[nodiscard]] double wrapped_deg(double deg);
 
-/// What heights make of a patch; surface/relief.h. Without relief all of it stays as it is.
+/// Relief of a patch, as heights change it (surface/relief.h). Nothing changes without relief.
 struct PatchRelief {
   BoundingSphere flat;         ///< that holds the patch without heights
   double flat_cone_rad = 0.0;  ///< half angle of the cone that does
@@ -64,7 +64,7 @@ struct PatchRelief {
 struct PatchNode;
 using PatchFamily = std::array<PatchNode*, 4>;
 
-/// What never changes about a patch, worked out once and kept in the tree.
+/// A patch: values that never change, computed once and kept in the tree.
 struct PatchNode {
   PatchId id;
   std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped

@@ -51,7 +51,7 @@ class Relief : public GroundHeights {
   /// From now on a selection may ask for this many new meshes before it puts off patches: a frame's share.
   void set_mesh_budget(int meshes) { meshes_left_ = meshes; }
   [[nodiscard]] int meshes_left() const { return meshes_left_; }
-  /// Of the tiles that are there.
+  /// Bytes of the loaded tiles.
   [[nodiscard]] std::size_t bytes() const { return field_.size() * tile_bytes_; }
   [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
 
@@ -71,7 +71,7 @@ class Relief : public GroundHeights {
   [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
 
  private:
-  /// Where heights have changed, degrees; row latitudes of the heights' grid.
+  /// A rectangle in which heights have changed, degrees; row latitudes of the heights' grid.
   struct Change {
     double west, east, south, north;
   };

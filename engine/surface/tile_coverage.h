@@ -19,7 +19,7 @@ using WindowCell = std::uint32_t;
          static_cast<WindowCell>(log2_columns) << 24U;
 }
 
-/// What the programs must know of a patch besides its vertices.
+/// Data of a patch for the shader programs, besides its vertices.
 struct PatchDraw {
   glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row
                                ///< latitude. Window points count cells from the window's north-west corner
@@ -77,7 +77,7 @@ struct TileCoverage {
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
 };
 
-/// What a cell takes that the grid's bounds do not have.
+/// Fallback of a cell outside the bounds of the grid.
 enum class OutOfBounds { ancestor, nothing };
 
 struct CoverInput {

@@ -31,7 +31,7 @@ struct HttpOptions {
   std::string ca_file;  ///< certificates to trust instead of the system's; empty: the system's
 };
 
-/// What is wanted. Headers may hold secrets: they are sent to the host of `url` alone (not to where it redirects), and
+/// A request. Headers may hold secrets: they are sent to the host of `url` alone (not to where it redirects), and
 /// stand in no message.
 struct HttpRequest {
   std::uint64_t id = 0;              ///< the caller's; unique among what is under way

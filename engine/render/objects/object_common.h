@@ -20,7 +20,7 @@ struct ObjectDraw {
   DrawState state;  ///< of ObjectPass::draw(), with blending, and depth writes only if `opaque`
 };
 
-// What passes of objects share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
+// Functions that the object passes share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
 
 inline void set_object_uniforms(const gl::Program& program, Viewport viewport, float bias, double hiding_radius_m) {
   constexpr GLint kViewport = 0, kBias = 1, kHiding = 2;

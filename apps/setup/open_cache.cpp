@@ -1,0 +1,44 @@
+#include "apps/setup/open_cache.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <system_error>
+
+#include "apps/setup/console.h"
+
+namespace terrella {
+
+Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who, const std::filesystem::path& file,
+                                                              const TileSetInfo& info, const std::string& source_key,
+                                                              std::size_t max_mb) {
+  CacheOptions options{.max_bytes = std::uint64_t{max_mb} * 1'000'000};
+  options.on_locked = [who, name = file.string()] {
+    print_message("{}: {} is locked by another program; waiting for it, a minute at most\n", who, name);
+  };
+  auto cache = TileCache::open(file, info, source_key, options);
+  if (cache && !(*cache)->set_aside().empty()) {
+    print_message("{}: {} was damaged; it is now {}, and a new one was begun\n", who, file.string(),
+                  (*cache)->set_aside().string());
+  }
+  return cache;
+}
+
+void say_without_cache(const Error& why) {
+  static std::atomic_flag said;
+  if (said.test_and_set()) return;
+  print_message("terrella: {}; going on without a cache: nothing is kept for the next time\n", why.message);
+}
+
+bool can_write_into(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  std::string name = (folder / ".terrella-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) return false;
+  rmdir(name.c_str());
+  return true;
+}
+
+}  // namespace terrella

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "streaming/cache/tile_cache.h"
+
+namespace terrella {
+
+/// Opens a cache of at most `max_mb` megabytes (10^6 bytes, 0: no limit), as TileCache::open() does. Reports a lock
+/// that it waits for, and a damaged file that was set aside, on standard error; `who` begins these messages. thread:
+/// any
+[[nodiscard]] Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who,
+                                                                            const std::filesystem::path& file,
+                                                                            const TileSetInfo& info,
+                                                                            const std::string& source_key,
+                                                                            std::size_t max_mb);
+
+/// Reports on standard error, once per run, why the program continues without a cache. thread: any
+void say_without_cache(const Error& why);
+
+/// True if a file can be created in the folder; creates the folder if needed. thread: any
+[[nodiscard]] bool can_write_into(const std::filesystem::path& folder);
+
+}  // namespace terrella
