@@ -129,7 +129,7 @@ class Flyer {
     figures.uploads_mb.push_back(1e-6 * static_cast<double>(stats.uploaded_bytes));
     figures.tiles.push_back(stats.tiles_wanted);
     figures.missing_share.push_back(stats.tiles_wanted == 0 ? 0.0
-                                                            : static_cast<double>(stats.tiles_missing) /
+                                                            : static_cast<double>(stats.tiles_pending) /
                                                                   static_cast<double>(stats.tiles_wanted));
     figures.uncovered_frames += stats.patches_uncovered > 0 ? 1 : 0;
   }

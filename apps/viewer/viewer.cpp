@@ -166,7 +166,7 @@ PanelStatus Viewer::status(const View& view) const {
   }
   const Camera& camera = navigator_.camera();
   status.eye = "Altitude " + length_text(camera.eye.height_m);
-  if (stats_.tiles_missing > 0) status.tiles = fmt::format("{} tiles loading", stats_.tiles_missing);
+  if (stats_.tiles_pending > 0) status.tiles = fmt::format("{} tiles loading", stats_.tiles_pending);
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = message_;
   status.job = dropped_text_;

@@ -318,8 +318,8 @@ std::optional<double> Globe::elevation_m(Angle lat, Angle lon) const {
   return impl_->relief->field().height_m(lat, lon);
 }
 
-const std::deque<LackingTile>& Globe::lacking() const { return impl_->lacking; }
-const std::deque<LackingTile>& Globe::lacking_heights() const { return impl_->lacking_heights; }
+const std::deque<MissingTile>& Globe::missing_tiles() const { return impl_->missing; }
+const std::deque<MissingTile>& Globe::missing_heights() const { return impl_->missing_heights; }
 
 LoaderCounts Globe::loading() const {
   LoaderCounts all;
@@ -330,7 +330,7 @@ LoaderCounts Globe::loading() const {
     all.fetching += counts.fetching;
     all.finished += counts.finished;
     all.read += counts.read;
-    all.lacked += counts.lacked;
+    all.missing += counts.missing;
   }
   return all;
 }

@@ -80,8 +80,8 @@ struct GlobeOptions {
   int relief_meshes_per_frame = 24;
   int workers = 2;                               ///< decoder threads
   GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
-  /// A tile of imagery or heights that failed for now (Absence::failed) is requested again after this time, if it is
-  /// still wanted. Positive.
+  /// A tile of imagery or heights that failed for now (MissingKind::failed) is requested again after this time, if it
+  /// is still wanted. Positive.
   std::chrono::milliseconds retry_after{30'000};
 };
 
@@ -92,14 +92,14 @@ struct FrameStats {
   int draw_calls = 0;
   long triangles = 0;
   int tiles_wanted = 0;        ///< tiles that the view needs at full quality
-  int tiles_missing = 0;       ///< of those, tiles neither on the GPU nor finally failed
-  int tiles_lacked = 0;        ///< of those, tiles that finally failed
+  int tiles_pending = 0;       ///< of those, tiles neither on the GPU nor finally failed
+  int tiles_missing = 0;       ///< of those, tiles that finally failed
   int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are loaded
   bool imagery_shown = false;  ///< a tile of imagery is in view, even if only a coarser fallback
   std::size_t uploaded_bytes = 0;
   std::size_t objects_cut = 0;  ///< lines and areas tessellated since the previous frame
-  int heights_missing = 0;      ///< elevation tiles that the view needs and that have neither arrived nor failed
-  int heights_lacked = 0;       ///< failed elevation tiles among those that recent views needed
+  int heights_pending = 0;      ///< elevation tiles that the view needs and that have neither arrived nor failed
+  int heights_missing = 0;      ///< failed elevation tiles among those that recent views needed
   /// Heights arrived after this frame was drawn: another frame will show the newer ground.
   bool heights_arrived = false;
   int relief_meshes = 0;   ///< patches whose relief was rebuilt
@@ -113,7 +113,7 @@ struct FrameStats {
 };
 
 /// A missing tile, and the reason.
-struct LackingTile {
+struct MissingTile {
   TileId id;
   TileFailure failure;
   LayerId layer = LayerId::none;  ///< the image layer of the tile
@@ -225,10 +225,10 @@ class Globe {
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
   /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now
-  /// (Absence::failed) are retried after GlobeOptions::retry_after, if they are still wanted.
-  [[nodiscard]] const std::deque<LackingTile>& lacking() const;
+  /// (MissingKind::failed) are retried after GlobeOptions::retry_after, if they are still wanted.
+  [[nodiscard]] const std::deque<MissingTile>& missing_tiles() const;
   /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
-  [[nodiscard]] const std::deque<LackingTile>& lacking_heights() const;
+  [[nodiscard]] const std::deque<MissingTile>& missing_heights() const;
 
   /// Returns what a pixel of the mono picture shows (geo/coordinates.h).
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;

@@ -80,7 +80,7 @@ std::size_t Globe::Impl::take_finished() {
   UploadAllowance allowance{options.upload_bytes_per_frame, FrameClock::now() + options.upload_time_per_frame};
   std::size_t bytes = 0;
   for (std::size_t k = 0; k < images.size(); ++k) {
-    bytes += images[(k + frame) % images.size()]->take_finished(allowance, frame, lacking);
+    bytes += images[(k + frame) % images.size()]->take_finished(allowance, frame, missing);
   }
   return bytes;
 }
@@ -91,7 +91,7 @@ void Globe::Impl::take_heights() {
   if (!heights) return;
   const ImageLayer& first = *stack.front();
   for (int meshes = 0; meshes < options.relief_meshes_per_frame;) {
-    std::optional<LoadedHeights> loaded = heights->take(lacking_heights);
+    std::optional<LoadedHeights> loaded = heights->take(missing_heights);
     if (!loaded) return;
     meshes += relief->touched(stack.front()->tree(), loaded->id, first.patches());
     relief->add(std::move(*loaded->tile));
@@ -107,8 +107,8 @@ void Globe::Impl::ask_heights() {
   requests.reserve(wanted.size());
   for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
   heights->request(requests);
-  stats.heights_missing = static_cast<int>(wanted.size());
-  stats.heights_lacked = relief->missing();
+  stats.heights_pending = static_cast<int>(wanted.size());
+  stats.heights_missing = relief->missing();
 }
 
 // Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
@@ -155,8 +155,8 @@ void Globe::Impl::count() {
     stats.tiles_known += layer->tiles_known();
     if (layer == plain.get()) continue;
     stats.tiles_wanted += layer->coverage().tiles;
+    stats.tiles_pending += layer->coverage().pending;
     stats.tiles_missing += layer->coverage().missing;
-    stats.tiles_lacked += layer->coverage().lacking;
     stats.imagery_shown = stats.imagery_shown || layer->coverage().shown;
   }
 }
@@ -193,7 +193,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
 
 bool Globe::Impl::settled() const {
   if (frame == 0 || !status) return false;
-  if (stats.heights_missing > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
+  if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
   return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
 }
 

@@ -112,7 +112,7 @@ struct Globe::Impl {
   std::function<void()> on_settled;
   FrameStats stats;
   Status status = Done{};  ///< of the last frame
-  std::deque<LackingTile> lacking, lacking_heights;
+  std::deque<MissingTile> missing, missing_heights;
 };
 
 }  // namespace terrella

@@ -220,7 +220,7 @@ Status Globe::Impl::set_elevation(const std::optional<ElevationSource>& elevatio
   if (elevation) make_relief(*elevation);
   for (const auto& layer : images) layer->set_relief(relief.get());
   if (plain) plain->set_relief(relief.get());
-  lacking_heights.clear();
+  missing_heights.clear();
   changed = true;
   return Done{};
 }

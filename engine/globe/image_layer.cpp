@@ -100,12 +100,12 @@ void ImageLayer::copy_relief() {
 }
 
 std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
-                                      std::deque<LackingTile>& lacking) {
+                                      std::deque<MissingTile>& missing) {
   std::size_t bytes = 0;
   if (!stream_) return bytes;
   stream_->retry();
   while (allowance.bytes > 0) {
-    const std::optional<LoadedTile> loaded = stream_->take(lacking);
+    const std::optional<LoadedTile> loaded = stream_->take(missing);
     if (!loaded) break;
     const TileTexels& texels = *loaded->tile;
     has_transparency_ = has_transparency_ || !texels.opaque;

@@ -58,12 +58,12 @@ class ImageLayer {
   void restore_detail() { detail_ = 1.0; }
   /// The layer as a plan reads it.
   [[nodiscard]] LayerSnapshot snapshot();
-  /// Takes a plan over: its patches, its tiles and their use, what the tree lacked.
+  /// Takes a plan over: its patches, its tiles and their use, and what the tree misses.
   void execute(LayerPlan plan, std::uint64_t frame);
   void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
 
-  /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `lacking`.
-  std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<LackingTile>& lacking);
+  /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `missing`.
+  std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<MissingTile>& missing);
   void ask();
   void end_frame(std::uint64_t frame);  ///< evicts and forgets what frames have not used for long
   void stop_asking();

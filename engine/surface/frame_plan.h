@@ -46,8 +46,8 @@ struct FramePlan {
   int put_off = 0;                       ///< patches drawn coarser than their relief asks for, for now
 };
 
-/// Decides what a frame draws. Changes nothing: nodes and windows that the trees lack are made in the plan, and uses of
-/// tiles are listed in the plan. A view that wants more tiles than a layer has room for takes less detail. `options`
+/// Decides what a frame draws. Changes nothing: nodes and windows missing from the trees are made in the plan, and uses
+/// of tiles are listed in the plan. A view that wants more tiles than a layer has room for takes less detail. `options`
 /// are those of the lowest layer, but for texels_per_pixel and max_tile_level, which the snapshot tells. Snapshots may
 /// be planned from by several threads at once while nothing changes them. thread: any
 [[nodiscard]] FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelectionOptions options);

@@ -74,9 +74,9 @@ struct PatchSelection {
 };
 
 /// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
-/// view, the tree and the options: nodes that the tree lacks are made in the growths, and no mesh is made. An eye under
-/// the surface sees every patch in front of it that the inner sphere does not hide. A view with NaN selects nothing.
-/// Further imagery takes part in what is split: each patch suits all grids. thread: any
+/// view, the tree and the options: nodes missing from the tree are made in the growths, and no mesh is made. An eye
+/// under the surface sees every patch in front of it that the inner sphere does not hide. A view with NaN selects
+/// nothing. Further imagery takes part in what is split: each patch suits all grids. thread: any
 [[nodiscard]] PatchSelection plan_patches(const PatchTree& tree, TreeGrowth& growth, const View& view,
                                           const PatchSelectionOptions& options,
                                           std::span<const FurtherImagery> further = {});

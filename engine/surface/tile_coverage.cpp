@@ -211,7 +211,7 @@ class Coverer {
   }
 
   // How many pixels long a texel may be along the meridian: in a view of too many, as long as it covers no more than a
-  // pixel. Close to a pole what lies along the meridian is all that a picture lacks.
+  // pixel. Close to a pole only detail along the meridian is missing in a picture.
   [[nodiscard]] double length_px(double cos_lat2) const {
     if (!narrow_texels_are_long_ || cos_lat2 < kCloseToPole) return 1.0;
     return std::min(kLongestTexel_px, 1.0 / std::sqrt(std::sqrt(cos_lat2)));
@@ -334,8 +334,8 @@ class Coverer {
   void count(TileUse& use) {
     if (std::exchange(use.counted, true)) return;
     ++out_.tiles;
-    if (use.state == TileState::unknown) ++out_.missing;
-    if (use.state == TileState::missing) ++out_.lacking;
+    if (use.state == TileState::unknown) ++out_.pending;
+    if (use.state == TileState::missing) ++out_.missing;
   }
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
@@ -425,7 +425,7 @@ void cover_with_tiles(const CoverInput& input, TileCoverage& out) {
   out.cells.clear();
   out.wanted.clear();
   out.uses.clear();
-  out.tiles = out.missing = out.lacking = out.uncovered = 0;
+  out.tiles = out.pending = out.missing = out.uncovered = 0;
   out.shown = false;
   Coverer(input, out).cover(input.patches);
 }

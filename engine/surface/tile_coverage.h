@@ -68,11 +68,11 @@ class TileUses {
 struct TileCoverage {
   std::vector<PatchDraw> draws;  ///< one for each selected patch
   std::vector<WindowCell> cells;
-  std::vector<WantedTile> wanted;  ///< not there and not lacking; root tiles first
+  std::vector<WantedTile> wanted;  ///< not there and not missing; root tiles first
   TileUses uses;                   ///< of the residency's tiles
   int tiles = 0;                   ///< tiles of the view at full quality
-  int missing = 0;                 ///< of those, not there yet
-  int lacking = 0;                 ///< of those, replaced by an ancestor for good
+  int pending = 0;                 ///< of those, not there yet
+  int missing = 0;                 ///< of those, replaced by an ancestor for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
 };
@@ -92,8 +92,8 @@ struct CoverInput {
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
 /// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile: note_use()
-/// does. Windows that the tree lacks are made in the growth. Longitude wraps; cells beyond the planet repeat its edge.
-/// A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell takes a tile whose
+/// does. Windows missing from the tree are made in the growth. Longitude wraps; cells beyond the planet repeat its
+/// edge. A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell takes a tile whose
 /// texels are a little longer than a pixel if the view would want far more texels of a full grid than it has pixels.
 /// thread: any
 void cover_with_tiles(const CoverInput& input, TileCoverage& out);

@@ -16,7 +16,7 @@
 namespace terrella {
 namespace {
 
-TileFailure broken(const std::string& why) { return {Absence::broken, why}; }
+TileFailure broken(const std::string& why) { return {MissingKind::broken, why}; }
 
 /// metres = number · scale + offset, with the factors of tile and set combined.
 struct Metres {

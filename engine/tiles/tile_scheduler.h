@@ -87,11 +87,11 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
     try {
       throw;
     } catch (const std::bad_alloc&) {
-      return {Absence::failed, "not enough memory"};
+      return {MissingKind::failed, "not enough memory"};
     } catch (const std::exception& error) {
-      return {Absence::failed, error.what()};
+      return {MissingKind::failed, error.what()};
     } catch (...) {
-      return {Absence::failed, "the tile source threw an exception of its own type"};
+      return {MissingKind::failed, "the tile source threw an exception of its own type"};
     }
   }
   void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
@@ -121,7 +121,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   std::deque<Finished> finished_;
   std::size_t finished_bytes_ = 0;
   std::size_t read_ = 0;
-  std::size_t lacked_ = 0;
+  std::size_t missing_ = 0;
 
   std::vector<std::thread> workers_;
 };
@@ -229,7 +229,7 @@ LoaderCounts TileScheduler<Decoded>::counts() const {
           .fetching = fetching_.size(),
           .finished = finished_.size(),
           .read = read_,
-          .lacked = lacked_};
+          .missing = missing_};
 }
 
 // ---- thread: worker
@@ -260,7 +260,7 @@ template <class Decoded>
 void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish) {
   lock.unlock();
   Encoded encoded = read(wish.id);
-  const bool is_remote = !encoded && encoded.error().kind == Absence::remote;
+  const bool is_remote = !encoded && encoded.error().kind == MissingKind::remote;
   lock.lock();
   if (!is_remote || remote_ == nullptr) return decode(lock, {wish.id, std::move(encoded)});
   running_.erase(wish.id);
@@ -294,7 +294,7 @@ void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Ar
   lock.lock();
   running_.erase(tile.id);
   ++read_;
-  if (!finished.tile) ++lacked_;
+  if (!finished.tile) ++missing_;
   finished_bytes_ += weight_bytes(finished);
   finished_ids_.insert(tile.id);
   finished_.push_back(std::move(finished));

@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "codecs/image.h"
+#include "codecs/numbers.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
@@ -37,7 +38,7 @@ struct TileSetInfo {
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.
-enum class Absence {
+enum class MissingKind {
   /// The source does not have the tile (404, 204, no row, outside the bounds); permanent, ancestors are drawn instead.
   absent,
   blank,   ///< the tile exists and is empty
@@ -47,7 +48,7 @@ enum class Absence {
   remote,
 };
 struct TileFailure {
-  Absence kind = Absence::failed;
+  MissingKind kind = MissingKind::failed;
   std::string why;
 };
 
@@ -59,6 +60,8 @@ struct EncodedTile {
   double number_offset = 0.0;
   /// For a tile that is made of others: makes its picture, and `bytes` is empty. Takes milliseconds. thread: worker
   std::function<Result<Image, TileFailure>()> make_picture = {};
+  /// The same for heights: makes the numbers as decoded from a tile, tile_px a side. thread: worker
+  std::function<Result<Numbers, TileFailure>()> make_numbers = {};
 };
 
 /// The network side of a source: fetches tiles that read() does not have locally, without blocking. thread: any

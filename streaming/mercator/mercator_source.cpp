@@ -237,10 +237,10 @@ class MercatorSource : public TileSource, public RemoteTiles {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
   [[nodiscard]] Encoded read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     MercatorJob job(*info_.made_of, id);
     job.advance([this](const TileId& stored) { return stored_.find(stored); });
-    if (!job.missing().empty()) return TileFailure{Absence::remote, {}};
+    if (!job.missing().empty()) return TileFailure{MissingKind::remote, {}};
     return job.result(stored_.decoded());
   }
 

@@ -19,7 +19,7 @@ namespace {
 using std::chrono::seconds;
 
 constexpr seconds kTileLife{7 * 24 * 3600};
-constexpr seconds kAbsenceLife{24 * 3600};
+constexpr seconds kMissingLife{24 * 3600};
 // What a server sent by mistake is worth asking for again soon.
 constexpr seconds kBrokenLife{3600};
 // Threads that bring replies to the cache and to who asked. One may wait for a disk while the other goes on.
@@ -30,7 +30,7 @@ std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr))
 using Encoded = Result<EncodedTile, TileFailure>;
 
 Encoded tile_of(CacheRecord&& record) {
-  if (record.absence) return TileFailure{*record.absence, std::move(record.why)};
+  if (record.missing) return TileFailure{*record.missing, std::move(record.why)};
   return EncodedTile{std::move(record.bytes)};
 }
 
@@ -47,10 +47,10 @@ class RemoteSource : public TileSource, public RemoteTiles {
   [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
 
   [[nodiscard]] Encoded read(const TileId& id) override {
-    if (!exists(set_.info.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(set_.info.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     std::optional<CacheRecord> record = cached(id);
     if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
-    return TileFailure{Absence::remote, {}};
+    return TileFailure{MissingKind::remote, {}};
   }
 
   [[nodiscard]] RemoteTiles* remote() override { return this; }
@@ -148,9 +148,9 @@ class RemoteSource : public TileSource, public RemoteTiles {
     try {
       return answer(id, std::move(reply));
     } catch (const std::exception& error) {
-      return TileFailure{Absence::failed, error.what()};
+      return TileFailure{MissingKind::failed, error.what()};
     } catch (...) {
-      return TileFailure{Absence::failed, "unknown exception"};
+      return TileFailure{MissingKind::failed, "unknown exception"};
     }
   }
 
@@ -160,43 +160,43 @@ class RemoteSource : public TileSource, public RemoteTiles {
         return content(id, std::move(reply));
       case HttpOutcome::not_modified:
         if (auto record = cached(id)) {
-          cache_->renew(id, unix_now_s(), expiry(reply, record->absence ? absence_life() : tile_life()));
+          cache_->renew(id, unix_now_s(), expiry(reply, record->missing ? missing_life() : tile_life()));
           return tile_of(*std::move(record));
         }
         break;
       case HttpOutcome::nothing:
-        return absence(id, Absence::absent, std::move(reply), absence_life());
+        return missing(id, MissingKind::absent, std::move(reply), missing_life());
       case HttpOutcome::refused:
       case HttpOutcome::failed:
         // An old tile is better than none (stale-if-error, RFC 5861).
         if (auto record = cached(id)) return tile_of(*std::move(record));
         break;
     }
-    return TileFailure{Absence::failed, std::move(reply.why)};
+    return TileFailure{MissingKind::failed, std::move(reply.why)};
   }
 
   Encoded content(const TileId& id, HttpReply&& reply) {
-    if (reply.body.empty()) return absence(id, Absence::blank, std::move(reply), absence_life());
+    if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
     if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
       reply.why = good.error().message;
       reply.expires_unix_s.reset();
-      return absence(id, Absence::broken, std::move(reply), kBrokenLife);
+      return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
     }
     EncodedTile tile{reply.body};
     if (cache_ != nullptr && !reply.no_store) cache_->store(id, record_of(std::move(reply), tile_life()));
     return tile;
   }
 
-  Encoded absence(const TileId& id, Absence kind, HttpReply&& reply, seconds life) {
+  Encoded missing(const TileId& id, MissingKind kind, HttpReply&& reply, seconds life) {
     TileFailure failure{kind, reply.why};
     if (cache_ == nullptr) return failure;
     // The cache keeps a tile that it has (CacheRows::put()), and so does the picture.
     auto known = cached(id);
-    const bool stored = known && !known->absence;
+    const bool stored = known && !known->missing;
     if (reply.no_store) return stored ? tile_of(*std::move(known)) : Encoded(failure);
     reply.body.clear();
     CacheRecord record = record_of(std::move(reply), life);
-    record.absence = kind;
+    record.missing = kind;
     record.why = failure.why;
     cache_->store(id, std::move(record));
     return stored ? tile_of(*std::move(known)) : Encoded(failure);
@@ -217,7 +217,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   [[nodiscard]] seconds tile_life() const { return set_.tile_life.value_or(kTileLife); }
-  [[nodiscard]] seconds absence_life() const { return set_.absence_life.value_or(kAbsenceLife); }
+  [[nodiscard]] seconds missing_life() const { return set_.missing_life.value_or(kMissingLife); }
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;

@@ -30,7 +30,7 @@ struct RemoteTileSet {
   std::vector<TileShift> shifts{};                  ///< by level; empty: none
   std::vector<std::string> headers{};               ///< "Name: value"; may be secret: not in messages, not in the cache
   std::optional<std::chrono::seconds> tile_life{};  ///< for replies without an expiry; none: 7 days
-  std::optional<std::chrono::seconds> absence_life{};  ///< none: 1 day
+  std::optional<std::chrono::seconds> missing_life{};  ///< none: 1 day
   std::string refuse_bulk{};                           ///< reason why `preload` is forbidden; empty: allowed
 };
 

@@ -99,7 +99,7 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.subdomains = fields.texts("subdomains");
   options.headers = fields.texts("headers");
   options.tile_life = life_if(fields, "tile_life_s");
-  options.absence_life = life_if(fields, "absence_life_s");
+  options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
   options.elevation = read_elevation(*object, fields, where);
   if (options.elevation && options.format == ImageFormat::jpeg) {

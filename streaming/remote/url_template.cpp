@@ -129,7 +129,7 @@ void apply_options(RemoteTileSet& set, const RemoteOptions& options) {
   info.grid.bounds = options.bounds.value_or(info.grid.bounds);
   set.headers = options.headers;
   if (options.tile_life) set.tile_life = options.tile_life;
-  if (options.absence_life) set.absence_life = options.absence_life;
+  if (options.missing_life) set.missing_life = options.missing_life;
   RemoteTileSet each = set;
   const std::size_t hosts = std::max<std::size_t>(1, set.subdomains.size());
   for (std::size_t i = 0; i < hosts && set.refuse_bulk.empty(); ++i) {

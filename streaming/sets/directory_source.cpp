@@ -36,11 +36,11 @@ class DirectorySource : public TileSource, public TileLister {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     const fs::path path = path_of(id);
     Result<std::vector<std::byte>, FileError> bytes = read_file(path, kMaxTileBytes);
     if (!bytes) return failure(bytes.error());
-    if (bytes->empty()) return TileFailure{Absence::blank, path.string() + ": an empty file"};
+    if (bytes->empty()) return TileFailure{MissingKind::blank, path.string() + ": an empty file"};
     return EncodedTile{*std::move(bytes)};
   }
 
@@ -120,13 +120,13 @@ class DirectorySource : public TileSource, public TileLister {
   static TileFailure failure(const FileError& error) {
     switch (error.problem) {
       case FileProblem::missing:
-        return {Absence::absent, error.message};
+        return {MissingKind::absent, error.message};
       case FileProblem::too_large:
-        return {Absence::broken, error.message};
+        return {MissingKind::broken, error.message};
       case FileProblem::unreadable:
         break;
     }
-    return {Absence::failed, error.message};
+    return {MissingKind::failed, error.message};
   }
 
   const TileSetInfo info_;

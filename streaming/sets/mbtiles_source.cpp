@@ -31,7 +31,7 @@ class MbtilesSource : public TileSource, public TileLister {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     return tiles_->read({.zoom = id.level, .column = id.x, .row = rows(info_.grid, id.level) - 1 - id.y});
   }
 

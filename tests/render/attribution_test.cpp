@@ -93,10 +93,10 @@ TEST_F(Attributions, ALowestLayerWithBoundsHasNoneBesideThem) {
 TEST_F(Attributions, LevelsAndTilesThatAreLackingHaveNone) {
   add(owed_to("globe"));
   add(owed_to("near"), {.min_level = 3});
-  auto lacking = std::make_shared<LayerSource>(
+  auto missing = std::make_shared<LayerSource>(
       kOwedGrid, [](double, double) { return Rgba{}; }, [](const TileId&) { return true; });
-  lacking->set_attribution("never came");
-  add(lacking);
+  missing->set_attribution("never came");
+  add(missing);
   EXPECT_EQ(of(camera_at(0, 20, 3.0e7)), Texts{"globe"});
   EXPECT_EQ(of(camera_at(0, 20, 5.0e5)), (Texts{"globe", "near"}));
 }

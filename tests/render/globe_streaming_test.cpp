@@ -67,7 +67,7 @@ TEST_F(GlobeStreaming, NeverAHoleWhileTilesComeOneByOne) {
     }
     EXPECT_TRUE(globe->settled());
     EXPECT_GT(after_roots, 4);
-    EXPECT_EQ(stats.tiles_missing, 0);
+    EXPECT_EQ(stats.tiles_pending, 0);
     tiles->release(1000);
   }
 }
@@ -80,7 +80,7 @@ TEST_F(GlobeStreaming, SettlesAndThenStandsStill) {
       globe->set_camera(camera);
       const FrameStats stats = settle(*globe, kStreamed);
       EXPECT_TRUE(globe->settled());
-      EXPECT_EQ(stats.tiles_missing, 0);
+      EXPECT_EQ(stats.tiles_pending, 0);
       EXPECT_EQ(stats.uploaded_bytes, 0U);
       const auto settled = picture().rgba;
       draw(*globe, kStreamed);
@@ -162,8 +162,8 @@ TEST_F(GlobeStreaming, AncestorsStandInForTilesThatTheSourceLacks) {
     const auto globe = make_globe(unlit_options(), source(deep_grid(), some));
     globe->set_camera(camera);
     const FrameStats stats = settle(*globe, kStreamed);
-    EXPECT_GT(stats.tiles_lacked, 0);
-    EXPECT_EQ(stats.tiles_missing, 0);
+    EXPECT_GT(stats.tiles_missing, 0);
+    EXPECT_EQ(stats.tiles_pending, 0);
     EXPECT_EQ(stats.patches_uncovered, 0);
     EXPECT_EQ(dark_pixels(picture()), 0);
   }

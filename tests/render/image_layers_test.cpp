@@ -267,7 +267,7 @@ TEST_F(ImageLayers, LevelsOutsideTheRangeAreNotDrawn) {
     EXPECT_TRUE(globe->add_imagery(counted, {.max_level = max_level}));
     globe->set_camera(camera_at(0, 0, 1.0e6));
     settle(*globe, kLayered);
-    return std::pair(globe->loading().lacked, counted->reads());
+    return std::pair(globe->loading().missing, counted->reads());
   };
   EXPECT_EQ(reads(2).first, 0U);
   EXPECT_GT(reads(4).first, 0U);

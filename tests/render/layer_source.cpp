@@ -6,13 +6,13 @@
 namespace terrella::test {
 
 LayerSource::LayerSource(const TileGrid& grid, Paint paint, Lacks lacks)
-    : paint_(std::move(paint)), lacks_(std::move(lacks)) {
+    : paint_(std::move(paint)), missing_(std::move(lacks)) {
   info_.grid = grid;
   info_.format = ImageFormat::png;
 }
 
 Result<EncodedTile, TileFailure> LayerSource::read(const TileId& id) {
-  if (!exists(info_.grid, id) || (lacks_ && lacks_(id))) return TileFailure{Absence::absent, "not there"};
+  if (!exists(info_.grid, id) || (missing_ && missing_(id))) return TileFailure{MissingKind::absent, "not there"};
   const int side = info_.grid.tile_px;
   const TileBounds bounds = tile_bounds(info_.grid, id);
   const double texel_deg = (bounds.east_deg - bounds.west_deg) / side;

@@ -27,7 +27,7 @@ class LayerSource : public TileSource {
  private:
   TileSetInfo info_;
   Paint paint_;
-  Lacks lacks_;
+  Lacks missing_;
 };
 
 }  // namespace terrella::test

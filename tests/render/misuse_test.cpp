@@ -75,7 +75,7 @@ class OneAnswer : public TileSource {
 /// Has all of its tiles elsewhere, and who is asked for them never answers.
 class NeverAnswers : public OneAnswer, public RemoteTiles {
  public:
-  NeverAnswers() : OneAnswer(TileFailure{Absence::remote, "elsewhere"}) {}
+  NeverAnswers() : OneAnswer(TileFailure{MissingKind::remote, "elsewhere"}) {}
   [[nodiscard]] RemoteTiles* remote() override { return this; }
   void fetch(const TileId&, double, Done) override {}
   void set_priority(const TileId&, double) override {}
@@ -152,7 +152,7 @@ TEST_F(Misuse, ASourceThatCannotBeIsAnError) {
   const auto globe = make_globe({}, green());
   EXPECT_NE(message_of(globe->add_imagery(nullptr)).find("Globe::add_imagery"), std::string::npos);
   EXPECT_FALSE(Globe::create(GlobeOptions{}, nullptr));
-  const TileFailure nothing{Absence::absent, "nothing"};
+  const TileFailure nothing{MissingKind::absent, "nothing"};
   for (const TileGrid& grid : {TileGrid{.tile_px = 0}, TileGrid{.root_span_deg = 0.0}, TileGrid{.max_level = 99},
                                TileGrid{.min_level = 3, .max_level = 2}, TileGrid{.min_level = -1}}) {
     const auto added = globe->add_imagery(std::make_shared<OneAnswer>(nothing, grid));
@@ -166,17 +166,17 @@ TEST_F(Misuse, ASourceThatCannotBeIsAnError) {
 }
 
 TEST_F(Misuse, ASourceThatAnswersNothingLeavesThePlainColour) {
-  for (const Absence kind : {Absence::absent, Absence::blank, Absence::broken, Absence::failed}) {
+  for (const MissingKind kind : {MissingKind::absent, MissingKind::blank, MissingKind::broken, MissingKind::failed}) {
     const auto globe = make_globe(unlit_options(), std::make_shared<OneAnswer>(TileFailure{kind, "nothing"}));
     globe->set_camera(camera_at(0, 0, 1.0e6));
     settle(*globe, kMisused);
     EXPECT_EQ(picture().at(16, 16), (Color{30, 38, 52}));
-    ASSERT_FALSE(globe->lacking().empty());
-    EXPECT_EQ(globe->lacking().back().layer, globe->imagery().front());
+    ASSERT_FALSE(globe->missing().empty());
+    EXPECT_EQ(globe->missing().back().layer, globe->imagery().front());
   }
   const auto globe = make_globe(unlit_options(), std::make_shared<OneAnswer>(EncodedTile{}));
   settle(*globe, kMisused);
-  EXPECT_FALSE(globe->lacking().empty());
+  EXPECT_FALSE(globe->missing().empty());
 }
 
 TEST_F(Misuse, ASourceThatNeverAnswersIsWaitedForNoLongerThanTheDeadline) {
@@ -189,7 +189,7 @@ TEST_F(Misuse, ASourceThatNeverAnswersIsWaitedForNoLongerThanTheDeadline) {
   EXPECT_FALSE(globe->render_until_settled(target.framebuffer(), kMisused, start + kPatience));
   EXPECT_GE(Clock::now() - start, kPatience);
   EXPECT_GT(globe->loading().fetching, 0U);
-  EXPECT_GT(globe->render(target.framebuffer(), kMisused).tiles_missing, 0);
+  EXPECT_GT(globe->render(target.framebuffer(), kMisused).tiles_pending, 0);
   globe.reset();
   EXPECT_LT(Clock::now() - start, std::chrono::seconds(20));
 }

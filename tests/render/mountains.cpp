@@ -24,7 +24,7 @@ Mountains::Mountains(double waves) : waves_(waves) {
 }
 
 Result<EncodedTile, TileFailure> Mountains::read(const TileId& id) {
-  if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside"};
+  if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
   const TileBounds b = tile_bounds(info_.grid, id);
   const int side = info_.grid.tile_px;
   const double pixel_deg = (b.east_deg - b.west_deg) / side, to_rad = std::numbers::pi / 180.0;

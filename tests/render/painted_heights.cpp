@@ -21,7 +21,7 @@ class PaintedHeights : public TileSource {
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
     const TileBounds b = tile_bounds(info_.grid, id);
     const int side = info_.grid.tile_px;
     const double pixel_deg = (b.east_deg - b.west_deg) / side, to_rad = std::numbers::pi / 180.0;

@@ -25,7 +25,7 @@ class OneColour : public TileSource {
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
     return tile_;
   }
 
@@ -37,7 +37,7 @@ class OneColour : public TileSource {
 }  // namespace
 
 PaintedSource::PaintedSource(const TileGrid& grid, Paint paint, Lacks lacks)
-    : paint_(std::move(paint)), lacks_(std::move(lacks)) {
+    : paint_(std::move(paint)), missing_(std::move(lacks)) {
   info_.grid = grid;
   info_.format = ImageFormat::png;
 }
@@ -48,11 +48,11 @@ Result<EncodedTile, TileFailure> PaintedSource::read(const TileId& id) {
     std::unique_lock lock(mutex_);
     const int place = come_++;
     if (!released_.wait_for(lock, std::chrono::seconds(60), [&] { return !held_ || place < let_through_; })) {
-      return TileFailure{Absence::failed, "held back"};
+      return TileFailure{MissingKind::failed, "held back"};
     }
   }
   ++reads_;
-  if (!exists(info_.grid, id) || (lacks_ && lacks_(id))) return TileFailure{Absence::absent, "not there"};
+  if (!exists(info_.grid, id) || (missing_ && missing_(id))) return TileFailure{MissingKind::absent, "not there"};
   const int side = info_.grid.tile_px;
   const TileBounds bounds = tile_bounds(info_.grid, id);
   const double texel_deg = (bounds.east_deg - bounds.west_deg) / side;

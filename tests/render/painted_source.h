@@ -34,7 +34,7 @@ class PaintedSource : public TileSource {
  private:
   TileSetInfo info_;
   Paint paint_;
-  Lacks lacks_;
+  Lacks missing_;
   std::mutex mutex_;
   std::condition_variable released_;
   bool held_ = false;

@@ -42,7 +42,7 @@ std::shared_ptr<TileSource> failing_once(std::shared_ptr<TileSource> tiles) {
   return std::make_shared<Interposed>(std::move(tiles), [seen](const TileId& id) -> std::optional<TileFailure> {
     const std::lock_guard lock(seen->first);
     if (!seen->second.insert(id).second) return std::nullopt;
-    return TileFailure{Absence::failed, "status 503"};
+    return TileFailure{MissingKind::failed, "status 503"};
   });
 }
 
@@ -90,18 +90,18 @@ class TileLife : public GlTest {
 
 TEST_F(TileLife, TilesThatFailForNowAreRequestedAgainWhateverTheirKind) {
   const auto wants_nothing = [](const FrameStats& stats) {
-    return stats.tiles_missing + stats.tiles_lacked + stats.heights_missing + stats.heights_lacked == 0 &&
+    return stats.tiles_pending + stats.tiles_missing + stats.heights_pending + stats.heights_missing == 0 &&
            !stats.heights_arrived;
   };
   GlobeOptions options = unlit_options();
   options.retry_after = std::chrono::milliseconds(200);
   const auto spoiled = globe_of(options, failing_once(one_colour(kGrid, kLand)), failing_once(hills()));
-  int lacked = 0;
+  int missing = 0;
   EXPECT_TRUE(frames_until(*spoiled, [&](const FrameStats& stats) {
-    lacked = std::max(lacked, stats.heights_lacked);
+    missing = std::max(missing, stats.heights_missing);
     return spoiled->settled() && wants_nothing(stats);
   })) << "tiles stay missing";
-  EXPECT_GT(lacked, 0) << "no tile of heights has failed: nothing was tested";
+  EXPECT_GT(missing, 0) << "no tile of heights has failed: nothing was tested";
   const auto recovered = picture().rgba;
   const auto whole = globe_of(unlit_options(), one_colour(kGrid, kLand), hills());
   settle(*whole, kPicture);

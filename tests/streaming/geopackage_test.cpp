@@ -132,7 +132,7 @@ TEST(GeoPackage, ACornerWholeTilesAwayIsAnOffset) {
   ASSERT_TRUE(part);
   EXPECT_NEAR(part->info().grid.bounds.west.deg(), -90.0, 1e-9);
   expect_places(*part);
-  EXPECT_EQ(part->read({part->info().grid.min_level, 0, 0}).error().kind, Absence::absent);
+  EXPECT_EQ(part->read({part->info().grid.min_level, 0, 0}).error().kind, MissingKind::absent);
 }
 
 TEST(GeoPackage, CoarseLevelsBetweenTilesAreLeftOut) {
@@ -312,7 +312,7 @@ TEST(GeoPackage, WhatIsNoGeoPackageIsNamed) {
   expect_package_refused(folder / "magic.gpkg", "GeoPackage");
 }
 
-TEST(GeoPackage, AbsenceIsTyped) {
+TEST(GeoPackage, MissingIsTyped) {
   const ScratchFolder folder;
   const fs::path path = folder / "holes.gpkg";
   write_geopackage(path, {});
@@ -325,14 +325,14 @@ TEST(GeoPackage, AbsenceIsTyped) {
   const auto source = open(path);
   ASSERT_TRUE(source);
   const auto kind = [&](const TileId& id) { return source->read(id).error().kind; };
-  EXPECT_EQ(kind({1, 0, 0}), Absence::absent);
-  EXPECT_EQ(kind({1, 1, 0}), Absence::blank);
-  EXPECT_EQ(kind({1, 2, 0}), Absence::broken);
-  EXPECT_EQ(kind({1, 3, 0}), Absence::broken);
-  EXPECT_EQ(kind({1, 0, 1}), Absence::broken);  // over the limit for one tile
-  EXPECT_EQ(kind({2, 0, 0}), Absence::absent);
-  EXPECT_EQ(kind({1, 4, 0}), Absence::absent);
-  EXPECT_EQ(kind({1, 0, -1}), Absence::absent);
+  EXPECT_EQ(kind({1, 0, 0}), MissingKind::absent);
+  EXPECT_EQ(kind({1, 1, 0}), MissingKind::blank);
+  EXPECT_EQ(kind({1, 2, 0}), MissingKind::broken);
+  EXPECT_EQ(kind({1, 3, 0}), MissingKind::broken);
+  EXPECT_EQ(kind({1, 0, 1}), MissingKind::broken);  // over the limit for one tile
+  EXPECT_EQ(kind({2, 0, 0}), MissingKind::absent);
+  EXPECT_EQ(kind({1, 4, 0}), MissingKind::absent);
+  EXPECT_EQ(kind({1, 0, -1}), MissingKind::absent);
 }
 
 TEST(GeoPackage, AViewWithoutEndIsGivenUp) {

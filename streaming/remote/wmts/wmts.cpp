@@ -19,7 +19,7 @@ namespace terrella {
 namespace {
 
 /// Time until an absent tile of the newest time is requested again.
-constexpr std::chrono::seconds kNewestAbsenceLife{3600};
+constexpr std::chrono::seconds kNewestMissingLife{3600};
 constexpr std::size_t kMaxShown = 20;
 constexpr std::size_t kMaxTextBytes = 16384;
 
@@ -209,7 +209,7 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
   set.info.body = chosen->placed.body;
   set.level_names = std::move(chosen->placed.level_names);
   set.shifts = std::move(chosen->placed.shifts);
-  if (*newest) set.absence_life = kNewestAbsenceLife;
+  if (*newest) set.missing_life = kNewestMissingLife;
   return set;
 }
 

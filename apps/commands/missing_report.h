@@ -15,22 +15,22 @@
 namespace terrella {
 
 /// Name of a reason: "broken", "refused", "failed" or "no room".
-[[nodiscard]] const char* lack_name(Lack kind);
+[[nodiscard]] const char* missing_name(PreloadMissing kind);
 
 /// Missing tiles of a preload, grouped by reason and listed one by one in a file. thread: one at a time
-class LackReport {
+class MissingReport {
  public:
   struct Group {
-    Lack kind = Lack::failed;
+    PreloadMissing kind = PreloadMissing::failed;
     std::string why;  ///< without the address
     std::int64_t tiles = 0;
     TileId first;
   };
 
   /// Opens the list. Each tile adds a line `LEVEL/X/Y<TAB>kind<TAB>why` to `file`; an empty name writes no list.
-  [[nodiscard]] static Result<LackReport> open(const std::filesystem::path& file);
+  [[nodiscard]] static Result<MissingReport> open(const std::filesystem::path& file);
 
-  void add(const TileId& id, Lack kind, const std::string& told);
+  void add(const TileId& id, PreloadMissing kind, const std::string& told);
   /// Groups sorted by tile count, largest first. All reasons beyond the first hundred share one group.
   [[nodiscard]] std::vector<Group> groups() const;
   /// Closes the list; fails if the file could not be written.
@@ -38,7 +38,7 @@ class LackReport {
 
  private:
   TileListFile list_;
-  std::map<std::pair<Lack, std::string>, Group> groups_;
+  std::map<std::pair<PreloadMissing, std::string>, Group> groups_;
 };
 
 }  // namespace terrella

@@ -1,4 +1,4 @@
-#include "apps/commands/lack_report.h"
+#include "apps/commands/missing_report.h"
 
 #include <fmt/format.h>
 
@@ -20,31 +20,31 @@ std::string reason_of(const std::string& why) {
 
 }  // namespace
 
-const char* lack_name(Lack kind) {
+const char* missing_name(PreloadMissing kind) {
   switch (kind) {
-    case Lack::broken:
+    case PreloadMissing::broken:
       return "broken";
-    case Lack::refused:
+    case PreloadMissing::refused:
       return "refused";
-    case Lack::no_room:
+    case PreloadMissing::no_room:
       return "no room";
-    case Lack::failed:
+    case PreloadMissing::failed:
       break;
   }
   return "failed";
 }
 
-Result<LackReport> LackReport::open(const std::filesystem::path& file) {
+Result<MissingReport> MissingReport::open(const std::filesystem::path& file) {
   auto list = TileListFile::open(file, TileListFile::Mode::begin);
   if (!list) return list.error();
-  LackReport report;
+  MissingReport report;
   report.list_ = *std::move(list);
   return report;
 }
 
-void LackReport::add(const TileId& id, Lack kind, const std::string& told) {
+void MissingReport::add(const TileId& id, PreloadMissing kind, const std::string& told) {
   const std::string why = one_line(told);
-  list_.add(id, fmt::format("\t{}\t{}", lack_name(kind), why));
+  list_.add(id, fmt::format("\t{}\t{}", missing_name(kind), why));
   std::string reason = reason_of(why);
   if (groups_.size() >= kMostReasons && !groups_.contains({kind, reason})) reason = "other reasons";
   Group& group = groups_[{kind, reason}];
@@ -55,7 +55,7 @@ void LackReport::add(const TileId& id, Lack kind, const std::string& told) {
   }
 }
 
-std::vector<LackReport::Group> LackReport::groups() const {
+std::vector<MissingReport::Group> MissingReport::groups() const {
   std::vector<Group> groups;
   for (const auto& [key, group] : groups_) groups.push_back(group);
   std::ranges::stable_sort(groups, std::ranges::greater(), &Group::tiles);
