@@ -63,7 +63,8 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const std::vector<Nu
   return tile;
 }
 
-Result<HeightTile, TileFailure> from_png(HeightTile tile, const EncodedTile& encoded, const Metres& metres) {
+Result<HeightTile, TileFailure> from_png(HeightTile tile, const EncodedTile& encoded, const Metres& metres,
+                                         bool is_signed) {
   DecodeLimits limits;
   limits.max_side_px = std::max(tile.side_px, 1024);
   const Result<Gray16> gray = decode_gray16_png(encoded.bytes, limits);
@@ -72,7 +73,8 @@ Result<HeightTile, TileFailure> from_png(HeightTile tile, const EncodedTile& enc
     return broken(fmt::format("PNG: {}×{} pixels, the tile set says {}×{}", gray->width_px, gray->height_px,
                               tile.side_px, tile.side_px));
   }
-  return to_heights(std::move(tile), gray->values, metres);
+  if (!is_signed) return to_heights(std::move(tile), gray->values, metres);
+  return to_heights(std::move(tile), std::vector<std::int16_t>(gray->values.begin(), gray->values.end()), metres);
 }
 
 }  // namespace
@@ -90,7 +92,7 @@ Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTi
     return broken(fmt::format("{}, heights are PNG pictures, gray of 16 bits",
                               format == ImageFormat::jpeg ? "a JPEG picture" : "no PNG picture"));
   }
-  return from_png(std::move(made), tile, metres);
+  return from_png(std::move(made), tile, metres, info.is_signed);
 }
 
 }  // namespace terrella

@@ -85,7 +85,9 @@ std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0,
 
 std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(2.0 * top_row_deg(grid), grid, level); }
 
-double top_row_deg(const TileGrid& grid) { return grid.projection == Projection::web_mercator ? 180.0 : 90.0; }
+double top_row_deg(const TileGrid& grid) {
+  return grid.projection == Projection::web_mercator || grid.projection == Projection::projected ? 180.0 : 90.0;
+}
 
 RowLatitudes row_bounds(const TileGrid& grid) {
   const double south = grid.bounds.south.deg();
