@@ -25,9 +25,6 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
                                                                 const std::optional<HeightCoding>& heights);
 
-/// True for the first bytes of a TIFF or BigTIFF in either byte order.
-[[nodiscard]] bool begins_as_tiff(std::string_view head);
-
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);
 

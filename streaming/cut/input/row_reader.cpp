@@ -1,6 +1,5 @@
 #include "streaming/cut/input/row_reader.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -8,6 +7,7 @@
 
 #include "streaming/cut/input/row_formats.h"
 #include "streaming/other_formats.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -69,12 +69,6 @@ Status check_regular(const std::filesystem::path& path) {
   }
   if (!std::filesystem::is_other(status)) return Done{};
   return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
-}
-
-bool begins_as_tiff(std::string_view head) {
-  using namespace std::string_view_literals;
-  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  return std::ranges::any_of(kHeads, [head](std::string_view start) { return head.starts_with(start); });
 }
 
 std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {
