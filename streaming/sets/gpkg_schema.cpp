@@ -113,9 +113,9 @@ SqlStatement matrix_set(const TileGrid& grid) {
   const double top = top_row_deg(grid);
   return {.sql = "INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', CAST(?1 AS INTEGER), ?2, ?3, ?4, ?5)",
           .texts = {},
-          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * -180.0,
+          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * grid.west_deg,
                       unit * (top - static_cast<double>(rows(grid, 0)) * grid.root_span_deg),
-                      unit * (-180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
+                      unit * (grid.west_deg + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
 }
 
 void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {

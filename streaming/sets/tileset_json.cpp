@@ -40,6 +40,8 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.grid.latitude =
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
+  if (fields.has("origin_west_deg")) info.grid.west_deg = fields.number("origin_west_deg");
+  if (fields.has("origin_north_deg")) info.grid.north_deg = fields.number("origin_north_deg");
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
   info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
   info.elevation = read_elevation(object, fields, where);
@@ -74,6 +76,10 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
+  if (!begins_at_planet(grid)) {
+    object["origin_west_deg"] = grid.west_deg;
+    object["origin_north_deg"] = grid.north_deg;
+  }
   if (grid.reduced) object["polar_rows"] = "squeezed too";
   object["format"] = name_of(info.format);
   if (info.elevation) {
