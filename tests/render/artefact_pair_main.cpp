@@ -14,6 +14,7 @@
 #include "apps/setup/scene_options.h"
 #include "apps/setup/write_file.h"
 #include "codecs/image.h"
+#include "globe/experiments.h"
 #include "render/gl/offscreen.h"
 
 namespace {
@@ -33,11 +34,11 @@ std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
   auto elevation = value_of(open_elevation(scene));
   const Body body = value_of(scene_body(scene, imagery->info()));
   GlobeOptions options = globe_options(scene, body);
-  options.naive_translucency = naive;
   add_sky_data(options);
   auto globe = value_of(Globe::create(options, std::move(imagery), std::move(elevation)));
+  Experiments::of(*globe).naive_translucency = naive;
   // Which of two mountains comes first is chance; in this order some of those behind do.
-  if (naive) globe->set_patch_shuffle(5U);
+  if (naive) Experiments::of(*globe).patch_shuffle = 5U;
   if (const auto added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
   globe->set_camera(first_camera(scene, body, scene.size));
   const OffscreenTarget target(scene.size);

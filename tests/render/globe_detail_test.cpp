@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "gl_fixture.h"
+#include "globe/experiments.h"
 
 namespace terrella::test {
 namespace {
@@ -19,10 +20,13 @@ class GlobeDetail : public GlTest {
     const auto globe = Globe::create(options, deep_tiles());
     return globe ? std::string() : globe.error().message;
   }
-  FrameStats settled(const GlobeOptions& options) {
-    const std::unique_ptr<Globe> globe = make_globe(options, deep_tiles());
-    globe->set_camera(over_the_alps());
-    return settle(*globe, {256, 256});
+  FrameStats settled(const GlobeOptions& options, CubeMapping mapping = CubeMapping::tangent) {
+    const auto globe = Globe::create(options);
+    EXPECT_TRUE(globe);
+    Experiments::of(**globe).mapping = mapping;
+    EXPECT_TRUE((*globe)->add_imagery(deep_tiles()));
+    (*globe)->set_camera(over_the_alps());
+    return settle(**globe, {256, 256});
   }
   int background() const {
     int count = 0;
@@ -110,11 +114,10 @@ TEST_F(GlobeDetail, NoHolesAtTheEndsOfTheRangesInEitherMapping) {
   for (const CubeMapping mapping : {CubeMapping::plain, CubeMapping::tangent}) {
     for (const int segments : {2, 128}) {
       GlobeOptions options = unlit_options();
-      options.mapping = mapping;
       options.segments = segments;
       options.gutter_px = segments == 2 ? 0 : 3;
       options.max_error_px = 1.0;
-      EXPECT_EQ(settled(options).patches_uncovered, 0);
+      EXPECT_EQ(settled(options, mapping).patches_uncovered, 0);
       EXPECT_EQ(background(), 0) << segments << " segments";
     }
   }

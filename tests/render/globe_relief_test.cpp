@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "globe/experiments.h"
 #include "mountains.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -210,8 +211,8 @@ TEST_F(GlobeRelief, ThroughATranslucentMountainNoOtherMountainShows) {
     GlobeOptions options = unlit_options();
     options.exaggeration = 20.0;
     options.surface.alpha = 0.5;
-    options.naive_translucency = naive;
     const auto globe = mountains(options, 90.0);  // 4° apart: one behind the other before the horizon
+    Experiments::of(*globe).naive_translucency = naive;
     globe->set_camera(camera_at(10, 20, 1.2e5, 90, -5, 70));
     settle(*globe, kReliefPicture);
     const Picture seen = picture();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "eye_sights.h"
+#include "globe/experiments.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {
@@ -111,9 +112,10 @@ TEST_P(Paper2Objects, UnderTheFarSideTheyNeverShow) {
 
 TEST_P(Paper2Objects, UnderTheFarSideTheyShowWhereTransparencyIsJustSwitchedOn) {
   GlobeOptions naive = unlit_options();
-  naive.naive_translucency = true;
   naive.surface.alpha = 0.5;
   const auto globe = globe_with(balls_under_the_far_side(), naive);
+  Experiments::of(*globe).naive_translucency = true;
+  draw(*globe, size());
   const Picture seen = picture();
   for (const EyeSight& eye : eye_sights(*globe, seen)) {
     int blue = 0;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "eye_sights.h"
+#include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "tests/scene/patch_test_support.h"
 #include "view/stereo.h"
@@ -54,8 +55,8 @@ class Paper2Sky : public GlTest, public testing::WithParamInterface<Stereo> {
     options.time = *parse_utc("2026-06-21T12:00Z");
     options.stars = stars_everywhere();
     options.stereo.mode = GetParam();
-    options.naive_translucency = naive;
     auto globe = make_globe(options, one_colour({.tile_px = 64, .max_level = 1}, kDarkGround));
+    Experiments::of(*globe).naive_translucency = naive;
     EXPECT_TRUE(globe->add_objects({.points = std::move(objects)}));
     globe->set_camera(camera_at(-23.4, -179.5, 2.0e7));
     settle(*globe, size());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eye_sights.h"
+#include "globe/experiments.h"
 #include "painted_heights.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -107,12 +108,12 @@ TEST_P(Paper2Surface, ShowsOnceWithoutSkirtsCracksOrMountainsBehindMountains) {
 
 TEST_P(Paper2Surface, ShowsTwiceWhereTransparencyIsJustSwitchedOn) {
   GlobeOptions naive = glass(0.5);
-  naive.naive_translucency = true;
   const auto globe = rocks(naive, kEyepoints.front().camera);
+  Experiments::of(*globe).naive_translucency = true;
   // What lies behind shows only if its patch comes first.
   int brighter = 0;
   for (unsigned seed = 1; seed <= 8 && brighter <= 50; ++seed) {
-    globe->set_patch_shuffle(seed);
+    Experiments::of(*globe).patch_shuffle = seed;
     draw(*globe, size());
     brighter = judge(*globe, naive.surface).brighter;
   }
@@ -124,11 +125,11 @@ TEST_P(Paper2Surface, DoesNotDependOnTheOrderOfPatches) {
     const auto globe = rocks(glass(0.5), eyepoint.camera);
     for (const double alpha : {0.5, 1.0}) {
       globe->set_surface({.alpha = alpha});
-      globe->set_patch_shuffle({});
+      Experiments::of(*globe).patch_shuffle.reset();
       draw(*globe, size());
       const Picture first = picture();
       for (const unsigned seed : {1U, 2U, 3U}) {
-        globe->set_patch_shuffle(seed);
+        Experiments::of(*globe).patch_shuffle = seed;
         draw(*globe, size());
         EXPECT_EQ(first.rgba, picture().rgba) << eyepoint.name << ", alpha " << alpha << ", order " << seed;
       }
@@ -138,10 +139,11 @@ TEST_P(Paper2Surface, DoesNotDependOnTheOrderOfPatches) {
 
 TEST_P(Paper2Surface, DependsOnItWhereTransparencyIsJustSwitchedOn) {
   GlobeOptions naive = glass(0.5);
-  naive.naive_translucency = true;
   const auto globe = rocks(naive, kEyepoints.front().camera);
+  Experiments::of(*globe).naive_translucency = true;
+  draw(*globe, size());
   const Picture first = picture();
-  globe->set_patch_shuffle(1U);
+  Experiments::of(*globe).patch_shuffle = 1U;
   draw(*globe, size());
   EXPECT_NE(first.rgba, picture().rgba) << "shuffling changes nothing: the test above sees nothing";
 }
