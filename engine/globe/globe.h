@@ -174,8 +174,8 @@ class Globe {
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);
-  /// Returns the attribution texts of the last frame, each text once: of the image layers with a tile in view, lowest
-  /// first and including those under an opaque layer, of the elevation, and of the visible object layers.
+  /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
+  /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
   [[nodiscard]] std::vector<std::string> attributions() const;
   /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
@@ -196,12 +196,12 @@ class Globe {
   /// 16 tiles.
   void set_budget(const GlobeBudget& budget);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
-  /// and uploads what has arrived, within the budget. Returns what the frame did. Draws nothing if status() is an
-  /// error.
+  /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`. `framebuffer` is a GL name, 0 the
+  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
+  /// if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
-  /// The error of the last frame, which drew nothing because a shader program that it was the first to need could not
-  /// be made. The next frame tries again.
+  /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
+  /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
 
   /// True if the last frame showed everything that its view needs.

@@ -4,7 +4,7 @@
 #include "globe/globe_impl.h"
 #include "surface/daylight.h"
 
-// What a pixel shows, and which pixel shows a place.
+// Picking and projecting: from a pixel to places, layers and objects, and from a place to its pixel.
 namespace terrella {
 namespace {
 

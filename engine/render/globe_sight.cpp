@@ -4,7 +4,7 @@
 
 #include "render/globe_renderer.h"
 
-// What the eye of a picture can see, and what hides it.
+// Sight of one eye: the objects, labels and limb that the surface or the inner sphere hides, and the near plane.
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 namespace terrella {

@@ -66,8 +66,8 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
   for (const LayerFrame& layer : pass.upper()) draw_upper(pass, layer, state);
 }
 
-// First the background under the surface is dimmed. Then the layers add their parts from the top down, while the alpha
-// of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
+// First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
+// alpha of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
 void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
   const auto flat = [&] {
     patches_->draw_flat(*pass.base().gpu, vertices_of(pass.base(), pass.base()), state, pass.counts);

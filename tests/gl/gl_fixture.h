@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "tests/gl/gl_context_test.h"
 #include "globe/globe.h"
+#include "tests/gl/gl_context_test.h"
 #include "tests/gl/painted_source.h"
 
 namespace terrella::test {

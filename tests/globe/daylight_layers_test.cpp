@@ -6,10 +6,10 @@
 #include <functional>
 #include <numbers>
 
+#include "surface/daylight.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/layer_source.h"
 #include "tests/gl/painted_heights.h"
-#include "surface/daylight.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

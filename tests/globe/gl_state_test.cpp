@@ -4,12 +4,12 @@
 
 #include <random>
 
-#include "tests/gl/gl_dump.h"
-#include "tests/gl/gl_fixture.h"
-#include "tests/gl/layer_source.h"
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_state.h"
 #include "render/gl/shader_library.h"
+#include "tests/gl/gl_dump.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/gl/layer_source.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/gl/gl_fixture.h"
 #include "globe/experiments.h"
+#include "tests/gl/gl_fixture.h"
 
 namespace terrella::test {
 namespace {

@@ -1,8 +1,8 @@
 // Lines of latitude and longitude as a layer of a globe: where they are, and how wide.
 #include <gtest/gtest.h>
 
-#include "tests/gl/gl_fixture.h"
 #include "objects/graticule.h"
+#include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

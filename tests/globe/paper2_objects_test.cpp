@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "tests/gl/eye_sights.h"
 #include "globe/experiments.h"
+#include "tests/gl/eye_sights.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {

@@ -7,9 +7,9 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "tests/gl/eye_sights.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
+#include "tests/gl/eye_sights.h"
 #include "tests/scene/patch_test_support.h"
 #include "view/stereo.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/gl/eye_sights.h"
 #include "globe/experiments.h"
+#include "tests/gl/eye_sights.h"
 #include "tests/gl/painted_heights.h"
 #include "tests/scene/patch_test_support.h"
 
