@@ -15,8 +15,12 @@
 #include "apps/bench/truth/masked_error.h"
 #include "apps/bench/work_folder.h"
 #include "geo/body.h"
+#include "globe/experiments.h"
 
 #include <epoxy/gl.h>
+
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 
 namespace terrella::bench {
 namespace {
@@ -81,11 +85,13 @@ class PolarLab {
     globe.body = *parse_body("sphere");
     globe.unlit = true;
     globe.texturing = method.texturing;
-    globe.paper_a = method.a;
-    globe.paper_band = method.band;
     globe.squeezed_rows = method.squeezed;
     globe.gpu_bytes = kGlobeBytes;
-    return open_globe(planet_.tiles.string(), globe);
+    std::unique_ptr<Globe> made = open_globe(planet_.tiles.string(), globe);
+    Experiments& experiments = Experiments::of(*made);
+    experiments.paper_a = method.a;
+    experiments.paper_band = method.band;
+    return made;
   }
 
   [[nodiscard]] truth::TruthImage truth_of(const truth::TruthCamera& camera) const {

@@ -6,6 +6,9 @@
 #include "apps/bench/truth/truth_cache.h"
 #include "base/result.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
 /// A planet to measure on: its picture, and the PNG tiles cut from it.

@@ -129,6 +129,7 @@ int view(const ViewOptions& options) {
   layers.body = *body;
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
   if (!globe) return fail("view", globe.error().message);
+  set_paper_texturing(**globe, options.scene);
   if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return fail("view", overlaid.error().message);
   if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)

@@ -9,6 +9,8 @@
 #include "geo/ellipsoid.h"
 
 // thread: any, for all of this header
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 namespace terrella {
 
 /// The relation between rows of the imagery and latitude. `equirectangular` is paper 1's formula (3), rows linear in

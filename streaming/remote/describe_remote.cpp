@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
 #include "streaming/remote/remote_tms.h"

@@ -5,6 +5,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
 struct PaperVertex {

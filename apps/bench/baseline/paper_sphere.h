@@ -7,6 +7,9 @@
 #include "apps/bench/truth/picture.h"
 #include "apps/bench/truth/ray_caster.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
 /// Texturing of the sphere.

@@ -4,6 +4,9 @@
 
 #include "apps/bench/truth/picture.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::truth {
 
 /// Options of a planet of isotropic noise: a hard and fair test picture that favours no direction or place. The noise
