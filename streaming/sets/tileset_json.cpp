@@ -19,8 +19,6 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr const char* kCutKeyField = "cut_key";
 
-const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
-
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   JsonFields fields(object, where);
   TileSetInfo info;
@@ -41,7 +39,7 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
-  info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  info.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
   info.elevation = read_elevation(object, fields, where);
   if (info.elevation && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
@@ -75,7 +73,7 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
   if (grid.reduced) object["polar_rows"] = "squeezed too";
-  object["format"] = name_of(info.format);
+  object["format"] = extension_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
     if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
