@@ -21,9 +21,12 @@
 namespace terrella {
 namespace {
 
-constexpr std::array<std::string_view, 2> kMapJpegTypes = {"image/jpeg", "image/jpg"};
-constexpr std::array<std::string_view, 4> kMapPngTypes = {"image/png", "image/png; mode=24bit", "image/png24",
-                                                          "image/png8"};
+/// Media types of each ImageFormat.
+const std::array<std::vector<std::string_view>, 3> kMapTypes = {{
+    {"image/jpeg", "image/jpg"},
+    {"image/png", "image/png; mode=24bit", "image/png24", "image/png8"},
+    {"image/webp"},
+}};
 
 std::string names_of(const std::vector<WmsLayer>& layers) {
   std::vector<std::string> names;
@@ -77,26 +80,23 @@ struct MapFormat {
   std::string media_type;
 };
 
-/// PNG keeps transparent what the layer does not cover. A layer that covers all is smaller as JPEG.
+/// PNG and WebP keep transparent what the layer does not cover. An opaque layer is smaller as JPEG.
 Result<MapFormat> choose_format(const std::vector<std::string>& offered, const WmsLayer& layer,
                                 const std::string& wanted, const RemoteOptions& options) {
-  const auto among = [&](std::span<const std::string_view> known) -> std::optional<std::string> {
-    for (const std::string_view type : known) {
-      for (const std::string& one : offered) {
+  std::vector<ImageFormat> order = {ImageFormat::png, ImageFormat::webp};
+  order.insert(layer.opaque ? order.begin() : order.end(), ImageFormat::jpeg);
+  for (const ImageFormat format : order) {
+    if (options.format && *options.format != format) continue;
+    for (const std::string_view type : kMapTypes.at(static_cast<std::size_t>(format))) {
+      const auto found = std::ranges::find_if(offered, [&](const std::string& one) {
         const bool fits = wanted.empty() || options.format || same_letters(one, wanted);
-        if (fits && same_letters(one, type)) return one;
-      }
+        return fits && same_letters(one, type);
+      });
+      if (found != offered.end()) return MapFormat{format, *found};
     }
-    return std::nullopt;
-  };
-  const auto jpeg = options.format == ImageFormat::png ? std::nullopt : among(kMapJpegTypes);
-  const auto png = options.format == ImageFormat::jpeg ? std::nullopt : among(kMapPngTypes);
-  if (png && (!layer.opaque || !jpeg)) return MapFormat{ImageFormat::png, *png};
-  if (jpeg) return MapFormat{ImageFormat::jpeg, *jpeg};
-  return Error{fmt::format("it offers pictures as {}; {} can be read", list_of(offered),
-                           wanted.empty() ? "image/png and image/jpeg"
-                                          : fmt::format("{} is not among them, or not read; image/png and image/jpeg",
-                                                        wanted.substr(0, 60)))};
+  }
+  return Error{fmt::format("it offers pictures as {}; {}image/png, image/jpeg and image/webp can be read",
+                           list_of(offered), wanted.empty() ? "" : "the requested format is not among them; ")};
 }
 
 Result<std::string> choose_style(const WmsLayer& layer, const std::string& wanted) {
@@ -183,7 +183,7 @@ std::string request_for(const Service& service, const WmsLayer& layer, const Wms
       fmt::format("SERVICE=WMS&VERSION={}&REQUEST=GetMap&LAYERS={}&STYLES={}&{}={}&FORMAT={}",
                   service.version_1_3 ? "1.3.0" : service.version, percent_encode(layer.name), percent_encode(style),
                   service.version_1_3 ? "CRS" : "SRS", percent_encode(placed.crs), percent_encode(format.media_type));
-  if (format.format == ImageFormat::png && !layer.opaque) url += "&TRANSPARENT=TRUE";
+  if (format.format != ImageFormat::jpeg && !layer.opaque) url += "&TRANSPARENT=TRUE";
   url += fmt::format("&WIDTH={0}&HEIGHT={0}&BBOX={{bbox}}", placed.grid.tile_px);
   return url;
 }
