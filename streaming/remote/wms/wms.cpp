@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <span>
 
+#include "base/number.h"
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wms/wms_grid.h"

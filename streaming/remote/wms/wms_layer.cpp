@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/xml_names.h"
 
