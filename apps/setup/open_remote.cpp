@@ -124,7 +124,7 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
 
 Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (options.offline) return open_offline(options);
-  const HttpOptions http = network_options();
+  HttpOptions http = network_options();
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
@@ -132,6 +132,7 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
       options.tile_set, remote,
       [&http](const Url& url, const std::vector<std::string>& headers) { return fetch_document(http, url, headers); });
   if (!set) return set.error();
+  http = within_limits(http, *set);
   auto cache = cache_of(options, *set);
   if (!cache) return cache.error();
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {

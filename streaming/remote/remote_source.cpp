@@ -39,6 +39,7 @@ Encoded tile_of(CacheRecord&& record) {
 TileSides sides_of(const TileSetInfo& info, const TileId& id) {
   const TileGrid& grid = info.grid;
   TileSides sides{.least_width_px = grid.tile_px, .least_height_px = grid.tile_px, .most_px = grid.tile_px};
+  sides.floats = info.elevation && info.elevation->floats;
   if (!info.square) return sides;
   const TileBounds tile = tile_bounds(grid, id);
   if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;
