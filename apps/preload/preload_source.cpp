@@ -1,7 +1,5 @@
 #include "apps/preload/preload_source.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -15,21 +13,12 @@
 namespace terrella {
 namespace {
 
-/// Areas and views of a preload are counted in tiles of degrees.
-Error no_projection(const Url& source, const TileSetInfo& info) {
-  return Error{
-      fmt::format("{}: its tiles are in {}, and only tiles in EPSG:4326 or EPSG:3857 are preloaded; look at it "
-                  "with `view`, which keeps the tiles it shows",
-                  source.redacted(), info.square->crs.substr(0, 100))};
-}
-
 Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   const auto fetch = [&](const Url& url, const std::vector<std::string>& headers) {
     return fetch_document(http, url, headers);
   };
   auto set = describe_remote(source, remote, fetch);
   if (!set) return set.error();
-  if (set->info.square) return no_projection(source, set->info);
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
   opened.make_origin = [http = within_limits(http, *set), set = *std::move(set)](ReplyQueue& answers) {
     return network_origin(set, http, answers);
@@ -41,7 +30,6 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   const std::string& source = named.with_secrets();
   auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
-  if ((*tiles)->info().square) return no_projection(named, (*tiles)->info());
   // A cache cannot store a GeoPackage's scale and offset of single height tiles.
   if ((*tiles)->info().elevation) {
     return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
