@@ -43,9 +43,9 @@ RasterInfo info_of(const TileSetInfo& tiles) {
   return info;
 }
 
-class TileRaster : public RasterSource, public RemoteTiles {
+class ProjectedTiles : public RasterSource, public RemoteTiles {
  public:
-  explicit TileRaster(std::unique_ptr<TileSource> stored)
+  explicit ProjectedTiles(std::unique_ptr<TileSource> stored)
       : stored_(std::move(stored)), info_(info_of(stored_->info())) {}
 
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
@@ -76,7 +76,7 @@ class TileRaster : public RasterSource, public RemoteTiles {
 
 std::unique_ptr<RasterSource> raster_of_tiles(std::unique_ptr<TileSource> stored) {
   assert(stored->info().square);
-  return std::make_unique<TileRaster>(std::move(stored));
+  return std::make_unique<ProjectedTiles>(std::move(stored));
 }
 
 }  // namespace terrella
