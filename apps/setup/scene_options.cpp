@@ -235,7 +235,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, a folder of tiles, a picture of the whole planet (JPEG, PNG, WebP, TIFF), a URL template "
-          "with {z}, {x} and {y}, the address of a WMTS capabilities document, or a JSON source description "
+          "with {z}, {x} and {y}, the address of a WMTS or WMS, or a source description (JSON or <GDAL_WMS>) "
           "(default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);

@@ -71,7 +71,7 @@ class Refiner {
     }
     look_up(at, nodes);
     const double span = std::max(x1 - x0, y1 - y0) * step_deg_;
-    const auto placed = std::ranges::count_if(nodes, is_placed);
+    const auto placed = std::ranges::count_if(nodes, [](const CrsPoint& node) { return is_placed(node); });
     const bool single = x1 - x0 == 1 && y1 - y0 == 1;
     if (placed == 0 && (single || span <= kEmptySpan_deg)) return;
     if (placed == 9 && span <= kMostSpan_deg) {

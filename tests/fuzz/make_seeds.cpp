@@ -109,6 +109,20 @@ constexpr const char* kCoverage =
     "INSERT INTO gpkg_2d_gridded_tile_ancillary VALUES ('t', 1, 2.0, 1.0);"
     "ALTER TABLE t ADD COLUMN id; UPDATE t SET id = rowid;";
 
+constexpr const char* kGdalWms =
+    "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://a/${z}/${x}/${y}.png</ServerUrl></Service><DataWindow><UpperLeftX>"
+    "-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX><LowerRightY>-90</LowerRightY><TileLevel>3"
+    "</TileLevel><TileCountX>2</TileCountX><TileCountY>1</TileCountY><YOrigin>top</YOrigin></DataWindow><Projection>"
+    "EPSG:4326</Projection><BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>1</BandsCount><DataType>"
+    "Int16</DataType><DataValues NoData=\"-1\"/><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>";
+
+constexpr const char* kWms =
+    "<WMS_Capabilities version=\"1.3.0\"><Service><MaxWidth>2048</MaxWidth></Service><Capability><Request><GetMap><Format>"
+    "image/png</Format><DCPType><HTTP><Get><OnlineResource xlink:href=\"http://a/?\"/></Get></HTTP></DCPType></GetMap>"
+    "</Request><Layer><Name>l</Name><CRS>EPSG:4326</CRS><CRS>EPSG:3413</CRS><BoundingBox CRS=\"EPSG:3413\" minx=\"-1\" "
+    "miny=\"-1\" maxx=\"1\" maxy=\"1\"/><MinScaleDenominator>9</MinScaleDenominator><Dimension name=\"time\" default=\"2004"
+    "\">2003,2004</Dimension></Layer></Capability></WMS_Capabilities>";
+
 constexpr const char* kCapabilities =
     "<Capabilities><Contents><Layer><Title>t</Title><Identifier>l</Identifier><Style isDefault=\"true\"><Identifier>d"
     "</Identifier></Style><Format>image/png</Format><WGS84BoundingBox><LowerCorner>-180 -90</LowerCorner><UpperCorner>"
@@ -217,6 +231,8 @@ int main(int argc, char** argv) {
   write(folder / "tileset_json/a.json", to_tileset_json(info()));
   write(folder / "tms_xml/a.xml", kTms);
   write(folder / "capabilities/a.xml", kCapabilities);
+  write(folder / "gdal_wms" / "a.xml", kGdalWms);
+  write(folder / "gdal_wms" / "b.xml", kWms);
   write(folder / "source_json/a.json", kSource);
   const std::string mbtiles =
       std::string(kMbtiles) + "INSERT INTO tiles VALUES (1, 3, 1, " + blob_of(*encode_jpeg(picture(255), 50)) + ");";
