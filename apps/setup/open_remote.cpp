@@ -14,11 +14,11 @@
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/tile_cache.h"
-#include "streaming/mercator/mercator_source.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/web_mercator.h"
 
 namespace terrella {
 namespace {

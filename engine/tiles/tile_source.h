@@ -43,7 +43,7 @@ struct TileSetInfo {
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
   std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
-  /// The grid of the tiles from which this set's tiles are made (streaming/mercator).
+  /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
   std::optional<CrsSquare> square = {};  ///< set if, and only if, the grid's projection is `projected`
 };

@@ -1,6 +1,7 @@
 // Tiles made of Web Mercator's: where they show things, how sharp, what they do where something is missing.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <future>
@@ -9,9 +10,8 @@
 #include <thread>
 
 #include "mercator_planet.h"
-#include "streaming/mercator/mercator_grid.h"
-#include "streaming/mercator/mercator_source.h"
-#include "streaming_test_support.h"
+#include "streaming/warp/web_mercator.h"
+#include "tests/streaming/streaming_test_support.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -175,7 +175,8 @@ TEST(Mercator, FarFromTheEquatorALevelLessIsEnough) {
   const TileGrid mercator = MercatorPlanet({}, kMercatorPx, 10).info().grid;
   const TileGrid grid = geodetic_grid_of(mercator);
   const auto level_at = [&](double lat) {
-    return plan_tile(mercator, {10, 500, static_cast<std::int64_t>(tile_xy(grid, 10, lat, 0.0).y)}).level;
+    const TileId id{10, 500, static_cast<std::int64_t>(tile_xy(grid, 10, lat, 0.0).y)};
+    return stored_tiles_of(mercator, std::array{id})->begin()->level;
   };
   EXPECT_EQ(level_at(0.0), 10);
   EXPECT_EQ(level_at(59.0), 10);
@@ -253,12 +254,7 @@ TEST_F(MissingTest, WhatFailedOrIsBrokenIsNamed) {
   EXPECT_NE(small.error().why.find("5/10/14: it is 32×32 pixels, the tile set says 64×64"), std::string::npos);
 }
 
-TEST(Mercator, HeightsAndSetsBeyondItsEndAreRefused) {
-  auto heights = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
-  heights->change().elevation = ElevationInfo{};
-  const auto refused = as_geodetic(std::move(heights), "heights.gpkg");
-  ASSERT_FALSE(refused);
-  EXPECT_TRUE(refused.error().message.starts_with("heights.gpkg: its tiles are heights in Web Mercator"));
+TEST(Mercator, SetsBeyondItsEndAreRefused) {
   auto pole = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
   pole->change().grid.bounds.south = Angle::degrees(86.0);
   EXPECT_FALSE(as_geodetic(std::move(pole), "pole.gpkg"));
@@ -413,7 +409,7 @@ TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
 }
 
 TEST_F(FarMercator, OneThatFailsEndsTheWaitAtOnce) {
-  const auto first = plan_tile(stored->info().grid, {5, 10, 6}).pieces.front().id;
+  const TileId first = *stored_tiles_of(stored->info().grid, std::array{TileId{5, 10, 6}})->begin();
   stored->note_missing(first, MissingKind::failed);
   std::vector<Result<EncodedTile, TileFailure>> answers;
   tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));

@@ -6,7 +6,7 @@
 #include "mercator_planet.h"
 #include "streaming/cache/tile_cache.h"
 #include "streaming/sets/open_tile_set.h"
-#include "streaming_test_support.h"
+#include "tests/streaming/streaming_test_support.h"
 #include "tests/support/scratch_folder.h"
 
 namespace terrella {
