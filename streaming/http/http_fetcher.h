@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/byte_range.h"
 #include "streaming/url.h"
 
 namespace terrella {
@@ -40,15 +41,18 @@ struct HttpRequest {
   std::string etag;                  ///< validators of what the caller has: asks conditionally
   std::string last_modified;
   double priority = 0.0;  ///< larger first
+  /// Requests these bytes alone, at least one. The answer may end earlier if the file does. http and https only.
+  std::optional<ByteRange> range = {};
+  std::string if_match = {};  ///< strong entity tag of the file that the range belongs to; empty: any
 };
 
 enum class HttpOutcome {
-  content,       ///< 200 with a whole body
+  content,       ///< 200 with a whole body; 206 with the bytes of `range`
   not_modified,  ///< 304
   nothing,       ///< 204, 404 or 410: the server has no such thing
-  refused,       ///< 401, 403 and other 4xx that will not change by asking again; redirect loops; bad certificates; a
-                 ///< scheme that is not allowed; a body over the limit
-  failed,        ///< could not be asked for now, after all attempts: time-outs, resets, 5xx, 429
+  refused,  ///< a server that ignores ranges, or a file that changed (412); 401, 403 and other 4xx that will not change
+            ///< by asking again; redirect loops; bad certificates; a scheme that is not allowed; a body over the limit
+  failed,  ///< could not be asked for now, after all attempts: time-outs, resets, 5xx, 429
 };
 
 struct HttpReply {
@@ -61,6 +65,7 @@ struct HttpReply {
   std::string last_modified;
   std::optional<std::int64_t> expires_unix_s;  ///< by Cache-Control max-age (less Age), else Expires; none if not said
   bool no_store = false;
+  std::optional<std::uint64_t> file_bytes;  ///< length of the whole file, by Content-Range
   int attempts = 0;
   std::string why;  ///< for people: host and path without query, what was wrong; empty for content
 };
