@@ -24,6 +24,10 @@ struct PreloadSource {
 [[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
                                                         const HttpOptions& http);
 
+/// Fetches the description of a remote set; the headers are in `remote`. The error names the address. thread: any
+[[nodiscard]] Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote,
+                                                      const HttpOptions& http);
+
 /// Fetches one document and waits for the answer. thread: any
 [[nodiscard]] Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
                                                             const std::vector<std::string>& headers);
