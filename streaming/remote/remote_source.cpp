@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <ctime>
 #include <mutex>
 #include <system_error>
@@ -12,8 +11,8 @@
 #include <vector>
 
 #include "streaming/http/reply_queue.h"
+#include "streaming/remote/reply_rules.h"
 #include "streaming/remote/tile_fetcher.h"
-#include "streaming/sets/tile_check.h"
 
 namespace terrella {
 namespace {
@@ -34,21 +33,6 @@ using Encoded = Result<EncodedTile, TileFailure>;
 Encoded tile_of(CacheRecord&& record) {
   if (record.missing) return TileFailure{*record.missing, std::move(record.why)};
   return EncodedTile{std::move(record.bytes)};
-}
-
-/// A stored raster ends inside its last tiles, and a server may send only the part that there is.
-TileSides sides_of(const TileSetInfo& info, const TileId& id) {
-  const TileGrid& grid = info.grid;
-  TileSides sides{.least_width_px = grid.tile_px, .least_height_px = grid.tile_px, .most_px = grid.tile_px};
-  if (!info.square) return sides;
-  const TileBounds tile = tile_bounds(grid, id);
-  if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;
-  if (tile.south_deg < grid.bounds.south.deg()) sides.least_height_px = 1;
-  return sides;
-}
-
-bool is_exception(const std::vector<std::byte>& body) {
-  return !server_exception({reinterpret_cast<const char*>(body.data()), body.size()}).empty();
 }
 
 class RemoteSource : public TileSource, public RemoteTiles {
@@ -170,9 +154,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
-    if (std::ranges::find(set_.missing_statuses, reply.status) != set_.missing_statuses.end()) {
-      return missing(id, MissingKind::absent, std::move(reply), missing_life());
-    }
+    apply_reply_rules(set_, reply);
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -195,11 +177,8 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_tile(reply.body, sides_of(set_.info, id)); !good) {
+    if (const Status good = check_answer(set_.info, id, reply.body); !good) {
       reply.why = good.error().message;
-      if (set_.exception_is_missing && is_exception(reply.body)) {
-        return missing(id, MissingKind::absent, std::move(reply), missing_life());
-      }
       reply.expires_unix_s.reset();
       return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
     }

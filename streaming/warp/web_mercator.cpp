@@ -9,7 +9,7 @@
 #include "streaming/raster/tile_raster.h"
 #include "streaming/sets/tileset_check.h"
 #include "streaming/warp/make_warp_source.h"
-#include "streaming/warp/warp_source.h"
+#include "streaming/warp/projected_tiles.h"
 
 namespace terrella {
 namespace {
@@ -58,14 +58,7 @@ Result<std::set<TileId>> stored_tiles_of(const TileGrid& mercator, std::span<con
 
 Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored, const std::string& where) {
   TileSetInfo info = stored->info();
-  if (info.square) {
-    const auto body = parse_body(info.body.empty() ? "earth" : info.body);
-    if (!body) return Error{where + ": " + body.error().message};
-    const WarpOptions options{.figure = {.ellipsoid = body->ellipsoid, .latitude = info.grid.latitude},
-                              .body = info.body,
-                              .tile_px = info.grid.tile_px};
-    return warp_source(raster_of_tiles(std::move(stored)), options, where);
-  }
+  if (info.grid.projection == Projection::projected) return geodetic_of_projected(std::move(stored), where);
   if (info.grid.projection != Projection::web_mercator) return stored;
   const TileGrid mercator = info.grid;
   info.made_of = mercator;
