@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
+#include "streaming/other_formats.h"
 #include "streaming/remote/gdal_wms/gdal_wms.h"
 #include "streaming/remote/remote_tms.h"
 #include "streaming/remote/source_json.h"
@@ -143,6 +144,7 @@ class Describing {
       case Kind::json:
         return follow(text, address, options);
       default:
+        if (const std::string hint = local_hint(address, text); !hint.empty()) return Error{where + ": " + hint};
         return Error{where +
                      ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS or WMS "
                      "capabilities, tilemapresource.xml, <GDAL_WMS> or JSON"};
@@ -181,6 +183,12 @@ class Describing {
     if (!document) return Error{where + ": " + document.error().message};
     const Kind kind = is_wms ? Kind::wms : source.kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
     return interpret(kind, *document, source.address, merged);
+  }
+
+  /// Advice for a label of a planetary archive (PDS4) on disk, which is XML too.
+  static std::string local_hint(const Url& address, std::string_view text) {
+    if (has_scheme(address.with_secrets())) return {};
+    return convert_hint(address.with_secrets(), text.substr(0, kFormatHeadBytes));
   }
 
   static Url with_scheme(const Url& address) {
