@@ -225,7 +225,7 @@ std::vector<Plot> accuracy_plots(const std::vector<AccuracyView>& views) {
   if (pairs.empty()) pairs = {pole, middle};
   const Plot log{.title = {}, .x = "tiles", .y = "rms", .series = "view", .log_x = true, .log_y = true};
   Plot detail = log, tiles = log, columns = log, triangles = log;
-  detail.title = "detail: texels a pixel that are asked for";
+  detail.title = "detail: texels per pixel";
   detail.x = "value";
   detail.only = tiles.only = {{"sweep", {kDetail}}, {"view", pairs}};
   tiles.title = "tiles that they take";

@@ -220,14 +220,14 @@ void add_findings(const std::vector<PolarView>& views, Report& report) {
 
 Report measure_polar(const BenchOptions& options, TestPlanet planet) {
   Report report{.name = "polar",
-                .title = "Polar texturing: paper 1's sphere and the globe, time beside error",
+                .title = "Polar texturing: Zuev's sphere (2023) and the globe, time beside error",
                 .facts = {{"renderer", renderer_name()}, {"time", timing_method()}},
                 .columns = polar_columns()};
   report.facts.emplace_back(
       "picture", fmt::format("noise planet, {}x{}", planet.source.picture.width, planet.source.picture.height));
   PolarLab lab(options, std::move(planet));
-  report.facts.emplace_back("paper 1's sphere", fmt::format("n = 48, {} triangles, {} vertices",
-                                                            lab.sphere().triangles(), lab.sphere().vertices()));
+  report.facts.emplace_back("Zuev's sphere", fmt::format("n = 48, {} triangles, {} vertices", lab.sphere().triangles(),
+                                                         lab.sphere().vertices()));
   std::vector<PolarView> views = polar_views(options.effort);
   std::erase_if(views, [&](const PolarView& view) { return !options.wants(view.name); });
   for (const PolarView& view : views) lab.measure(view, report);

@@ -17,8 +17,8 @@ struct TestPlanet {
   std::filesystem::path tiles;
 };
 
-/// The noise planet (truth/noise_planet.h): 8192×4096 as paper 1's picture, or 1024×512 for a quick run. Created and
-/// cut on first use.
+/// The noise planet (truth/noise_planet.h): 8192×4096 as the picture of Zuev's paper (baseline/paper_sphere.h), or
+/// 1024×512 for a quick run. Created and cut on first use.
 [[nodiscard]] Result<TestPlanet> noise_test_planet(const BenchOptions& options);
 
 /// Like noise_test_planet(), but with one file per tile in a folder.

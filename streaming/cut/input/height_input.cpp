@@ -10,7 +10,7 @@
 
 #include "base/number.h"
 #include "streaming/cut/input/row_formats.h"
-#include "streaming/cut/input/tiff_open.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "streaming/cut/input/row_formats.h"
-#include "streaming/cut/input/tiff_open.h"
 #include "streaming/cut/input/tiff_samples.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
+#include "apps/viewer/action.h"
 #include "sky/utc_time.h"
 #include "view/render_modes.h"
 
 namespace terrella {
-
-inline constexpr const char* kViewTitle = "View";
 
 /// Values that the panel shows and changes.
 struct ViewSettings {
@@ -28,11 +28,10 @@ struct ViewSettings {
 /// Text of a time for its field; empty without a time. thread: any
 [[nodiscard]] std::string time_field(std::optional<UtcTime> time);
 
-/// Request for another panel.
-enum class ViewAsk { none, layers, picture, help };
-
 /// Draws the panel with its tips at the left edge, between Ui::begin_frame() and Ui::end_frame(). `just_opened` gives
-/// the panel the keyboard. Stores the user's changes in `settings`. thread: main
-ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened);
+/// the panel the keyboard. Stores the user's changes in `settings`. Returns the action whose button was clicked; null
+/// if none was. thread: main
+[[nodiscard]] const Action* draw_view_settings(const char* title, ViewSettings& settings,
+                                               std::span<const Action> actions, bool just_opened);
 
 }  // namespace terrella

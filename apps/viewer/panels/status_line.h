@@ -1,12 +1,9 @@
 #pragma once
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
 #include "apps/viewer/panels/readout.h"
-#include "objects/graticule.h"
 
 namespace terrella {
 
@@ -23,20 +20,10 @@ struct PanelStatus {
   std::optional<ScaleBar> scale;
 };
 
-// Call these functions between Ui::begin_frame() and Ui::end_frame(). `unit_px`: framebuffer pixels per unit of the
-// window. thread: main
-
-/// Draws the status line, the scale bar and the attribution.
-void draw_status(const PanelStatus& status, double unit_px);
-/// Draws the list of shortcuts in the middle.
-void draw_help();
-/// Part of the picture for one graticule, framebuffer pixels; lines and labels are clipped to this part.
-struct GraticulePart {
-  int left_px = 0;
-  Viewport size;
-  glm::vec3 tint{1.0F};  ///< colour of lines and labels
-};
-/// Draws lines and labels below the panels.
-void draw_graticule(const Graticule& graticule, const GraticulePart& part, double unit_px);
+/// Draws the status line, the scale bar, the attribution and the message, between Ui::begin_frame() and
+/// Ui::end_frame(). A narrow window shows the scale bar above the status line, and leaves out the last fields.
+/// `unit_px`: framebuffer pixels per unit of the window. Returns the height that the panels at the lower edge use, in
+/// units. thread: main
+float draw_status(const PanelStatus& status, double unit_px);
 
 }  // namespace terrella

@@ -1,5 +1,7 @@
-#include "streaming/cut/input/tiff_open.h"
+#include "streaming/tiff_open.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 
@@ -32,6 +34,12 @@ TiffHandle open_tiff(const std::string& name, std::string& message) {
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxSingleAllocation);
   // m: no memory map, because its size would count as memory held.
   return TiffHandle(TIFFOpenExt(name.c_str(), "rm", options.get()));
+}
+
+bool begins_as_tiff(std::string_view head) {
+  using namespace std::string_view_literals;
+  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+  return std::ranges::any_of(kHeads, [head](std::string_view start) { return head.starts_with(start); });
 }
 
 }  // namespace terrella

@@ -1,4 +1,4 @@
-#include "apps/viewer/tools/view_settings.h"
+#include "apps/viewer/panels/view_settings.h"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
@@ -111,18 +111,16 @@ void draw_stereo(StereoLook& stereo) {
   tip("Larger values deepen the scene; very large values strain the eyes.");
 }
 
-ViewAsk draw_view_buttons() {
-  ViewAsk ask = ViewAsk::none;
-  const auto button = [&ask](const char* name, ViewAsk what, const char* why) {
-    if (ImGui::Button(name)) ask = what;
-    tip(why);
+const Action* draw_buttons(std::span<const Action> actions) {
+  const Action* clicked = nullptr;
+  for (const Action& action : actions) {
+    if (action.button == nullptr) continue;
+    if (ImGui::Button(action.button)) clicked = &action;
+    tip(fmt::format("{}: {}", action.keys, action.what).c_str());
     ImGui::SameLine();
-  };
-  button("Layers", ViewAsk::layers, "L: show, hide, fade, reorder or remove layers.");
-  button("Picture", ViewAsk::picture, "I: save a picture of any size.");
-  button("Shortcuts", ViewAsk::help, "F1: mouse and keyboard shortcuts.");
+  }
   ImGui::NewLine();
-  return ask;
+  return clicked;
 }
 
 }  // namespace
@@ -132,7 +130,8 @@ std::string time_field(std::optional<UtcTime> time) {
   return fmt::format("{:%Y-%m-%dT%H:%MZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(*time)));
 }
 
-ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
+const Action* draw_view_settings(const char* title, ViewSettings& settings, std::span<const Action> actions,
+                                 bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.8F * unit, 0.8F * unit});
@@ -140,9 +139,9 @@ ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
   ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - 5.0F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(kViewTitle, nullptr, kPanelWindow);
+  ImGui::Begin(title, nullptr, kPanelWindow);
   ImGui::PushItemWidth(0.5F * kWidth * unit);
-  const ViewAsk ask = draw_view_buttons();
+  const Action* clicked = draw_buttons(actions);
   group("Surface");
   draw_surface(settings.surface);
   if (settings.has_relief) {
@@ -161,7 +160,7 @@ ViewAsk draw_view_settings(ViewSettings& settings, bool just_opened) {
   draw_stereo(settings.stereo);
   ImGui::PopItemWidth();
   ImGui::End();
-  return ask;
+  return clicked;
 }
 
 }  // namespace terrella
