@@ -210,10 +210,15 @@ class RangeServer(http.server.BaseHTTPRequestHandler):
             self.wfile.write(body)
 
 
+class QuietServer(http.server.ThreadingHTTPServer):
+    def handle_error(self, *_):
+        """A client that does not want the rest hangs up."""
+
+
 @contextlib.contextmanager
 def range_server(data, fault=""):
     handler = type("Handler", (RangeServer,), {"data": data, "fault": fault, "count": 0})
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    server = QuietServer(("127.0.0.1", 0), handler)
     thread = threading.Thread(target=server.serve_forever, daemon=True)
     thread.start()
     try:
