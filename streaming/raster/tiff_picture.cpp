@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace terrella {
@@ -147,6 +148,8 @@ class PictureTags {
   Status read_blocks() {
     picture_.tiled = TIFFIsTiled(tiff_) != 0;
     if (!picture_.tiled) {
+      const std::int64_t rows = tiff_tag<std::uint32_t>(tiff_, TIFFTAG_ROWSPERSTRIP, 0);
+      picture_.rows_per_strip = std::clamp<std::int64_t>(rows, 1, picture_.height_px);
       const tmsize_t row = TIFFScanlineSize(tiff_);
       const bool fits = row > 0 && static_cast<std::size_t>(row) >= picture_.packed_bytes(picture_.width_px);
       return fits ? Status(Done{}) : refuse("rows of an unexpected size");

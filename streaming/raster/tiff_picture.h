@@ -22,6 +22,7 @@ struct TiffPicture {
   bool separate = false;            ///< each sample has a plane of blocks of its own
   std::int64_t tile_width_px = 0;   ///< 0: strips
   std::int64_t tile_height_px = 0;  ///< 0: strips
+  std::int64_t rows_per_strip = 1;  ///< at most height_px
   int compression = COMPRESSION_NONE;
   TiffSamples samples;
 
