@@ -57,7 +57,7 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   plan.grid.max_level = *level;
   plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
   plan.grid.projection = options.projection;
-  plan.grid.latitude = options.latitude;
+  plan.grid.latitude = options.latitude.value_or(LatitudeKind::graphic);
   plan.grid.reduced = plan.wraps && !options.elevation && has_reduced_rows(plan);
   return plan;
 }
