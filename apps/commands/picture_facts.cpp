@@ -22,6 +22,7 @@ Result<PictureFacts> measure(const std::filesystem::path& picture) {
   const auto file = measure_picture(picture);
   if (!file) return file.error();
   facts.file = *file;
+  if (const auto rows = open_rows(picture)) facts.orientation = (*rows)->info().orientation;
   const auto tags = read_geo_tags(picture);
   facts.is_heights = tags && *tags && ((*tags)->samples == SampleKind::int16 || (*tags)->samples == SampleKind::floats);
   const auto raster = describe_raster(picture);

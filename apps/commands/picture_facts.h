@@ -23,6 +23,7 @@ struct PictureFacts {
   PictureFile file;
   PlaceWords words;
   std::optional<RasterFacts> raster{};  ///< of a TIFF
+  int orientation = 1;                  ///< EXIF orientation by which the picture is turned; 1: not turned
   bool is_heights = false;              ///< true for pixel types used only for heights
   std::optional<Georeference> said;
   std::optional<CrsFacts> crs;

@@ -40,7 +40,7 @@ std::string kind_text(const PictureFacts& facts) {
     text = fmt::format("as it is, from column {} of the grid on", place.first_column);
   if (place.kind == PlaceKind::warped) {
     const bool even = facts.place->placed.placement.has_value();
-    text = even ? "resampled, because its pixels fit no grid from (-180, 90)"
+    text = even ? "resampled, because its pixels fit no grid"
                 : fmt::format("resampled from {}", facts.crs ? crs_text(*facts.crs, {}) : place.from->crs);
   }
   return text + latitude;
@@ -103,7 +103,9 @@ std::string raster_lines(const RasterFacts& raster) {
 
 std::string to_text(const PictureFacts& facts) {
   std::string text = fmt::format("picture      {}\n", facts.file.path.string());
-  text += fmt::format("pixels       {}x{}\n", facts.file.width_px, facts.file.height_px);
+  const std::string turned =
+      facts.orientation == 1 ? "" : fmt::format(", turned upright by its EXIF orientation {}", facts.orientation);
+  text += fmt::format("pixels       {}x{}{}\n", facts.file.width_px, facts.file.height_px, turned);
   if (facts.raster) text += raster_lines(*facts.raster);
   text += fmt::format("georeference {}\n", facts.said ? facts.said->source : "(none)");
   if (facts.said || facts.crs) text += fmt::format("system       {}\n", system_text(facts));
@@ -168,6 +170,7 @@ std::string to_json(const PictureFacts& facts) {
   Json object{{"picture", facts.file.path.string()},
               {"width_px", facts.file.width_px},
               {"height_px", facts.file.height_px},
+              {"exif_orientation", facts.orientation},
               {"georeference", facts.said ? said_json(facts) : Json()}};
   if (facts.raster) add_raster(object, *facts.raster);
   add_place(object, facts);

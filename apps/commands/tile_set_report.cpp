@@ -25,6 +25,8 @@ const char* format_name(ImageFormat format) {
       return "JPEG";
     case ImageFormat::png:
       return "PNG";
+    case ImageFormat::webp:
+      return "WebP";
     case ImageFormat::unknown:
       break;
   }

@@ -87,8 +87,10 @@ Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTi
     return to_heights(std::move(made), *numbers, metres);
   }
   if (const ImageFormat format = sniff_format(tile.bytes); format != ImageFormat::png) {
-    return broken(fmt::format("{}, heights are PNG pictures, gray of 16 bits",
-                              format == ImageFormat::jpeg ? "a JPEG picture" : "no PNG picture"));
+    return broken(
+        fmt::format("{}, heights are PNG pictures, gray of 16 bits", format == ImageFormat::jpeg   ? "a JPEG picture"
+                                                                     : format == ImageFormat::webp ? "a WebP picture"
+                                                                                                   : "no PNG picture"));
   }
   return from_png(std::move(made), tile, metres);
 }

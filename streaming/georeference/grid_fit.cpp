@@ -10,6 +10,9 @@ constexpr double kAlignment_px = 0.01;
 
 bool near(double a, double b) { return std::abs(a - b) <= kAlignment_px; }
 
+/// The next whole number if it is near, else the same number.
+double snapped(double pixels) { return near(pixels, std::round(pixels)) ? std::round(pixels) : pixels; }
+
 /// Columns of the whole turn; 0 if 360° is not a whole number of pixels.
 std::int64_t turn_of(const PictureFile& picture, double pixel_deg) {
   const double turn = std::round(360.0 / pixel_deg);
@@ -47,26 +50,28 @@ FittedPlace fit_to_grid(const PictureFile& picture, const Placement& place) {
   }
   const std::int64_t turn = turn_of(picture, place.pixel_width_deg);
   const double pixel = turn > 0 ? 360.0 / static_cast<double>(turn) : place.pixel_width_deg;
+  const double whole = 360.0 / pixel;
   const auto width = static_cast<double>(picture.width_px), height = static_cast<double>(picture.height_px);
   const double turns = std::floor((place.west_deg + 180.0) / 360.0 + kAlignment_px * pixel / 360.0);
-  const double left = (place.west_deg - 360.0 * turns + 180.0) / pixel;
-  const double top = (90.0 - place.north_deg) / pixel, bottom = top + height * place.pixel_height_deg / pixel;
-  const double x0 = std::round(left), y0 = std::round(top);
-  const double whole = 360.0 / pixel;
-  const bool on_planet = y0 >= 0.0 && bottom <= 0.5 * whole + kAlignment_px && x0 + width <= x0 + whole + kAlignment_px;
-  const bool crosses = x0 + width > whole + kAlignment_px;
-  const bool aligned = near(left, x0) && near(top, y0) && near(bottom, y0 + height);
-  if (!aligned || !on_planet || (crosses && turn == 0)) return fitted;
-  fitted.turn_px = turn;
-  fitted.first_column = std::llround(x0);
+  // Edges in pixels from (-180°, 90°).
+  const double left = snapped((place.west_deg - 360.0 * turns + 180.0) / pixel);
+  const double top = snapped((90.0 - place.north_deg) / pixel);
+  const double below = top + height * place.pixel_height_deg / pixel;
+  const bool is_square = near(below, top + height);
+  const bool on_planet = top >= 0.0 && below <= 0.5 * whole + kAlignment_px && width <= whole + kAlignment_px;
+  const bool goes_over = left + width > whole + kAlignment_px;
   const bool all_round = picture.width_px == turn;
-  const double west = -180.0 + x0 * pixel;
-  const double south = near(bottom, 0.5 * whole) ? -90.0 : 90.0 - (y0 + height) * pixel;
-  const double east = near(x0 + width, whole) ? 180.0 : west + width * pixel;
-  fitted.fit = all_round && crosses ? GridFit::rolled : GridFit::as_it_is;
-  fitted.bounds = all_round ? rect_of(-180.0, south, 180.0, 90.0 - y0 * pixel)
-                            : rect_of(west, south, east > 180.0 ? east - 360.0 : east, 90.0 - y0 * pixel);
-  fitted.whole_planet = all_round && south == -90.0 && y0 == 0.0;
+  const bool meets_columns = turn > 0 && left == std::round(left);
+  if (!is_square || !on_planet || ((goes_over || all_round) && !meets_columns)) return fitted;
+  fitted.turn_px = turn;
+  fitted.first_column = std::llround(left);
+  const double west = -180.0 + left * pixel, north = 90.0 - top * pixel;
+  const double south = near(below, 0.5 * whole) ? -90.0 : north - height * pixel;
+  const double east = near(left + width, whole) ? 180.0 : west + width * pixel;
+  fitted.fit = all_round && goes_over ? GridFit::rolled : GridFit::as_it_is;
+  fitted.bounds = all_round ? rect_of(-180.0, south, 180.0, north)
+                            : rect_of(west, south, east > 180.0 ? east - 360.0 : east, north);
+  fitted.whole_planet = all_round && south == -90.0 && north == 90.0;
   return fitted;
 }
 

@@ -7,11 +7,12 @@
 
 namespace terrella {
 
-/// Relation of a picture in even steps of degrees to the pixels of a grid from (-180°, 90°).
+/// Relation of a picture in even steps of degrees to a grid of its own pixels. Such a grid begins at (-180°, 90°), or
+/// less than a pixel beyond.
 enum class GridFit {
   as_it_is,  ///< its pixels are the grid's
   rolled,    ///< its pixels are the grid's, and it goes round the planet from another column than the grid's first
-  none       ///< its pixels lie between the grid's, are not square, or reach beyond the planet
+  none       ///< its pixels are not square, reach beyond the planet, or do not meet their own columns after a turn
 };
 
 /// A picture on the pixels of a grid.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
 #include "streaming/remote/remote_tms.h"
@@ -140,7 +141,7 @@ class Describing {
     Result<RemoteTileSet> set = follow(*source, address, merged, options);
     if (!set || !merged.elevation) return set;
     if (set->info.format != ImageFormat::png) {
-      return Error{where + ": its tiles are JPEG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
+      return Error{where + ": its tiles are no PNG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
     }
     set->info.elevation = merged.elevation;
     return set;

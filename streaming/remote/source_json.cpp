@@ -49,9 +49,7 @@ void read_grid(JsonFields& fields, RemoteOptions& options) {
   options.min_level = integer_if(fields, "min_level", 0, kMaxTileLevel);
   options.max_level = integer_if(fields, "max_level", 0, kMaxTileLevel);
   if (fields.has("bounds")) options.bounds = fields.bounds("bounds");
-  if (fields.has("format")) {
-    options.format = fields.choice("format", "jpg", "png", 0) == 1 ? ImageFormat::png : ImageFormat::jpeg;
-  }
+  if (fields.has("format")) options.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, 0));
   if (fields.has("projection")) {
     options.projection = static_cast<Projection>(fields.choice("projection", kProjectionNames, 0));
   }
@@ -102,7 +100,7 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
   options.elevation = read_elevation(*object, fields, where);
-  if (options.elevation && options.format == ImageFormat::jpeg) {
+  if (options.elevation && options.format && options.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   if (fields.error()) return *fields.error();

@@ -108,6 +108,7 @@ Status fit_rows_from_south(TileGrid& grid, bool level_said, const std::string& w
 
 ImageFormat format_of_ending(const std::string& url) {
   const std::string path = lower_case(url.substr(0, url.find('?')));
+  if (path.ends_with(".webp")) return ImageFormat::webp;
   return path.ends_with(".png") ? ImageFormat::png : ImageFormat::jpeg;
 }
 

@@ -26,10 +26,17 @@ constexpr const char* kTables[] = {
     "CONSTRAINT fk_tmm_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name))",
 };
 
+/// OGC 12-128r18, table 23.
+constexpr const char* kExtensionsTable =
+    "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
+    "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))";
+/// OGC 12-128r18, annex F.7.
+constexpr const char* kWebpExtension =
+    "INSERT INTO gpkg_extensions VALUES ('tiles', 'tile_data', 'gpkg_webp', 'http://www.geopackage.org/spec/#extension_tiles_webp', "
+    "'read-write')";
+
 /// Tables of the extension, OGC 17-066r1, tables 1 to 3.
 constexpr const char* kCoverageTables[] = {
-    "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
-    "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))",
     "CREATE TABLE gpkg_2d_gridded_coverage_ancillary (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
     "tile_matrix_set_name TEXT NOT NULL UNIQUE, datatype TEXT NOT NULL DEFAULT 'integer', scale REAL NOT NULL DEFAULT 1.0, "
     "offset REAL NOT NULL DEFAULT 0.0, precision REAL DEFAULT 1.0, data_null REAL, "
@@ -113,9 +120,9 @@ SqlStatement matrix_set(const TileGrid& grid) {
   const double top = top_row_deg(grid);
   return {.sql = "INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', CAST(?1 AS INTEGER), ?2, ?3, ?4, ?5)",
           .texts = {},
-          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * -180.0,
+          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * grid.west_deg,
                       unit * (top - static_cast<double>(rows(grid, 0)) * grid.root_span_deg),
-                      unit * (-180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
+                      unit * (grid.west_deg + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
 }
 
 void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {
@@ -156,6 +163,9 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
   all.push_back({std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)",
                  {kTileSetKey, to_tileset_json(info, cut_key)}});
+  const bool webp = info.format == ImageFormat::webp;
+  if (info.elevation || webp) all.push_back({kExtensionsTable, {}});
+  if (webp) all.push_back({kWebpExtension, {}});
   if (info.elevation) describe_heights(*info.elevation, all);
   if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;

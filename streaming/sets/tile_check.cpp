@@ -7,8 +7,7 @@
 #include <string_view>
 
 #include "codecs/image.h"
-#include "codecs/jpeg_codec.h"
-#include "codecs/png_codec.h"
+#include "codecs/webp_codec.h"
 
 namespace terrella {
 namespace {
@@ -29,9 +28,13 @@ Error not_a_picture(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first != std::string_view::npos && bytes[first] == '<')
     return Error{"a page of HTML or XML instead of a picture"};
-  if (bytes.starts_with("RIFF")) return Error{"WebP, which is not read; JPEG or PNG is needed"};
-  if (bytes.starts_with("GIF8")) return Error{"GIF, which is not read; JPEG or PNG is needed"};
-  return Error{"neither JPEG nor PNG"};
+  if (bytes.starts_with("GIF8")) return Error{"GIF, which is not read; JPEG, PNG or WebP is needed"};
+  return Error{"not a JPEG, PNG or WebP picture"};
+}
+
+bool is_complete(std::string_view text, std::span<const std::byte> bytes, ImageFormat format) {
+  if (format == ImageFormat::webp) return webp_length(bytes) <= bytes.size();
+  return ends_with(text, format == ImageFormat::jpeg ? kJpegEnd : kPngEnd);
 }
 
 }  // namespace
@@ -40,13 +43,12 @@ Status check_tile(std::span<const std::byte> bytes, int tile_px) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const ImageFormat format = sniff_format(bytes);
   if (format == ImageFormat::unknown) return not_a_picture(text);
-  const bool jpeg = format == ImageFormat::jpeg;
-  const Result<PictureSize> size = jpeg ? jpeg_size(bytes) : png_size(bytes);
+  const Result<PictureSize> size = picture_size(bytes);
   if (!size) return size.error();
   if (size->width_px != tile_px || size->height_px != tile_px) {
     return Error{fmt::format("a picture of another size than the set's {}×{} pixels", tile_px, tile_px)};
   }
-  if (!ends_with(text, jpeg ? kJpegEnd : kPngEnd)) return Error{"a picture that ends too early"};
+  if (!is_complete(text, bytes, format)) return Error{"a picture that ends too early"};
   return Done{};
 }
 

@@ -7,9 +7,9 @@
 
 namespace terrella {
 
-/// Quick check of a tile's bytes from a server: begins as a JPEG or PNG, has `tile_px` pixels a side in its header, and
-/// ends properly. Decodes no pixel (2 µs rather than 1 ms); `terrella info --verify` decodes. The error says what came
-/// instead. thread: any
+/// Quick check of a tile's bytes from a server: begins as a JPEG, PNG or WebP, has `tile_px` pixels a side in its
+/// header, and ends properly. Decodes no pixel (2 µs rather than 1 ms); `terrella info --verify` decodes. The error
+/// says what came instead. thread: any
 [[nodiscard]] Status check_tile(std::span<const std::byte> bytes, int tile_px);
 
 }  // namespace terrella

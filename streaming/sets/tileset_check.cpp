@@ -46,6 +46,23 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
   return Done{};
 }
 
+Status check_origin(const TileGrid& grid, const std::string& where) {
+  if (begins_at_planet(grid)) return Done{};
+  if (!(grid.west_deg <= -180.0 && grid.west_deg > -180.0 - grid.root_span_deg)) {
+    return field_error(where, "origin_west_deg", grid.west_deg, "-180 or less, by under one root_span_deg");
+  }
+  if (!(grid.north_deg >= 90.0 && grid.north_deg < 90.0 + grid.root_span_deg)) {
+    return field_error(where, "origin_north_deg", grid.north_deg, "90 or more, by under one root_span_deg");
+  }
+  const bool crosses = grid.bounds.east < grid.bounds.west && grid.west_deg != -180.0;
+  if (grid.projection == Projection::web_mercator || grid.reduced || crosses) {
+    return Error{where +
+                 ": an origin other than (-180, 90) is not for Web Mercator, nor for grids with polar_rows or bounds "
+                 "that cross 180 degrees"};
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Status check_grid(const TileGrid& grid, const std::string& where) {
@@ -63,6 +80,7 @@ Status check_grid(const TileGrid& grid, const std::string& where) {
     return field_error(where, "min_level", grid.min_level, fmt::format("in [0, max_level = {}]", grid.max_level));
   }
   if (Status square = check_mercator(grid, where); !square) return square.error();
+  if (Status origin = check_origin(grid, where); !origin) return origin.error();
   return check_bounds(grid.bounds, where);
 }
 

@@ -19,8 +19,6 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr const char* kCutKeyField = "cut_key";
 
-const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
-
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   JsonFields fields(object, where);
   TileSetInfo info;
@@ -40,8 +38,10 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.grid.latitude =
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
+  if (fields.has("origin_west_deg")) info.grid.west_deg = fields.number("origin_west_deg");
+  if (fields.has("origin_north_deg")) info.grid.north_deg = fields.number("origin_north_deg");
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
-  info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  info.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
   info.elevation = read_elevation(object, fields, where);
   if (info.elevation && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
@@ -74,8 +74,12 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
+  if (!begins_at_planet(grid)) {
+    object["origin_west_deg"] = grid.west_deg;
+    object["origin_north_deg"] = grid.north_deg;
+  }
   if (grid.reduced) object["polar_rows"] = "squeezed too";
-  object["format"] = name_of(info.format);
+  object["format"] = extension_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
     if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);

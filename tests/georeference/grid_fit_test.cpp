@@ -52,6 +52,15 @@ TEST(GridFitTest, Parts) {
   EXPECT_EQ(fit(40, 20, -180.0 + 1440 * 0.247, 90.0 - 100 * 0.247, 0.247).fit, GridFit::none);
 }
 
+TEST(GridFitTest, AGridMayBeginBesideThePlanetsCorner) {
+  const FittedPlace part = fit(40, 20, 10.125, 50.0625, 0.25);
+  EXPECT_EQ(part.fit, GridFit::as_it_is);
+  EXPECT_DOUBLE_EQ(part.bounds.west.deg(), 10.125);
+  EXPECT_DOUBLE_EQ(part.bounds.north.deg(), 50.0625);
+  // Columns beyond ±180° must be those from -180° on.
+  EXPECT_EQ(fit(40, 20, 175.125, 50.0, 0.25).fit, GridFit::none);
+}
+
 TEST(GridFitTest, BandsRoundThePlanet) {
   const FittedPlace band = fit(360, 60, 0.0, 30.0, 1.0);
   EXPECT_EQ(band.fit, GridFit::rolled);
@@ -62,8 +71,6 @@ TEST(GridFitTest, BandsRoundThePlanet) {
 }
 
 TEST(GridFitTest, PixelsThatAreNotTheGrids) {
-  EXPECT_EQ(fit(40, 20, 10.125, 50.0, 0.25).fit, GridFit::none);
-  EXPECT_EQ(fit(40, 20, 10.0, 50.125, 0.25).fit, GridFit::none);
   EXPECT_EQ(fit(40, 20, 10.0, 50.0, 0.25, 0.2).fit, GridFit::none);
   EXPECT_EQ(fit(361, 180, -180.0, 90.0, 1.0).fit, GridFit::none);  // more than a turn
   EXPECT_EQ(fit(360, 181, -180.0, 90.0, 1.0).fit, GridFit::none);  // beyond the south pole

@@ -155,7 +155,7 @@ int MeshPass::draw(const ObjectDraw& draw) const {
       calls += draw_parts(model, range.first, range.count, true, state);
       continue;
     }
-    // What faces away lies behind what faces the eye, whatever the order of triangles: right for all that is convex.
+    // Faces away from the eye are drawn first. For convex models this is back to front for every order of triangles.
     for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
       state.cull = left_out;
       calls += draw_parts(model, range.first, range.count, false, state);

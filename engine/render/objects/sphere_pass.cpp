@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-// Larger spheres are triangles: the outline of a point is an ellipse, which is exact only for small spheres.
+// Larger spheres are triangles. A point shows an elliptic outline, which is exact only for small spheres.
 constexpr float kLargestPoint_px = 4.0F;
 constexpr float kEdge_px = 1.0F;  // kEdge_px of object_sphere_seen.glsl, with room for rounding
 

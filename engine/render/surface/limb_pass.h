@@ -19,7 +19,7 @@ struct LimbPicture {
   int rows_apart = 1;
 };
 
-/// Antialiases the globe's limb in a finished picture; shaders/surface/limb.frag. thread: main
+/// Antialiases the globe's limb in a finished picture (shaders/surface/limb.frag). thread: main
 class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
@@ -27,8 +27,8 @@ class LimbPass {
   /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
   /// Returns the draw calls made: 0 if no limb is in view, else 1.
   int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state);
-  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
-  /// is read must not be written. Returns 0 or 2.
+  /// The same if the bound framebuffer is the one that holds the picture. Draws into `beside` first, because a pass
+  /// must not read the texture that it writes. Returns 0 or 2.
   int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state,
                     const FrameTargets::Beside& beside, GLuint framebuffer);
 

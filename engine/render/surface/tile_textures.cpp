@@ -13,11 +13,11 @@ namespace {
 constexpr int kFirstSlots = 128;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
-/// Returns the number of texels around the planet in the tiles of a level and squeeze, if that number is whole.
+/// Returns the number of texels around the planet in the tiles of a level and squeeze, if the columns close at ±180°.
 std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
   const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
   const double whole = std::round(exact);
-  if (std::abs(exact - whole) > 1e-3) return std::nullopt;
+  if (grid.west_deg != -180.0 || std::abs(exact - whole) > 1e-3) return std::nullopt;
   return static_cast<std::int64_t>(whole);
 }
 

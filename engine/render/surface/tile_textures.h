@@ -27,7 +27,7 @@ class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
 
-  /// The content of slot 0; at first the plain colour.
+  /// The content of slot 0. Initially it is the plain colour.
   enum class Empty { plain_colour, transparent };
   void set_empty(Empty empty);
   /// Sets the budget and evicts the tiles drawn longest ago if there is less room.

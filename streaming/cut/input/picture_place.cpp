@@ -107,7 +107,7 @@ Result<PicturePlace> find_joined_place(const CutOptions& options, const PictureF
   if (!at || put_on_grid(options, joined, *at, place)) return place;
   return Error{fmt::format(
       "{}: the mosaic's pixels of {:.9g} by {:.9g} degrees with the corner at longitude {:.9g}, latitude {:.9g} do not "
-      "fit a grid from (-180, 90), and parts are not resampled; make one picture of them: {}",
+      "fit a grid, and parts are not resampled; make one picture of them: {}",
       joined.path.string(), at->pixel_width_deg, at->pixel_height_deg, at->west_deg, at->north_deg,
       join_command(options.images))};
 }

@@ -23,8 +23,12 @@ constexpr std::chrono::seconds kNewestMissingLife{3600};
 constexpr std::size_t kMaxShown = 20;
 constexpr std::size_t kMaxTextBytes = 16384;
 
-constexpr std::array<std::string_view, 4> kJpegTypes = {"image/jpeg", "image/jpg", "image/vnd.jpg-png", "image/jpgpng"};
-constexpr std::array<std::string_view, 3> kPngTypes = {"image/png", "image/png8", "image/png; mode=8bit"};
+/// Media types of each ImageFormat.
+const std::array<std::vector<std::string_view>, 3> kTypes = {{
+    {"image/jpeg", "image/jpg", "image/vnd.jpg-png", "image/jpgpng"},
+    {"image/png", "image/png8", "image/png; mode=8bit"},
+    {"image/webp"},
+}};
 
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
@@ -107,13 +111,14 @@ Result<ChosenFormat> choose_format(const WmtsLayer& layer, const RemoteOptions& 
       return std::ranges::any_of(known, [&](std::string_view one) { return same_letters(one, type); });
     });
   };
-  const auto jpeg = among(kJpegTypes);
-  const auto png = among(kPngTypes);
-  if (jpeg != types.end() && options.format != ImageFormat::png) return ChosenFormat{ImageFormat::jpeg, *jpeg};
-  if (png != types.end() && options.format != ImageFormat::jpeg) return ChosenFormat{ImageFormat::png, *png};
-  return Error{fmt::format(
-      "layer \"{}\" has tiles as {}; {} can be read", layer.name, list_of(types),
-      options.format ? "what was asked for is not among them; image/jpeg and image/png" : "image/jpeg and image/png")};
+  for (const ImageFormat format : {ImageFormat::jpeg, ImageFormat::png, ImageFormat::webp}) {
+    if (options.format && options.format != format) continue;
+    const auto type = among(kTypes.at(static_cast<std::size_t>(format)));
+    if (type != types.end()) return ChosenFormat{format, *type};
+  }
+  return Error{fmt::format("layer \"{}\" has tiles as {}; {}image/jpeg, image/png and image/webp can be read",
+                           layer.name, list_of(types),
+                           options.format ? "the requested format is not among them; " : "")};
 }
 
 Result<std::string> choose_style(const WmtsLayer& layer, const std::string& wanted) {
