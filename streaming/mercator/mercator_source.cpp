@@ -1,5 +1,7 @@
 #include "streaming/mercator/mercator_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <limits>
@@ -261,6 +263,10 @@ class MercatorSource : public TileSource, public RemoteTiles {
 
 Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored, const std::string& where) {
   TileSetInfo info = stored->info();
+  if (info.square) {
+    return Error{fmt::format("{}: its tiles are in {}; tiles in EPSG:4326 or EPSG:3857 can be shown", where,
+                             info.square->crs.substr(0, 100))};
+  }
   if (info.grid.projection != Projection::web_mercator) return stored;
   if (info.elevation) {
     return Error{where +

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <mutex>
 #include <system_error>
@@ -32,6 +33,21 @@ using Encoded = Result<EncodedTile, TileFailure>;
 Encoded tile_of(CacheRecord&& record) {
   if (record.missing) return TileFailure{*record.missing, std::move(record.why)};
   return EncodedTile{std::move(record.bytes)};
+}
+
+/// A stored raster ends inside its last tiles, and a server may send only the part that there is.
+TileSides sides_of(const TileSetInfo& info, const TileId& id) {
+  const TileGrid& grid = info.grid;
+  TileSides sides{.least_width_px = grid.tile_px, .least_height_px = grid.tile_px, .most_px = grid.tile_px};
+  if (!info.square) return sides;
+  const TileBounds tile = tile_bounds(grid, id);
+  if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;
+  if (tile.south_deg < grid.bounds.south.deg()) sides.least_height_px = 1;
+  return sides;
+}
+
+bool is_exception(const std::vector<std::byte>& body) {
+  return !server_exception({reinterpret_cast<const char*>(body.data()), body.size()}).empty();
 }
 
 class RemoteSource : public TileSource, public RemoteTiles {
@@ -155,6 +171,9 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
+    if (std::ranges::find(set_.missing_statuses, reply.status) != set_.missing_statuses.end()) {
+      return missing(id, MissingKind::absent, std::move(reply), missing_life());
+    }
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -177,8 +196,11 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
+    if (const Status good = check_tile(reply.body, sides_of(set_.info, id)); !good) {
       reply.why = good.error().message;
+      if (set_.exception_is_missing && is_exception(reply.body)) {
+        return missing(id, MissingKind::absent, std::move(reply), missing_life());
+      }
       reply.expires_unix_s.reset();
       return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
     }

@@ -72,8 +72,7 @@ class PatchPass {
 
   PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
   Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
-  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment,
-                                                  std::string_view layer) const;
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
