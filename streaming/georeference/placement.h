@@ -19,12 +19,6 @@ struct Placement {
   double pixel_height_deg = 0.0;  ///< > 0: rows go south
 };
 
-/// Transform of a picture's pixels to a coordinate system that PROJ knows.
-struct CrsPlace {
-  Affine to_crs;    ///< pixel-is-area
-  std::string crs;  ///< text for Crs::open()
-};
-
 /// Place of a picture after checking.
 struct PlacedPicture {
   std::optional<Georeference> said;    ///< statement of the picture and the files beside it; none: they state nothing

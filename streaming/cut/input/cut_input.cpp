@@ -29,6 +29,7 @@ CutInput put_rows(std::unique_ptr<RowReader> rows, const PicturePlace& place, bo
           .bounds = place.bounds,
           .latitude = place.latitude,
           .place = place_text(place),
+          .has_gaps = place.kind == PlaceKind::rolled,
           .remarks = place.placed.remarks};
 }
 
@@ -38,10 +39,11 @@ Result<CutInput> open_one(const CutOptions& options, const OpenRows& open, const
   const auto place = find_place(options, *picture);
   if (!place) return place.error();
   if (place->kind == PlaceKind::warped) {
-    auto warped = open_warped(*picture, *place->from, heights);
+    auto warped = open_warped(options, *picture, *place, heights);
     if (!warped) return warped.error();
     CutInput input = put_rows(std::move(warped->rows), *place, heights.has_value());
     input.bounds = warped->bounds;
+    input.has_gaps = true;
     return input;
   }
   auto rows = open(picture->path);
@@ -109,7 +111,7 @@ Result<CutInput> open_input(const CutOptions& options) {
   auto input = several ? open_mosaic(options, open, heights.has_value()) : open_one(options, open, heights);
   if (!input || !heights) return input;
   input->elevation = heights->elevation;
-  if (input->rows->info().has_alpha && !input->elevation->nodata) input->elevation->nodata = kAddedNodata;
+  if (input->has_gaps && !input->elevation->nodata) input->elevation->nodata = kAddedNodata;
   return input;
 }
 

@@ -26,16 +26,6 @@ bool lies_on_nodes(const Placement& place, const PictureFile& picture) {
          near(place.pixel_height_deg * height, step * height);
 }
 
-/// True if the picture crosses ±180° and the grid cannot hold both its sides in tiles of their own.
-bool meets_itself(const CutOptions& options, const PictureFile& picture, const GeoRect& bounds) {
-  if (bounds.east >= bounds.west) return false;
-  CutOptions placed = options;
-  placed.bounds = bounds;
-  return !plan_cut({.width_px = picture.width_px, .height_px = picture.height_px, .has_alpha = false}, placed);
-}
-
-GeoRect all_round(const GeoRect& bounds) { return {.south = bounds.south, .north = bounds.north}; }
-
 /// Puts an evenly spaced picture onto the grid's pixels; false if they do not fit.
 bool put_on_grid(const CutOptions& options, const PictureFile& picture, const Placement& at, PicturePlace& place) {
   const FittedPlace fitted = fit_to_grid(picture, at);
@@ -44,7 +34,8 @@ bool put_on_grid(const CutOptions& options, const PictureFile& picture, const Pl
   place.first_column = fitted.first_column;
   place.turn_px = fitted.turn_px;
   place.bounds = fitted.bounds;
-  if (place.kind == PlaceKind::as_it_is && meets_itself(options, picture, fitted.bounds)) {
+  const PictureInfo size{.width_px = picture.width_px, .height_px = picture.height_px};
+  if (place.kind == PlaceKind::as_it_is && meets_itself(options, size, fitted.bounds)) {
     place.kind = PlaceKind::rolled;
     place.bounds = all_round(fitted.bounds);
   }
@@ -58,6 +49,15 @@ Result<Body> body_of(const CutOptions& options) {
 }
 
 }  // namespace
+
+bool meets_itself(const CutOptions& options, const PictureInfo& picture, const GeoRect& bounds) {
+  if (bounds.east >= bounds.west) return false;
+  CutOptions placed = options;
+  placed.bounds = bounds;
+  return !plan_cut(picture, placed);
+}
+
+GeoRect all_round(const GeoRect& bounds) { return {.south = bounds.south, .north = bounds.north}; }
 
 PlaceWords words_of(const CutOptions& options) {
   PlaceWords words{.crs = options.crs, .bounds = options.crs_bounds, .west_deg = options.west_deg};

@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "streaming/cut.h"
+#include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/placement.h"
 
 namespace terrella {
@@ -38,6 +39,12 @@ struct PicturePlace {
 /// The same for pictures joined into one of the given size, with the place stated by the parts.
 [[nodiscard]] Result<PicturePlace> find_joined_place(const CutOptions& options, const PictureFile& joined,
                                                      std::optional<Placement> stated);
+
+/// True if a picture crosses ±180° and no grid of the options' tiles keeps both its sides apart.
+[[nodiscard]] bool meets_itself(const CutOptions& options, const PictureInfo& picture, const GeoRect& bounds);
+
+/// All longitudes of the same latitudes.
+[[nodiscard]] GeoRect all_round(const GeoRect& bounds);
 
 /// Text that differs if the place does, for the key of a cut.
 [[nodiscard]] std::string place_text(const PicturePlace& place);
