@@ -29,7 +29,7 @@ void Globe::Impl::stack_layers() {
     }
   }
   if (stack.empty() || !stack.front()->is_opaque(has_night())) {
-    if (!plain) plain = ImageLayer::make_plain(options, relief.get());
+    if (!plain) plain = ImageLayer::make_plain(options);
     stack.insert(stack.begin(), plain.get());
   }
 }
@@ -53,6 +53,8 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
   selection.max_error_px = options.max_error_px;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
+  selection.relief = relief.get();
+  selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;
     selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
@@ -61,16 +63,16 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
 }
 
 FrameSnapshot Globe::Impl::snapshot() {
-  stack.front()->tree().refresh_bounds();
+  if (relief) relief->refresh_bounds(stack.front()->tree());
   FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = patch_shuffle};
   if (has_night()) snapshot.sun = sun();
   for (ImageLayer* layer : stack) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }
 
-void Globe::Impl::execute(FramePlan plan) {
-  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(std::move(plan.layers[k]), frame);
-  stack.front()->tree().make_meshes(plan.meshes);
+void Globe::Impl::execute_plan() {
+  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(plan.layers[k], frame);
+  if (relief) stats.relief_meshes = relief->make_meshes(stack.front()->tree(), plan.meshes);
   for (std::size_t k = 1; relief && k < stack.size(); ++k) stack[k]->copy_relief();
   stats.relief_put_off = plan.put_off;
 }
@@ -170,15 +172,13 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   stats.uploaded_bytes = take_finished();
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();
-  if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
   const auto start = FrameClock::now();
-  const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
   look(viewport);
-  execute(plan_frame(view, snapshot(), selection_options()));
+  plan = plan_frame(view, snapshot(), selection_options(), std::move(plan));
+  execute_plan();
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
   for (ImageLayer* layer : stack) layer->ask();
   ask_heights();
-  if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
   const Result<FrameCounts> counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
   status = counts ? Status(Done{}) : counts.error();
   if (counts) {

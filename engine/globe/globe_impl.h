@@ -64,7 +64,7 @@ struct Globe::Impl {
   void look(Viewport viewport);
   [[nodiscard]] PatchSelectionOptions selection_options() const;
   [[nodiscard]] FrameSnapshot snapshot();
-  void execute(FramePlan plan);
+  void execute_plan();
   void count();
   void take_heights();
   void ask_heights();
@@ -110,6 +110,7 @@ struct Globe::Impl {
   bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
+  FramePlan plan;  ///< of the last frame, whose memory the next one uses again
   FrameStats stats;
   Status status = Done{};  ///< of the last frame
   std::deque<LackingTile> lacking, lacking_heights;

@@ -50,7 +50,7 @@ Result<LayerId> Globe::Impl::add_imagery(std::shared_ptr<TileSource> source, con
   const LayerId id = next_id();
   const std::size_t share = options.gpu_bytes / (images.size() + 1);
   for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new layer takes its share
-  images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, relief.get(), bell));
+  images.push_back(std::make_unique<ImageLayer>(id, options, std::move(source), look, share, bell));
   restore_detail();
   return id;
 }
@@ -215,11 +215,11 @@ Status Globe::Impl::set_elevation(const std::optional<ElevationSource>& elevatio
   if (elevation.has_value() != (relief != nullptr)) {
     if (Status made = renderer->set_relief(elevation.has_value()); !made) return made;
   }
-  const std::shared_ptr<Relief> before = std::move(relief);  // patches refer to the old relief until they are discarded
+  relief.reset();
   heights.reset();
   if (elevation) make_relief(*elevation);
-  for (const auto& layer : images) layer->set_relief(relief.get());
-  if (plain) plain->set_relief(relief.get());
+  for (const auto& layer : images) layer->discard_patches();
+  if (plain) plain->discard_patches();
   lacking_heights.clear();
   changed = true;
   return Done{};

@@ -18,7 +18,7 @@ TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
 }  // namespace
 
 ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
-                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell)
+                       const ImageLook& look, std::size_t gpu_bytes, std::shared_ptr<ArrivalBell> bell)
     : id_(id),
       ellipsoid_(options.body.ellipsoid),
       segments_(options.segments),
@@ -29,7 +29,7 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
       look_(look),
       attribution_(source ? source->info().attribution : ""),
       tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
-  set_relief(relief);
+  discard_patches();
   if (!source) return;
   LoaderOptions loading{
       .workers = options.workers, .gutter = options.gutter_px, .mips = kMips, .bell = std::move(bell)};
@@ -39,8 +39,8 @@ ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<
   stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, options.retry_after);
 }
 
-std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
-  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief, nullptr);
+std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options) {
+  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, nullptr);
   // The tiles of the plain colour are all resident, and empty.
   for (const TileId& id : plain->roots_) {
     TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
@@ -55,11 +55,10 @@ void ImageLayer::set_look(const ImageLook& look) {
   restore_detail();
 }
 
-void ImageLayer::set_relief(Relief* relief) {
+void ImageLayer::discard_patches() {
   gpu_.vertices.reset();
   patches_.clear();
   tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
-  if (relief != nullptr) tree_->set_relief(*relief);
 }
 
 bool ImageLayer::is_drawn(bool has_night) const {
@@ -87,12 +86,12 @@ LayerSnapshot ImageLayer::snapshot() {
   return layer;
 }
 
-void ImageLayer::execute(LayerPlan plan, std::uint64_t frame) {
+void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
   tree_->adopt(plan.growth);
-  patches_ = std::move(plan.patches);
-  coverage_ = std::move(plan.coverage);
+  std::swap(patches_, plan.patches);
+  std::swap(coverage_, plan.coverage);
   detail_ = plan.detail;
-  note_use(coverage_.uses, frame, tiles_.residency());
+  coverage_.uses.note(frame, tiles_.residency());
 }
 
 void ImageLayer::copy_relief() {

@@ -27,17 +27,16 @@ struct UploadAllowance {
 /// thread: main
 class ImageLayer {
  public:
-  /// `gpu_bytes` is this layer's share of the budget. `relief` is the globe's; null: the ellipsoid. `bell` rings when a
-  /// tile has arrived.
+  /// `gpu_bytes` is this layer's share of the budget. `bell` rings when a tile has arrived.
   ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
-             std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
+             std::size_t gpu_bytes, std::shared_ptr<ArrivalBell> bell);
   /// Makes the layer of plain colour that is drawn if no layer is opaque.
-  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
+  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options);
 
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
-  void set_relief(Relief* relief);  ///< discards all patches
+  void discard_patches();
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.
   [[nodiscard]] bool is_drawn(bool has_night) const;
@@ -58,8 +57,8 @@ class ImageLayer {
   void restore_detail() { detail_ = 1.0; }
   /// The layer as a plan reads it.
   [[nodiscard]] LayerSnapshot snapshot();
-  /// Takes a plan over: its patches, its tiles and their use, what the tree lacked.
-  void execute(LayerPlan plan, std::uint64_t frame);
+  /// Takes a plan over: patches, tiles and their use, nodes for the tree. The plan gets the last frame's memory.
+  void execute(LayerPlan& plan, std::uint64_t frame);
   void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `lacking`.

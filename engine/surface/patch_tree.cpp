@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "surface/relief.h"
 #include "surface/tree_growth.h"
 
 namespace terrella {
@@ -210,7 +209,7 @@ void PatchTree::adopt(TreeGrowth& growth) {
     families_[family] = std::move(growth.made_[k]);
   }
   serial_ += 4 * growth.made_.size();
-  for (const PatchNode* node : growth.used_) touch(own(*node));
+  for (const NodeRef& node : growth.used_) touch(own(*node));
   for (const TreeGrowth::Beside& b : growth.beside_) {
     own(*b.node).beside[static_cast<std::size_t>(b.side)] = &own(*b.found);
   }
@@ -219,19 +218,7 @@ void PatchTree::adopt(TreeGrowth& growth) {
     TileWindow* window = own(*l.node).window.get();
     if (window == l.window) window->cells[l.cell].lattice = std::move(l.lattice);
   }
-  growth = TreeGrowth();
-}
-
-template <class Visit>
-void PatchTree::visit_nodes(Visit visit) {
-  for (PatchNode& node : roots_) visit(node);
-  for (const auto& family : families_) {
-    if (family) std::ranges::for_each(*family, visit);
-  }
-}
-
-void PatchTree::make_meshes(const std::vector<const PatchNode*>& nodes) {
-  for (const PatchNode* node : nodes) relief_->refresh_mesh(*this, own(*node));
+  growth.begin(*this);
 }
 
 // The bounds' count stays: a tree that comes to be the first one works out its cones then.
@@ -244,11 +231,6 @@ void PatchTree::copy_relief(const PatchNode& from, const PatchNode& to) {
   const std::uint64_t bounds_seen = node.relief.bounds_seen;
   node.relief = from.relief;
   node.relief.bounds_seen = bounds_seen;
-}
-
-void PatchTree::refresh_bounds() {
-  if (relief_ == nullptr || std::exchange(bounds_seen_, relief_->changes_seen()) == relief_->changes_seen()) return;
-  visit_nodes([this](PatchNode& node) { std::as_const(*relief_).refresh_bounds(*this, node); });
 }
 
 void PatchTree::end_frame(std::size_t many) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -43,6 +44,9 @@ struct TileWindow {
   std::int64_t x0 = 0, y0 = 0;
   int w = 0, h = 0;
   std::vector<CellExtent> cells;  ///< row-major
+  [[nodiscard]] const CellExtent& cell(int x, int y) const {
+    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)];
+  }
 };
 
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
@@ -100,7 +104,6 @@ struct PatchNode {
 /// grids the radius vector of the surface point, (n.x, n.y, (1 - e²) n.z).
 [[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
 
-class Relief;
 class TreeGrowth;
 using PatchFamilyNodes = std::array<PatchNode, 4>;
 
@@ -117,23 +120,24 @@ class PatchTree {
   void ensure_children(PatchNode& node);
   /// Takes what a plan made and used. The growth must have begun with the tree as it is.
   void adopt(TreeGrowth& growth);
-  /// Makes the meshes of nodes that a plan wants.
-  void make_meshes(const std::vector<const PatchNode*>& nodes);
+  /// The tree's own node, which a plan knows as one that it must not change.
+  [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
+  /// Calls visit(PatchNode&) for each node.
+  template <class Visit>
+  void visit_nodes(Visit visit) {
+    for (PatchNode& node : roots_) visit(node);
+    for (const auto& family : families_) {
+      if (family) std::ranges::for_each(*family, visit);
+    }
+  }
   /// A node of this tree takes the bounds and the mesh of the same patch in another tree.
   static void copy_relief(const PatchNode& from, const PatchNode& to);
-  /// Brings the bounds of all nodes up to date with the relief's heights.
-  void refresh_bounds();
   /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
   [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
   /// A node's window at a tile level, its columns squeezed as given (0 or window_squeeze()).
   [[nodiscard]] TileWindow make_window(const PatchNode& node, int tile_level, int squeeze) const;
   /// Of cell (x, y) of a node's window, counted from its north-west corner.
   [[nodiscard]] SurfaceLattice make_lattice(const PatchNode& node, const TileWindow& window, int x, int y) const;
-
-  /// The ground that patches follow; none: the ellipsoid. Set once, before the first selection; it must outlive the
-  /// tree.
-  void set_relief(Relief& relief) { relief_ = &relief; }
-  [[nodiscard]] Relief* relief() const { return relief_; }
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
@@ -156,23 +160,17 @@ class PatchTree {
   void measure(PatchNode& node, const PatchId& id) const;
   void touch(PatchNode& node);
   void drop_oldest(std::size_t nodes);
-  template <class Visit>
-  void visit_nodes(Visit visit);
-  /// The tree's own node, which a plan knows as one that it must not change.
-  [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
 
   Ellipsoid ellipsoid_;
   TileGrid grid_;
   int segments_;
   CubeMapping mapping_;
-  Relief* relief_ = nullptr;
   std::uint64_t serial_ = 0;
   std::array<PatchNode, kCubeFaces> roots_;
   std::vector<std::unique_ptr<PatchFamilyNodes>> families_;
   std::vector<std::size_t> free_;  ///< places in families_ that hold none
   std::uint64_t frame_ = 1;
   std::size_t used_ = 0;  ///< nodes that this frame came to
-  std::uint64_t bounds_seen_ = 0;
 };
 
 }  // namespace terrella

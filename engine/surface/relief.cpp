@@ -87,6 +87,12 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::ui
   return false;
 }
 
+// New nodes are up to date (TreeGrowth), so the roots tell of all nodes.
+void Relief::refresh_bounds(PatchTree& tree) const {
+  if (tree.root(CubeFace::pos_x).relief.bounds_seen == changes_seen()) return;
+  tree.visit_nodes([&](PatchNode& node) { refresh_bounds(tree, node); });
+}
+
 void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   const bool changed = changed_since(tree, node, relief.bounds_seen);
@@ -107,16 +113,20 @@ void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) const {
   node.sin_cone = std::sin(half_rad);
 }
 
-void Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) {
+int Relief::make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const {
+  return static_cast<int>(
+      std::ranges::count_if(nodes, [&](const NodeRef& node) { return refresh_mesh(tree, PatchTree::own(*node)); }));
+}
+
+bool Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   const bool changed = is_stale(tree, node);
   relief.mesh_seen = changes_seen();
-  if (!changed) return;
+  if (!changed) return false;
   measure_vertices(tree, node);
   measure_error(tree, node);
   ++relief.made;
-  ++meshes_made_;
-  --meshes_left_;
+  return true;
 }
 
 void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
