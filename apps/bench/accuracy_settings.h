@@ -6,7 +6,7 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/ray_caster.h"
 #include "globe/globe.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 namespace terrella::bench {
 

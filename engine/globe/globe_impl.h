@@ -10,7 +10,7 @@
 #include "globe/image_layer.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 #include "surface/relief.h"
 #include "tiles/arrival_bell.h"
 #include "tiles/height_loader.h"

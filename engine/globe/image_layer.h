@@ -11,8 +11,8 @@
 #include "globe/globe.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
 #include "surface/layers.h"
+#include "surface/plan/frame_plan.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {

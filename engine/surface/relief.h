@@ -8,7 +8,7 @@
 #include "surface/height_field.h"
 #include "surface/patch_tree.h"
 #include "surface/selected_patch.h"
-#include "surface/tile_coverage.h"
+#include "surface/wanted_tile.h"
 #include "tiles/height_tile.h"
 #include "tiles/tile_residency.h"
 #include "view/ground.h"

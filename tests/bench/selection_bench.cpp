@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "surface/frame_plan.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/frame_plan.h"
+#include "surface/plan/tile_coverage.h"
 
 namespace {
 

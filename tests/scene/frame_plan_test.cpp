@@ -1,5 +1,5 @@
 // plan_frame() changes nothing and depends on nothing but its arguments.
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "patch_test_support.h"
 #include "relief_test_support.h"
-#include "surface/plan_text.h"
+#include "surface/plan/plan_text.h"
 
 namespace terrella::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 
 #include <gtest/gtest.h>
 

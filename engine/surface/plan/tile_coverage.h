@@ -5,9 +5,10 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "surface/plan/tile_uses.h"
 #include "surface/selected_patch.h"
-#include "surface/tile_uses.h"
 #include "surface/tree_growth.h"
+#include "surface/wanted_tile.h"
 
 namespace terrella {
 
@@ -28,13 +29,6 @@ struct PatchDraw {
   glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
   glm::uvec4 window;  ///< first cell; width | height << 16; column and row of that first cell, modulo 2^24
   bool operator==(const PatchDraw&) const = default;
-};
-
-/// A tile that the view wants, with how much.
-struct WantedTile {
-  TileId id;
-  double priority = 0.0;  ///< larger first: coarse before fine, then large on the screen
-  bool operator==(const WantedTile&) const = default;
 };
 
 struct TileCoverage {

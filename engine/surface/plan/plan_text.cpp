@@ -1,4 +1,4 @@
-#include "surface/plan_text.h"
+#include "surface/plan/plan_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "surface/patch_sight.h"
+#include "surface/plan/patch_sight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,25 +34,6 @@ PatchSight SightMeter::measure(const PatchNode& node) const {
   if (view_.eye_spread_m != 0.0) sight.to_axis_m = std::min(sight.to_axis_m, to_axis_m(view_.eye.xyz_m + beside));
   sight.nearest_m = std::max({sight.to_axis_m - sight.radius_m, 1e-3 * sight.radius_m, least_distance_m_});
   return sight;
-}
-
-ViewPlanes view_planes(const View& view) {
-  const double ty = view.tan_half_fov_y;
-  const double tx = ty * view.aspect();
-  const glm::dvec3 left = view.forward * (tx - view.shear_x), right = view.forward * (tx + view.shear_x);
-  return {{glm::normalize(left + view.right), glm::normalize(right - view.right),
-           glm::normalize(view.forward * ty + view.up), glm::normalize(view.forward * ty - view.up)}};
-}
-
-int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere) {
-  const glm::dvec3 p = sphere.center_m - view.eye.xyz_m;
-  int result = 1;
-  for (const glm::dvec3& normal : planes.normals) {
-    const double d = glm::dot(normal, p);
-    if (d < -sphere.radius_m - view.eye_spread_m) return -1;
-    if (d < sphere.radius_m + view.eye_spread_m) result = 0;
-  }
-  return result;
 }
 
 }  // namespace terrella

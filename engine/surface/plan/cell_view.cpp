@@ -1,4 +1,4 @@
-#include "surface/cell_view.h"
+#include "surface/plan/cell_view.h"
 
 #include <array>
 #include <cmath>

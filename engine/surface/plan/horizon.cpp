@@ -1,4 +1,4 @@
-#include "surface/horizon.h"
+#include "surface/plan/horizon.h"
 
 #include <algorithm>
 #include <cmath>

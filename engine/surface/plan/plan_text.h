@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 
 namespace terrella {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "surface/daylight.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "surface/tree_growth.h"
 
 namespace terrella {

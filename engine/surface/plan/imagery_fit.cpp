@@ -1,4 +1,4 @@
-#include "surface/imagery_fit.h"
+#include "surface/plan/imagery_fit.h"
 
 #include <algorithm>
 #include <cmath>

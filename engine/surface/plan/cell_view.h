@@ -1,8 +1,8 @@
 #pragma once
 
-#include "surface/patch_sight.h"
 #include "surface/selected_patch.h"
 #include "surface/tree_growth.h"
+#include "surface/view_planes.h"
 
 namespace terrella {
 

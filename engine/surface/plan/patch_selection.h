@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geo/camera.h"
-#include "surface/patch_sight.h"
 #include "surface/selected_patch.h"
 #include "surface/tree_growth.h"
 #include "view/render_modes.h"

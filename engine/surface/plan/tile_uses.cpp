@@ -1,4 +1,4 @@
-#include "surface/tile_uses.h"
+#include "surface/plan/tile_uses.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "surface/texel_demand.h"
+#include "surface/plan/texel_demand.h"
 
 #include <algorithm>
 #include <cmath>

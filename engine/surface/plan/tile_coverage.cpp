@@ -1,4 +1,4 @@
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "surface/cell_view.h"
-#include "surface/texel_demand.h"
+#include "surface/plan/cell_view.h"
+#include "surface/plan/texel_demand.h"
 
 namespace terrella {
 namespace {

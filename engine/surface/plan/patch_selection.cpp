@@ -1,13 +1,14 @@
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "surface/horizon.h"
-#include "surface/imagery_fit.h"
+#include "surface/plan/horizon.h"
+#include "surface/plan/imagery_fit.h"
 #include "surface/relief.h"
+#include "surface/view_planes.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 
 #include <algorithm>
 #include <random>

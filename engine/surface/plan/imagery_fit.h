@@ -1,7 +1,7 @@
 #pragma once
 
-#include "surface/patch_selection.h"
-#include "surface/patch_sight.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/patch_sight.h"
 
 namespace terrella {
 
