@@ -22,7 +22,6 @@ constexpr std::array kFormats = {
     FormatStart{"NetCDF", "CDF\5"sv},
     FormatStart{"HDF5 or NetCDF", "\x89HDF\r\n\x1a\n"sv},
     FormatStart{"HDF4", "\x0e\x03\x13\x01"sv},
-    FormatStart{"WebP", "WEBP"sv, 8},
     FormatStart{"GIF", "GIF8"sv},
     FormatStart{"BMP", "BM"sv},
     FormatStart{"PPM", "P6"sv},

@@ -5,23 +5,28 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/ray_caster.h"
+#include "geo/cube_sphere.h"
 #include "globe/globe.h"
 #include "surface/plan/patch_selection.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
-/// One value of one globe option; all other options have their defaults.
+/// One value of one option of a globe; all other options have their defaults.
 struct AccuracySetting {
   const char* sweep;  ///< name of the option, or kDefaults
   double value;       ///< NaN with kDefaults
   GlobeOptions globe;
+  CubeMapping mapping = CubeMapping::tangent;
 };
 
 inline constexpr const char* kDefaults = "default";
 inline constexpr const char* kTessellation = "tessellation";
 inline constexpr const char* kThreshold = "threshold";
 inline constexpr const char* kPlainThreshold =
-    "threshold, plain mapping";                           ///< paper 1's formula (1) in place of the tangent
+    "threshold, plain mapping";  ///< Zuev's formula (1) (baseline/paper_sphere.h) in place of the tangent
 inline constexpr const char* kDetail = "detail";          ///< requested texels per pixel
 inline constexpr const char* kColumns = "polar columns";  ///< on the full grid
 inline constexpr const char* kGutter = "gutter";

@@ -41,7 +41,7 @@ class EndlessSource : public TileSource {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the grid"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the grid"};
     Image image{kTile_px, kTile_px, {}};
     image.rgba.reserve(4UL * kTile_px * kTile_px);
     const std::vector<float> east = waves(id.level, id.x, 1.0), south = waves(id.level, id.y, 2.0);
@@ -49,7 +49,7 @@ class EndlessSource : public TileSource {
       for (std::size_t x = 0; x < kTile_px; ++x) add_texel(&east[kWaves * x], &south[kWaves * y], image.rgba);
     }
     Result<std::vector<std::byte>> png = encode_png(image);
-    if (!png) return TileFailure{Absence::broken, png.error().message};
+    if (!png) return TileFailure{MissingKind::broken, png.error().message};
     return EncodedTile{.bytes = *std::move(png)};
   }
 

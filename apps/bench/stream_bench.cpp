@@ -98,7 +98,7 @@ class Streamer {
                  .requests = source_->requests() - requests,
                  .bytes = source_->bytes() - bytes,
                  .tiles = stats.tiles_wanted,
-                 .missing = stats.tiles_missing,
+                 .missing = stats.tiles_pending,
                  .shown = {}};
       const bool last = globe.settled();
       if (!last && Clock::now() - start > kLongest) throw std::runtime_error("a view has not settled in two minutes");
@@ -144,7 +144,7 @@ std::vector<Column> stream_columns() {
   return {{"view", ""},
           {"visit", ""},
           {"moment", ""},
-          {"time", "ms since the view was asked for", 0},
+          {"time", "ms since the view was requested", 0},
           {"frames", ""},
           {"requests", "tiles read"},
           {"bytes", "MB"},

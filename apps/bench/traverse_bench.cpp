@@ -129,7 +129,7 @@ class Flyer {
     figures.uploads_mb.push_back(1e-6 * static_cast<double>(stats.uploaded_bytes));
     figures.tiles.push_back(stats.tiles_wanted);
     figures.missing_share.push_back(stats.tiles_wanted == 0 ? 0.0
-                                                            : static_cast<double>(stats.tiles_missing) /
+                                                            : static_cast<double>(stats.tiles_pending) /
                                                                   static_cast<double>(stats.tiles_wanted));
     figures.uncovered_frames += stats.patches_uncovered > 0 ? 1 : 0;
   }
@@ -214,7 +214,7 @@ Report measure_traverse(const BenchOptions& options) {
                 .title = "Flights: what selection, drawing and uploads cost on the way, and how far the picture lags",
                 .facts = {{"renderer", renderer_name()},
                           {"time", timing_method()},
-                          {"imagery", "waves, levels 0 to 18, made as they are asked for"}},
+                          {"imagery", "waves, levels 0 to 18, made on request"}},
                 .columns = traverse_columns()};
   Flyer flyer(options);
   for (const char* flight : kFlights) {

@@ -15,6 +15,9 @@
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella {
 namespace {
 
@@ -29,7 +32,9 @@ constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBenc
                               NamedBench{"stability", bench::bench_stability}};
 
 constexpr const char* kBenchExamples =
-    "polar      time and error of texturing at the poles: paper 1's sphere against the globe\n"
+    "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
+    "           (Method of synthesis of a seamless textured sphere for visualization in geoinformation and\n"
+    "           cartographic systems, 2023)\n"
     "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
     "traverse   selection, draws, uploads and wasted drawing on flights\n"
     "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"

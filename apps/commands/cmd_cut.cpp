@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -177,7 +178,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option("image", command->images, "A picture or the parts of one: JPEG, PNG, TIFF or BigTIFF")
+  sub.add_option("image", command->images, "A picture or the parts of one: JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")
@@ -191,15 +192,18 @@ void add_cut_command(CLI::App& app, int& exit_code) {
           },
           "even"))
       ->capture_default_str();
-  sub.add_option("--quality", cut.quality, "Set the JPEG quality of the tiles")
+  sub.add_option("--quality", cut.quality, "Set the quality of JPEG and WebP tiles")
       ->check(whole_number_in(1, 100))
       ->capture_default_str();
   sub.add_option_function<std::string>(
          "--format",
-         [&cut](const std::string& text) { cut.format = text == "png" ? ImageFormat::png : ImageFormat::jpeg; },
+         [&cut](const std::string& text) {
+           const auto* const name = std::ranges::find(kImageFormatNames, text);
+           cut.format = static_cast<ImageFormat>(name - kImageFormatNames.begin());
+         },
          "Set the tile format (default: png if the picture has transparency, else jpg)")
-      ->check(CLI::IsMember({"jpg", "png"}))
-      ->type_name("jpg|png");
+      ->check(CLI::IsMember(std::vector<std::string>(kImageFormatNames.begin(), kImageFormatNames.end())))
+      ->type_name("jpg|png|webp");
   add_input_options(sub, *command);
   add_description_options(sub, cut);
   add_work_options(sub, *command);

@@ -30,21 +30,22 @@ constexpr const char* kMergeExamples =
     "Examples:\n"
     "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
     "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
-    "A tile wins over an absence; otherwise the later record wins. Levels may differ. Pinned tiles stay pinned.";
+    "A tile wins over a missing-tile record; otherwise the later record wins. Levels may differ. Pinned tiles stay "
+    "pinned.";
 
 void print_summary(const MergeCommand& command, const MergeSummary& summary) {
   if (command.json) {
     const nlohmann::ordered_json result{{"output", command.output},
                                         {"caches", command.caches},
                                         {"tiles", summary.tiles},
-                                        {"absences", summary.absences},
+                                        {"absences", summary.missing},
                                         {"dropped", summary.dropped}};
     // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  print_result("{}: {} tiles and {} absences from {} caches, {} older records left out\n", command.output,
-               summary.tiles, summary.absences, command.caches.size(), summary.dropped);
+  print_result("{}: {} tiles and {} missing from {} caches, {} older records left out\n", command.output, summary.tiles,
+               summary.missing, command.caches.size(), summary.dropped);
 }
 
 int run_merge(const MergeCommand& command) {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/commands/commands.h"
-#include "apps/commands/lack_report.h"
+#include "apps/commands/missing_report.h"
 #include "apps/preload/preload_options.h"
 #include "apps/preload/preload_plan.h"
 #include "apps/preload/preload_progress.h"
@@ -58,7 +58,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
   options.tile_px = source.set.info.grid.tile_px;
   options.refresh_older_than = refresh_age(command);
   options.tile_life = source.set.tile_life.value_or(options.tile_life);
-  options.absence_life = source.set.absence_life.value_or(options.absence_life);
+  options.missing_life = source.set.missing_life.value_or(options.missing_life);
   options.expires = source.remote;
   return options;
 }
@@ -162,22 +162,24 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
         "the address still right?\n",
         c.kept);
   }
-  if (c.lacking() == 0) return c.kept == 0 ? kDone : kDoneInPart;
-  print_message("terrella preload: {} tiles are lacking{}; {}\n", c.lacking(),
+  if (c.missing() == 0) return c.kept == 0 ? kDone : kDoneInPart;
+  print_message("terrella preload: {} tiles are missing{}; {}\n", c.missing(),
                 command.missing_file.empty() ? "; --missing FILE lists them" : ", see " + command.missing_file, again);
   return kDoneInPart;
 }
 
 int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   if (const Status room = check_room(command, source, plan); !room) return fail("preload", room.error().message);
-  auto lacks = LackReport::open(command.missing_file);
-  if (!lacks) return fail("preload", lacks.error().message);
+  auto missing = MissingReport::open(command.missing_file);
+  if (!missing) return fail("preload", missing.error().message);
   auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
   if (!stored) return fail("preload", stored.error().message);
   const auto cache = cache_of(command, source);
   if (!cache) return fail("preload", cache.error().message);
   PreloadOptions options = preload_options(command, source);
-  options.on_lacking = [&](const TileId& id, Lack kind, const std::string& why) { lacks->add(id, kind, why); };
+  options.on_missing = [&](const TileId& id, PreloadMissing kind, const std::string& why) {
+    missing->add(id, kind, why);
+  };
   if (!command.stored_file.empty()) options.on_stored = [&](const TileId& id) { stored->add(id); };
   const auto begun = std::chrono::steady_clock::now();
   Result<PreloadResult> result = Error{};
@@ -192,9 +194,9 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
   if (!result)
     return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  const PreloadReport report{command.output, *result, lacks->groups(), seconds};
+  const PreloadReport report{command.output, *result, missing->groups(), seconds};
   print_result("{}", command.json ? to_json(report) : to_text(report));
-  for (const Status& listed : {lacks->close(), stored->close()}) {
+  for (const Status& listed : {missing->close(), stored->close()}) {
     if (!listed) return fail("preload", listed.error().message);
   }
   return conclude(command, *result);

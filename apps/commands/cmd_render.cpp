@@ -41,7 +41,7 @@ Status write_png(const std::filesystem::path& path, Viewport size, std::vector<s
 
 struct Rendered {
   FrameStats stats;
-  std::vector<LackingTile> lacking, lacking_heights;
+  std::vector<MissingTile> missing, missing_heights;
   std::vector<std::string> attributions;
   bool all_objects = true;  ///< true if the file of --objects has no faults
 };
@@ -49,34 +49,34 @@ struct Rendered {
 constexpr std::size_t kMostNamed = 16;
 constexpr std::size_t kMostReasons = 4;
 
-std::string name_of(const LackingTile& tile) {
+std::string name_of(const MissingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
 }
 
 /// Height tiles that failed or had not arrived at the deadline.
-int heights_without(const FrameStats& stats) { return stats.heights_lacked + stats.heights_missing; }
+int heights_without(const FrameStats& stats) { return stats.heights_missing + stats.heights_pending; }
 
 void report(const RenderCommand& command, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
-  const int got = stats.tiles_wanted - stats.tiles_lacked - stats.tiles_missing;
+  const int got = stats.tiles_wanted - stats.tiles_missing - stats.tiles_pending;
   if (command.json) {
     nlohmann::json result = {{"output", command.output},
                              {"tiles_asked", stats.tiles_wanted},
                              {"tiles_got", got},
-                             {"tiles_lacked", stats.tiles_lacked + stats.tiles_missing},
+                             {"tiles_lacked", stats.tiles_missing + stats.tiles_pending},
                              {"patches", stats.patches},
                              {"band_patches", stats.band_patches},
                              {"draw_calls", stats.draw_calls},
                              {"triangles", stats.triangles},
                              {"attributions", rendered.attributions}};
-    for (const LackingTile& tile : rendered.lacking) result["lacking"].push_back(name_of(tile));
+    for (const MissingTile& tile : rendered.missing) result["lacking"].push_back(name_of(tile));
     if (!command.scene.elevation.empty()) result["heights_lacked"] = heights_without(stats);
-    for (const LackingTile& tile : rendered.lacking_heights) result["lacking_heights"].push_back(name_of(tile));
+    for (const MissingTile& tile : rendered.missing_heights) result["lacking_heights"].push_back(name_of(tile));
     print_result("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
   print_result("{}: {} tiles: {} loaded, {} missing\n", command.output, stats.tiles_wanted, got,
-               stats.tiles_lacked + stats.tiles_missing);
+               stats.tiles_missing + stats.tiles_pending);
   if (!rendered.attributions.empty()) {
     print_result("{}: thanks to {}\n", command.output,
                  one_line(fmt::format("{}", fmt::join(rendered.attributions, "; "))));
@@ -87,13 +87,13 @@ void report(const RenderCommand& command, const Rendered& rendered) {
 }
 
 /// Refuses a picture without any tile, which would look like the planet.
-Status check_some_came(const FrameStats& stats, const std::deque<LackingTile>& lacking) {
+Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing) {
   if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
   std::string message =
       fmt::format("none of the {} tiles of this picture came, nothing was written", stats.tiles_wanted);
-  if (stats.tiles_missing > 0) message += "; --timeout gives them longer";
-  for (std::size_t k = 0; k < std::min(lacking.size(), kMostReasons); ++k)
-    message += "\n  lacks " + name_of(lacking[k]);
+  if (stats.tiles_pending > 0) message += "; --timeout gives them longer";
+  for (std::size_t k = 0; k < std::min(missing.size(), kMostReasons); ++k)
+    message += "\n  missing: " + name_of(missing[k]);
   return Error{message};
 }
 
@@ -168,6 +168,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  set_paper_texturing(**globe, command.scene);
   if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
@@ -177,15 +178,15 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
-  if (const Status some = check_some_came(stats, (*globe)->lacking()); !some) return some.error();
+  if (const Status some = check_some_came(stats, (*globe)->missing_tiles()); !some) return some.error();
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
   if (!written) return written.error();
-  const auto& lacking = (*globe)->lacking();
-  const auto& heights = (*globe)->lacking_heights();
+  const auto& missing = (*globe)->missing_tiles();
+  const auto& heights = (*globe)->missing_heights();
   return Rendered{
-      stats, {lacking.begin(), lacking.end()}, {heights.begin(), heights.end()}, (*globe)->attributions(), *objects};
+      stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, (*globe)->attributions(), *objects};
 }
 
 int run(const RenderCommand& command) {
@@ -196,15 +197,15 @@ int run(const RenderCommand& command) {
   }
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
-  if (stats.tiles_lacked + stats.tiles_missing + heights_without(stats) == 0) {
+  if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
     return rendered->all_objects ? kDone : kDoneInPart;
   }
-  for (std::size_t k = 0; k < std::min(rendered->lacking.size(), kMostNamed); ++k) {
-    print_message("terrella render: lacks {}\n", name_of(rendered->lacking[k]));
+  for (std::size_t k = 0; k < std::min(rendered->missing.size(), kMostNamed); ++k) {
+    print_message("terrella render: missing: {}\n", name_of(rendered->missing[k]));
   }
-  for (std::size_t k = 0; k < std::min(rendered->lacking_heights.size(), kMostNamed); ++k) {
-    print_message("terrella render: {} lacks the heights {}; coarser ones stand there\n",
-                  command.scene.elevation.redacted(), name_of(rendered->lacking_heights[k]));
+  for (std::size_t k = 0; k < std::min(rendered->missing_heights.size(), kMostNamed); ++k) {
+    print_message("terrella render: {}: heights missing: {}; coarser heights are shown\n",
+                  command.scene.elevation.redacted(), name_of(rendered->missing_heights[k]));
   }
   return kDoneInPart;
 }

@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 /// Known facts; unknown ones are absent.
 struct PictureFacts {
   PictureFile file;
+  int orientation = 1;      ///< EXIF orientation by which the picture is turned; 1: not turned
   bool is_heights = false;  ///< true for pixel types used only for heights
   std::optional<Georeference> said;
   std::optional<CrsFacts> crs;
@@ -43,6 +44,7 @@ Result<PictureFacts> measure(const fs::path& picture) {
   if (!rows) return rows.error();
   facts.file.width_px = (*rows)->info().width_px;
   facts.file.height_px = (*rows)->info().height_px;
+  facts.orientation = (*rows)->info().orientation;
   return facts;
 }
 
@@ -114,7 +116,9 @@ std::string said_text(const PictureFacts& facts) {
 
 std::string to_text(const PictureFacts& facts) {
   std::string text = fmt::format("picture      {}\n", facts.file.path.string());
-  text += fmt::format("pixels       {}x{}\n", facts.file.width_px, facts.file.height_px);
+  const std::string turned =
+      facts.orientation == 1 ? "" : fmt::format(", turned upright by its EXIF orientation {}", facts.orientation);
+  text += fmt::format("pixels       {}x{}{}\n", facts.file.width_px, facts.file.height_px, turned);
   text += fmt::format("georeference {}\n", facts.said ? facts.said->source : "(none)");
   if (facts.said) text += said_text(facts);
   if (facts.placement) {
@@ -149,6 +153,7 @@ std::string to_json(const PictureFacts& facts) {
   Json object{{"picture", facts.file.path.string()},
               {"width_px", facts.file.width_px},
               {"height_px", facts.file.height_px},
+              {"exif_orientation", facts.orientation},
               {"georeference", facts.said ? said_json(facts) : Json()}};
   if (facts.placement) {
     const Bounds b = bounds_of(facts);

@@ -25,6 +25,8 @@ const char* format_name(ImageFormat format) {
       return "JPEG";
     case ImageFormat::png:
       return "PNG";
+    case ImageFormat::webp:
+      return "WebP";
     case ImageFormat::unknown:
       break;
   }
@@ -50,15 +52,15 @@ std::string made_of_text(const TileGrid& grid) {
 
 std::string or_not_said(const std::string& text) { return text.empty() ? "(not said)" : one_line(text); }
 
-constexpr std::array kAbsenceNames = {"absent", "blank", "broken", "failed"};
+constexpr std::array kMissingNames = {"absent", "blank", "broken", "failed"};
 
 std::string cache_text(const CacheReport& cache) {
   std::string text = fmt::format("cache of     {}\n", one_line(redact_addresses(cache.source_key)));
   text += fmt::format("tiles        {}, {} of them expired, {} pinned\n", cache.tiles, cache.expired_tiles,
                       cache.pinned_tiles);
-  for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
-    text += fmt::format("{:<12} {}, {} of them expired\n", kAbsenceNames.at(kind), cache.absences.at(kind),
-                        cache.expired_absences.at(kind));
+  for (std::size_t kind = 0; kind < kMissingNames.size(); ++kind) {
+    text += fmt::format("{:<12} {}, {} of them expired\n", kMissingNames.at(kind), cache.missing.at(kind),
+                        cache.expired_missing.at(kind));
   }
   if (!cache.problems) return text;
   text += fmt::format("database     {}\n", cache.problems->empty() ? "sound" : "damaged");
@@ -71,9 +73,9 @@ nlohmann::ordered_json cache_json(const CacheReport& cache) {
                                 {"tiles", cache.tiles},
                                 {"expired_tiles", cache.expired_tiles},
                                 {"pinned_tiles", cache.pinned_tiles}};
-  for (std::size_t kind = 0; kind < kAbsenceNames.size(); ++kind) {
-    object["absences"][kAbsenceNames.at(kind)] = {{"count", cache.absences.at(kind)},
-                                                  {"expired", cache.expired_absences.at(kind)}};
+  for (std::size_t kind = 0; kind < kMissingNames.size(); ++kind) {
+    object["absences"][kMissingNames.at(kind)] = {{"count", cache.missing.at(kind)},
+                                                  {"expired", cache.expired_missing.at(kind)}};
   }
   if (cache.problems) object["problems"] = *cache.problems;
   return object;

@@ -23,15 +23,15 @@ void add(const LoadedTile& tile, VerifyReport& report) {
     return;
   }
   switch (tile.tile.error().kind) {
-    case Absence::absent:
+    case MissingKind::absent:
       ++report.absent;
       return;
-    case Absence::blank:
+    case MissingKind::blank:
       ++report.blank;
       return;
-    case Absence::broken:
-    case Absence::failed:
-    case Absence::remote:
+    case MissingKind::broken:
+    case MissingKind::failed:
+    case MissingKind::remote:
       break;
   }
   ++report.bad;

@@ -57,7 +57,7 @@ std::string PreloadProgress::line(const PreloadCounts& counts) const {
       counts.planned > 0 ? static_cast<double>(counts.passed) / static_cast<double>(counts.planned) : 1.0;
   std::string text = fmt::format("{:.1f} % of {} tiles: {} stored ({}), {} there already", part * 100.0, counts.planned,
                                  counts.stored, bytes_text(static_cast<double>(counts.stored_bytes)), counts.there);
-  if (counts.lacking() > 0) text += fmt::format(", {} lacking", counts.lacking());
+  if (counts.missing() > 0) text += fmt::format(", {} missing", counts.missing());
   if (counts.locked) return text + "; the cache is locked by another program, waiting for it";
   const double tiles_per_s = weight_seen_ > 0.0 ? tiles_seen_ / weight_seen_ : 0.0;
   if (tiles_per_s >= 0.05) {

@@ -57,29 +57,29 @@ std::optional<double> seconds_of(const PreloadForecast& forecast) {
 std::string to_text(const PreloadReport& report) {
   const PreloadCounts& c = report.result.counts;
   std::string text = fmt::format(
-      "{}: of {} tiles {} stored ({}), {} there already, {} unchanged, {} not on the server, {} blank, {} lacking\n"
+      "{}: of {} tiles {} stored ({}), {} there already, {} unchanged, {} not on the server, {} blank, {} missing\n"
       "{} requests, {} of them retries, in {}\n",
       report.output, c.planned, c.stored, bytes_text(static_cast<double>(c.stored_bytes)), c.there, c.unchanged,
-      c.absent, c.blank, c.lacking(), c.asked.requests, c.asked.retries, duration_text(report.seconds));
+      c.absent, c.blank, c.missing(), c.asked.requests, c.asked.retries, duration_text(report.seconds));
   if (c.kept > 0) {
     text += fmt::format("{} tiles that were stored are no longer on the server; the stored ones were kept\n", c.kept);
   }
-  for (std::size_t i = 0; i < std::min(report.lacking.size(), kMostReasonsTold); ++i) {
-    const LackReport::Group& group = report.lacking[i];
-    text += fmt::format("  {} {}: {} (the first is {})\n", group.tiles, lack_name(group.kind), group.why,
+  for (std::size_t i = 0; i < std::min(report.missing.size(), kMostReasonsTold); ++i) {
+    const MissingReport::Group& group = report.missing[i];
+    text += fmt::format("  {} {}: {} (the first is {})\n", group.tiles, missing_name(group.kind), group.why,
                         tile_name(group.first));
   }
-  if (report.lacking.size() > kMostReasonsTold) {
-    text += fmt::format("  and {} more reasons; --missing FILE writes all\n", report.lacking.size() - kMostReasonsTold);
+  if (report.missing.size() > kMostReasonsTold) {
+    text += fmt::format("  and {} more reasons; --missing FILE writes all\n", report.missing.size() - kMostReasonsTold);
   }
   return text;
 }
 
 std::string to_json(const PreloadReport& report) {
   const PreloadCounts& c = report.result.counts;
-  json lacking = json::array();
-  for (const LackReport::Group& group : report.lacking) {
-    lacking.push_back({{"kind", lack_name(group.kind)},
+  json missing = json::array();
+  for (const MissingReport::Group& group : report.missing) {
+    missing.push_back({{"kind", missing_name(group.kind)},
                        {"why", group.why},
                        {"tiles", group.tiles},
                        {"first", tile_name(group.first)}});
@@ -102,7 +102,7 @@ std::string to_json(const PreloadReport& report) {
                   {"requests", c.asked.requests},
                   {"retries", c.asked.retries},
                   {"seconds", report.seconds},
-                  {"lacking", lacking}});
+                  {"lacking", missing}});
 }
 
 std::string to_json(const ReleaseReport& report) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/lack_report.h"
+#include "apps/commands/missing_report.h"
 #include "streaming/preload/preloader.h"
 #include "streaming/preload/sample_size.h"
 #include "streaming/preload/tile_plan.h"
@@ -15,7 +15,7 @@ namespace terrella {
 struct PreloadReport {
   std::string output;
   PreloadResult result;
-  std::vector<LackReport::Group> lacking;
+  std::vector<MissingReport::Group> missing;
   double seconds = 0.0;
 };
 /// to_text() gives lines of text with at most twenty reasons, for people. to_json() gives one JSON object.

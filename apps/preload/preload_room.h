@@ -13,7 +13,7 @@ namespace terrella {
 /// Space that a plan needs in a cache with a size limit. Planned tiles are never evicted, so all of them must fit
 /// beside the tiles pinned earlier.
 struct RoomNeed {
-  std::int64_t tiles = 0;     ///< planned tiles not yet pinned in the cache, without absences
+  std::int64_t tiles = 0;     ///< planned tiles not yet pinned in the cache, without missing tiles
   double pinned_bytes = 0.0;  ///< bytes of the file used by pinned tiles
 };
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "apps/setup/data_dir.h"
@@ -15,11 +16,13 @@
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/user_folder.h"
+#include "codecs/image.h"
 #include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -153,14 +156,11 @@ Error no_meaning(const Url& address, const char* field) {
 }  // namespace
 
 bool begins_as_picture(const fs::path& path) {
-  std::array<char, 8> head{};
+  std::array<char, 12> head{};
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());
   const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
-  using namespace std::string_view_literals;
-  // First bytes of JPEG, PNG, TIFF and BigTIFF in either byte order.
-  constexpr std::array kStarts = {"\xff\xd8\xff"sv, "\x89PNG\r\n\x1a\n"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
+  return begins_as_tiff(bytes) || sniff_format(std::as_bytes(std::span(bytes))) != ImageFormat::unknown;
 }
 
 bool is_picture(const fs::path& path) {
@@ -169,7 +169,7 @@ bool is_picture(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"};
   return std::ranges::find(kExtensions, extension) != kExtensions.end() || begins_as_picture(path);
 }
 

@@ -14,8 +14,8 @@
 
 namespace terrella {
 
-/// Appends a failed tile to a list of the latest failures, for Globe::lacking().
-inline void note(std::deque<LackingTile>& missing, LackingTile tile) {
+/// Appends a failed tile to a list of the latest failures, for Globe::missing_tiles().
+inline void note(std::deque<MissingTile>& missing, MissingTile tile) {
   constexpr std::size_t kMost = 64;
   missing.push_back(std::move(tile));
   if (missing.size() > kMost) missing.pop_front();
@@ -44,13 +44,13 @@ class TileStream {
   void retry() { residency_.retry(Clock::now()); }
   /// Returns the next decoded tile; none if no other tile has arrived. Marks failed tiles and appends them to
   /// `missing`.
-  std::optional<Loaded<Decoded>> take(std::deque<LackingTile>& missing) {
+  std::optional<Loaded<Decoded>> take(std::deque<MissingTile>& missing) {
     for (;;) {
       std::vector<Loaded<Decoded>> next = loader_.poll(1);
       if (next.empty()) return std::nullopt;
       if (next.front().tile) return std::move(next.front());
       const TileFailure& failure = next.front().tile.error();
-      const bool for_now = failure.kind == Absence::failed;
+      const bool for_now = failure.kind == MissingKind::failed;
       residency_.set_missing(next.front().id, for_now ? std::optional(Clock::now() + retry_after_) : std::nullopt);
       note(missing, {next.front().id, failure, layer_});
     }

@@ -10,6 +10,7 @@ set(TERRELLA_PUBLIC_HEADERS
   streaming/cache/tile_cache.h
   streaming/cut.h
   engine/codecs/image.h
+  engine/codecs/numbers.h
   streaming/objects/geojson_objects.h
   streaming/preload/preloader.h
   streaming/remote/describe_remote.h

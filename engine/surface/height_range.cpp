@@ -51,7 +51,7 @@ GroundRange HeightField::range_of_rows(const GeoRect& rows_box, double exaggerat
   const bool crosses = west > east;
   Extrema extrema;
   widen_by_box({west - kBoxNoiseDeg, south, (crosses ? 180.0 : east) + kBoxNoiseDeg, north}, extrema);
-  // A point at +180° is one at -180°, and what rounding moves over it comes out at the other side.
+  // A point at +180° is one at -180°: rounding may move it to the other side.
   if (crosses || east >= 180.0 - kBoxNoiseDeg) {
     widen_by_box({-180.0, south, (crosses ? east : -180.0) + kBoxNoiseDeg, north}, extrema);
   }
@@ -78,8 +78,8 @@ bool HeightField::touches(const TileId& id, const RowBox& box) const {
          tile.south_deg <= box.north && tile.west_deg < 180.0 && tile.north_deg > -90.0;
 }
 
-/// Widens by what serves the part of the box in this place: the finer tiles, and the tile itself where one of them is
-/// not there. False: an ancestor has to serve, a part at least.
+/// Widens by the tiles that give the heights of the box in this place: the finer tiles, and the tile itself if one of
+/// them is not loaded. False if an ancestor gives some of the heights.
 bool HeightField::served(const TileId& id, const RowBox& box, Extrema& extrema) const {
   bool by_finer = below_.contains(id);
   if (by_finer) {
@@ -98,7 +98,7 @@ bool HeightField::served(const TileId& id, const RowBox& box, Extrema& extrema) 
   const TileXY first = tile_xy(grid_, id.level, north, west);
   const TileXY last = tile_xy(grid_, id.level, south, east);
   const double side = grid_.tile_px;
-  // Half a pixel to the middles around, and what rounding may move.
+  // Half a pixel to the middles around, and rounding.
   constexpr double kAround_px = 0.5 + 1e-3;
   widen_by_pixels(id.level,
                   {whole(first.x * side - kAround_px), whole(first.y * side - kAround_px),

@@ -166,13 +166,13 @@ void PatchTree::copy_relief(const PatchNode& from, const PatchNode& to) {
 
 void PatchTree::end_frame(std::size_t many) {
   const std::size_t most = std::max(many, 3 * used_);
-  // A part more than must, so that few frames drop any.
+  // It drops more nodes than it must, so that few frames drop any.
   if (size() > most) drop_oldest(size() - most * 3 / 4);
   used_ = 0;
   ++frame_;
 }
 
-// No frame comes to a node without coming to its parent: what lies under a node that goes is as old, and goes too.
+// A frame that uses a node uses its parent. So the nodes under a dropped node are as old, and are dropped too.
 void PatchTree::drop_oldest(std::size_t nodes) {
   const auto is_old = [this](const PatchNode& node) {
     return node.children[0] != nullptr && node.children_used < frame_;

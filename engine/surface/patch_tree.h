@@ -94,7 +94,7 @@ struct PatchNode {
   std::uint32_t index = 0;  ///< place among the nodes that there are
   PatchNode* parent = nullptr;
   PatchFamily children{};              ///< all or none
-  std::uint64_t children_used = 0;     ///< number of the frame that came to them last
+  std::uint64_t children_used = 0;     ///< number of the last frame that used them
   std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
   std::unique_ptr<TileWindow> window;  ///< of the level that the last plan took
   PatchRelief relief;
@@ -107,8 +107,8 @@ struct PatchNode {
 class TreeGrowth;
 using PatchFamilyNodes = std::array<PatchNode, 4>;
 
-/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited, and
-/// dropped when no frame has come to them for long. thread: main
+/// The six quadtrees of patches for one body, tile grid and tessellation. Plans make nodes (TreeGrowth), and the tree
+/// drops nodes that no frame has used for long. thread: main; const functions: any, while nothing changes the tree
 class PatchTree {
  public:
   /// `segments` a side of each patch: even, in [2, 128].
@@ -120,7 +120,7 @@ class PatchTree {
   void ensure_children(PatchNode& node);
   /// Takes what a plan made and used. The growth must have begun with the tree as it is.
   void adopt(TreeGrowth& growth);
-  /// The tree's own node, which a plan knows as one that it must not change.
+  /// The node for changes. A plan refers to nodes of a tree that it must not change.
   [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
   /// Calls visit(PatchNode&) for each node.
   template <class Visit>
@@ -132,11 +132,11 @@ class PatchTree {
   }
   /// A node of this tree takes the bounds and the mesh of the same patch in another tree.
   static void copy_relief(const PatchNode& from, const PatchNode& to);
-  /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
+  /// The least squeeze (TileWindow::squeeze) of the reduced rows under a node at a level.
   [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
   /// A node's window at a tile level, its columns squeezed as given (0 or window_squeeze()).
   [[nodiscard]] TileWindow make_window(const PatchNode& node, int tile_level, int squeeze) const;
-  /// Of cell (x, y) of a node's window, counted from its north-west corner.
+  /// Lattice of the cell (x, y) of a node's window, counted from its north-west corner.
   [[nodiscard]] SurfaceLattice make_lattice(const PatchNode& node, const TileWindow& window, int x, int y) const;
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
@@ -144,8 +144,8 @@ class PatchTree {
   [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] CubeMapping mapping() const { return mapping_; }
   [[nodiscard]] std::size_t size() const { return roots_.size() + 4 * (families_.size() - free_.size()); }
-  /// A frame is done. Where there are more than `many` nodes, and over three times as many as the frame came to, those
-  /// go that frames came to longest ago; never one that this frame came to.
+  /// Ends a frame. If the tree has more than `many` nodes, and over three times as many as the frame used, it drops
+  /// those used longest ago, but none that this frame used.
   void end_frame(std::size_t many = kManyNodes);
 
  private:
@@ -170,7 +170,7 @@ class PatchTree {
   std::vector<std::unique_ptr<PatchFamilyNodes>> families_;
   std::vector<std::size_t> free_;  ///< places in families_ that hold none
   std::uint64_t frame_ = 1;
-  std::size_t used_ = 0;  ///< nodes that this frame came to
+  std::size_t used_ = 0;  ///< nodes that this frame used
 };
 
 }  // namespace terrella

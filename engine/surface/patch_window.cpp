@@ -22,8 +22,7 @@ struct WindowRows {
   std::int64_t first, end;
 };
 
-// The rows of tiles that a patch lies on. One narrower than the sliver, at the planet's edge, lies on the last tile,
-// not on one beyond it.
+// The rows of tiles that a patch lies on. A patch narrower than the sliver at the planet's edge lies on the last tile.
 WindowRows window_rows(const TileGrid& grid, const PatchNode& node, int level) {
   const double north = tile_xy(grid, level, node.north_row_deg, 0.0).y;
   const double south = tile_xy(grid, level, node.south_row_deg, 0.0).y;
@@ -83,7 +82,7 @@ SurfaceLattice lattice_over(const PatchTree& tree, const PatchNode& node, const 
 int PatchTree::window_squeeze(const PatchNode& node, int tile_level) const {
   if (!grid_.reduced) return 0;
   const WindowRows span = window_rows(grid_, node, tile_level);
-  // From the equator to a pole rows are squeezed more and more.
+  // Rows are squeezed more and more from the equator to a pole.
   return std::min(squeeze_of_row(grid_, tile_level, span.first), squeeze_of_row(grid_, tile_level, span.end - 1));
 }
 

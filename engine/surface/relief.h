@@ -15,9 +15,9 @@
 
 namespace terrella {
 
-/// The ground of a body: which heights a view asks for, and what the heights that are there make of patches. A height
-/// raises a point along its geodetic normal, and is a function of the point alone, so patches that share a vertex raise
-/// it alike and texture coordinates stay what they were. thread: main
+/// The ground of a body: requests the heights that a view wants, and raises patches by the loaded heights. A height
+/// raises a point along its geodetic normal and depends on the point alone. So patches that share a vertex raise it
+/// alike, and texture coordinates stay the same. thread: main; const functions: any, while nothing changes the relief
 class Relief : public GroundHeights {
  public:
   /// `exaggeration` is applied to what is drawn, picked and collided with.
@@ -27,14 +27,14 @@ class Relief : public GroundHeights {
   [[nodiscard]] const HeightField& field() const { return field_; }
   [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
-  /// From now on: everything is raised anew.
+  /// Raises everything anew.
   void set_exaggeration(double exaggeration);
-  /// A tile has come; what lies under it is raised anew.
+  /// Adds a loaded tile. Patches on it are raised anew.
   void add(HeightTile tile);
   /// States of the tiles. A missing tile's ancestors serve instead.
   [[nodiscard]] TileResidency& tiles() { return tiles_; }
   [[nodiscard]] int missing() const { return static_cast<int>(tiles_.count(TileState::missing)); }
-  /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
+  /// Height of the drawn ground over the ellipsoid, metres, from the finest loaded tile.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const override {
     return field_.height_m(lat, lon, exaggeration_);
   }
@@ -45,7 +45,7 @@ class Relief : public GroundHeights {
     return {.min_m = exaggeration_ * range_.min_m, .max_m = exaggeration_ * range_.max_m};
   }
 
-  /// How many meshes of these patches the coming of a tile puts out of date.
+  /// Number of these patches whose meshes a new tile puts out of date.
   [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
 
   /// Bytes of the loaded tiles.

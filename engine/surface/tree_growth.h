@@ -11,7 +11,7 @@ namespace terrella {
 
 class Relief;
 
-/// What a plan adds to a tree: nodes, windows and marks. The tree stays as it is until PatchTree::adopt() takes the
+/// Additions of a plan to a tree: nodes, windows and marks. The tree stays as it is until PatchTree::adopt() takes the
 /// growth. A growth is valid until another one was adopted or the tree's frame ended. thread: any, one at a time
 class TreeGrowth {
  public:

@@ -59,7 +59,7 @@ Status ElevationSource::try_first_tile(const std::string& name) const {
     const TileId id{.level = level, .x = i % width, .y = i / width};
     const auto heights = read(id);
     if (heights) return Done{};
-    if (heights.error().kind != Absence::broken) continue;
+    if (heights.error().kind != MissingKind::broken) continue;
     return Error{fmt::format("{}: the tile of level {}, column {}, row {} is no tile of heights: {}", name, level, id.x,
                              id.y, heights.error().why)};
   }

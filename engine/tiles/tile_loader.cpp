@@ -26,7 +26,7 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
   DecodeLimits limits;
   limits.max_side_px = std::max(tile_px, 1024);
   const Result<Image> image = decode_image(tile.bytes, limits);
-  if (!image) return TileFailure{Absence::broken, image.error().message};
+  if (!image) return TileFailure{MissingKind::broken, image.error().message};
   return as_texture(*image, tile_px, options);
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "codecs/image.h"
+#include "codecs/numbers.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
@@ -21,7 +22,17 @@ struct ElevationInfo {
   double offset = 0.0;                ///< metres
   std::optional<double> nodata = {};  ///< number that means "no height"; for integer tiles in [0, 65535]
   bool floats = false;                ///< true: tiles are TIFFs of 32-bit floats; false: gray PNGs of 16 bits
+  bool is_signed = false;             ///< the 16 bits of a PNG are a two's complement number, as GDAL's Int16
   bool operator==(const ElevationInfo&) const = default;
+};
+
+/// The square of a coordinate reference system that a `projected` grid covers.
+struct CrsSquare {
+  std::string crs;    ///< text for Crs::open() (streaming/georeference)
+  double west = 0.0;  ///< north-west corner, easting first, in units of `crs`
+  double north = 0.0;
+  double unit_per_deg = 1.0;  ///< 1/360 of the side, in units of `crs`; > 0
+  bool operator==(const CrsSquare&) const = default;
 };
 
 /// The description that a tile set contains. `cut` writes it, `info` prints it.
@@ -34,10 +45,11 @@ struct TileSetInfo {
   std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
   /// The grid of the tiles from which this set's tiles are made (streaming/mercator).
   std::optional<TileGrid> made_of = {};
+  std::optional<CrsSquare> square = {};  ///< set if, and only if, the grid's projection is `projected`
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.
-enum class Absence {
+enum class MissingKind {
   /// The source does not have the tile (404, 204, no row, outside the bounds); permanent, ancestors are drawn instead.
   absent,
   blank,   ///< the tile exists and is empty
@@ -47,7 +59,7 @@ enum class Absence {
   remote,
 };
 struct TileFailure {
-  Absence kind = Absence::failed;
+  MissingKind kind = MissingKind::failed;
   std::string why;
 };
 
@@ -59,6 +71,8 @@ struct EncodedTile {
   double number_offset = 0.0;
   /// For a tile that is made of others: makes its picture, and `bytes` is empty. Takes milliseconds. thread: worker
   std::function<Result<Image, TileFailure>()> make_picture = {};
+  /// The same for heights: makes the numbers as decoded from a tile, tile_px a side. thread: worker
+  std::function<Result<Numbers, TileFailure>()> make_numbers = {};
 };
 
 /// The network side of a source: fetches tiles that read() does not have locally, without blocking. thread: any

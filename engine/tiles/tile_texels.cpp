@@ -128,8 +128,8 @@ std::size_t size_bytes(const TileTexels& texels) {
 Result<TileTexels, TileFailure> make_texels(const Image& tile, int tile_px, int gutter, int mips) {
   assert(mips >= 1 && mips <= kMaxMips && gutter >= 0 && tile_px >> (mips - 1) >= 1);
   if (tile.width_px != tile_px || tile.height_px != tile_px) {
-    return TileFailure{Absence::broken, fmt::format("the tile is {}×{} pixels, the tile set says {}×{}", tile.width_px,
-                                                    tile.height_px, tile_px, tile_px)};
+    return TileFailure{MissingKind::broken, fmt::format("the tile is {}×{} pixels, the tile set says {}×{}",
+                                                        tile.width_px, tile.height_px, tile_px, tile_px)};
   }
   const auto side = static_cast<std::size_t>(tile_px);
   assert(tile.rgba.size() == side * side * kChannels);

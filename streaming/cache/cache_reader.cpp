@@ -10,8 +10,8 @@
 namespace terrella {
 namespace {
 
-/// A single statement reads tile and absence at the same moment. While one replaces the other, a reader therefore never
-/// misses both.
+/// A single statement reads tile and missing-tile record at the same moment. While one replaces the other, a reader
+/// therefore never misses both.
 std::string find_sql(const char* data) {
   return fmt::format(
       "SELECT {}, t.id, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used FROM tiles t "
@@ -35,7 +35,7 @@ FoundRecord record_of(const SqliteQuery& query) {
   CacheRecord& record = found.record;
   if (const auto bytes = query.blob(0)) record.bytes.assign(bytes->begin(), bytes->end());
   found.row = query.integer(1);
-  if (const auto kind = query.text(2)) record.absence = absence_named(*kind);
+  if (const auto kind = query.text(2)) record.missing = missing_named(*kind);
   record.why = query.text(3).value_or("");
   record.etag = query.text(4).value_or("");
   record.last_modified = query.text(5).value_or("");

@@ -16,7 +16,7 @@ namespace terrella {
 struct FoundRecord {
   CacheRecord record;
   std::optional<std::int64_t> row;   ///< id of the tile's row
-  std::optional<std::int64_t> used;  ///< time of last use; none: a pinned tile or an absence
+  std::optional<std::int64_t> used;  ///< time of last use; none: a pinned tile or a missing-tile record
 };
 
 /// Looks tiles up. Each lookup in progress has its own connection. thread: any, several at once

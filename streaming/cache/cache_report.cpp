@@ -115,9 +115,9 @@ void count(Questions& questions, CacheReport& report, std::int64_t now_unix_s) {
   questions.ask(
       "SELECT kind, count(*), count(CASE WHEN expires <= ?1 THEN 1 END) FROM terrella_cache_absences GROUP BY kind",
       [&](const SqliteQuery& query) {
-        const auto kind = static_cast<std::size_t>(absence_named(query.text(0).value_or("")));
-        report.absences.at(kind) += query.integer(1).value_or(0);
-        report.expired_absences.at(kind) += query.integer(2).value_or(0);
+        const auto kind = static_cast<std::size_t>(missing_named(query.text(0).value_or("")));
+        report.missing.at(kind) += query.integer(1).value_or(0);
+        report.expired_missing.at(kind) += query.integer(2).value_or(0);
         return true;
       },
       now_unix_s);

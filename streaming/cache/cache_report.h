@@ -18,10 +18,10 @@ struct CacheReport {
   std::string source_key;
   std::int64_t tiles = 0;
   std::int64_t expired_tiles = 0;
-  std::int64_t pinned_tiles = 0;                   ///< tiles of the coarsest level and preloaded tiles; never evicted
-  std::uint64_t used_bytes = 0;                    ///< size of the file without free pages
-  std::array<std::int64_t, 4> absences{};          ///< number of each kind of Absence
-  std::array<std::int64_t, 4> expired_absences{};  ///< the expired part of `absences`
+  std::int64_t pinned_tiles = 0;                  ///< tiles of the coarsest level and preloaded tiles; never evicted
+  std::uint64_t used_bytes = 0;                   ///< size of the file without free pages
+  std::array<std::int64_t, 4> missing{};          ///< number of each kind of MissingKind
+  std::array<std::int64_t, 4> expired_missing{};  ///< the expired part of `missing`
   /// Set by verify_cache(): faults of the database, in SQLite's words. An empty list means a sound database.
   std::optional<std::vector<std::string>> problems;
 };

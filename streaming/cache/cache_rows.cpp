@@ -43,8 +43,8 @@ constexpr std::array kSql = {
 };
 // clang-format on
 
-/// Absences are small and are deleted in larger steps than tiles.
-constexpr int kAbsencesPerTile = 16;
+/// Missing-tile records are small and are deleted in larger steps than tiles.
+constexpr int kMissingPerTile = 16;
 
 void bind_place(SqliteStatement& statement, const TileId& id) {
   statement.bind(1, std::int64_t{id.level});
@@ -71,7 +71,7 @@ WriteStatus CacheRows::prepare_all() {
 }
 
 WriteStatus CacheRows::put(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s) {
-  return record.absence ? put_absence(id, record) : put_tile(id, record, used_unix_s);
+  return record.missing ? put_missing(id, record) : put_tile(id, record, used_unix_s);
 }
 
 WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s) {
@@ -98,19 +98,20 @@ WriteStatus CacheRows::put_tile(const TileId& id, const CacheRecord& record, std
   const bool pinned = record.pinned || id.level == root_level_;
   side.bind(6, pinned ? std::nullopt : std::optional(used_unix_s));
   if (WriteStatus done = side.run(); !done) return done;
-  bind_place(statements_[kDropAbsence], id);
-  return statements_[kDropAbsence].run();
+  bind_place(statements_[kDropMissing], id);
+  return statements_[kDropMissing].run();
 }
 
-WriteStatus CacheRows::put_absence(const TileId& id, const CacheRecord& record) {
+WriteStatus CacheRows::put_missing(const TileId& id, const CacheRecord& record) {
   const auto there = row_of(id);
   if (!there) return there.error();
   // A stored tile is kept: one answer of a server is no reason to lose it. The tile is requested again after the
-  // absence's lifetime. A failed request gives no information.
-  if (*there) return *record.absence == Absence::failed ? WriteStatus(Done{}) : expire(**there, record.expires_unix_s);
-  SqliteStatement& put = statements_[kPutAbsence];
+  // record's lifetime. A failed request gives no information.
+  if (*there)
+    return *record.missing == MissingKind::failed ? WriteStatus(Done{}) : expire(**there, record.expires_unix_s);
+  SqliteStatement& put = statements_[kPutMissing];
   bind_place(put, id);
-  put.bind(4, std::string_view(absence_name(*record.absence)));
+  put.bind(4, std::string_view(missing_name(*record.missing)));
   put.bind(5, std::string_view(record.why));
   put.bind(6, std::string_view(record.etag));
   put.bind(7, std::string_view(record.last_modified));
@@ -156,7 +157,7 @@ WriteResult<std::int64_t> CacheRows::number(Which which) {
 WriteStatus CacheRows::renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires) {
   const auto there = row_of(id);
   if (!there) return there.error();
-  SqliteStatement& renewal = statements_[*there ? kRenewTile : kRenewAbsence];
+  SqliteStatement& renewal = statements_[*there ? kRenewTile : kRenewMissing];
   const int first = *there ? 2 : 4;
   if (*there) {
     renewal.bind(1, **there);
@@ -189,18 +190,18 @@ WriteResult<std::int64_t> CacheRows::evict(int most) {
   for (const std::int64_t row : rows) {
     if (WriteStatus deleted = delete_tile(row); !deleted) return deleted.error();
   }
-  // Without tiles to evict, absences are evicted alone.
+  // Without tiles to evict, missing-tile records are evicted alone.
   if (rows.empty()) until = std::numeric_limits<std::int64_t>::max();
-  statements_[kDropOldAbsences].bind(1, until);
-  statements_[kDropOldAbsences].bind(2, std::int64_t{most} * kAbsencesPerTile);
-  if (WriteStatus dropped = statements_[kDropOldAbsences].run(); !dropped) return dropped.error();
+  statements_[kDropOldMissing].bind(1, until);
+  statements_[kDropOldMissing].bind(2, std::int64_t{most} * kMissingPerTile);
+  if (WriteStatus dropped = statements_[kDropOldMissing].run(); !dropped) return dropped.error();
   return static_cast<std::int64_t>(rows.size()) + (database_->changed_rows() > 0 ? 1 : 0);
 }
 
 WriteResult<CacheRows::Known> CacheRows::known(const TileId& id) {
   Known known;
   const std::pair<Which, std::optional<std::int64_t>*> looks[] = {{kTileStored, &known.tile_stored},
-                                                                  {kAbsenceStored, &known.absence_stored}};
+                                                                  {kMissingStored, &known.missing_stored}};
   for (const auto& [which, stored] : looks) {
     SqliteStatement& look = statements_[which];
     bind_place(look, id);

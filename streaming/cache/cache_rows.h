@@ -16,7 +16,8 @@ class CacheRows {
   /// Tiles of `root_level` are pinned: they have no last use and are never evicted.
   [[nodiscard]] static WriteResult<CacheRows> prepare(SqliteWriter& database, int root_level);
 
-  /// Replaces the record of a tile. An absence never replaces a stored tile: the tile then takes the absence's expiry
+  /// Replaces the record of a tile. A missing-tile record never replaces a stored tile: the tile then takes the
+  /// missing-tile record's expiry
   /// (`failed` changes nothing). A pinned tile stays pinned.
   [[nodiscard]] WriteStatus put(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s);
   [[nodiscard]] WriteStatus renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires);
@@ -26,15 +27,15 @@ class CacheRows {
   [[nodiscard]] WriteResult<std::int64_t> tile_bytes(const TileId& id);
   /// `row` is the tile's id in the table. A later use that is already stored is kept.
   [[nodiscard]] WriteStatus note_use(std::int64_t row, std::int64_t used_unix_s);
-  /// Deletes up to `most` unpinned tiles, least recently used first, and absences of the same age. Returns the number
-  /// of deleted rows.
+  /// Deletes up to `most` unpinned tiles, least recently used first, and missing-tile records of the same age. Returns
+  /// the number of deleted rows.
   [[nodiscard]] WriteResult<std::int64_t> evict(int most);
 
   /// Storage times of a place.
   struct Known {
     std::optional<std::int64_t> tile_stored;
-    std::optional<std::int64_t> absence_stored;
-    bool failed = false;  ///< the absence is of kind `failed`
+    std::optional<std::int64_t> missing_stored;
+    bool failed = false;  ///< the missing-tile record is of kind `failed`
   };
   [[nodiscard]] WriteResult<Known> known(const TileId& id);
 
@@ -42,7 +43,7 @@ class CacheRows {
   CacheRows(SqliteWriter& database, int root_level) : database_(&database), root_level_(root_level) {}
   [[nodiscard]] WriteStatus prepare_all();
   [[nodiscard]] WriteStatus put_tile(const TileId& id, const CacheRecord& record, std::int64_t used_unix_s);
-  [[nodiscard]] WriteStatus put_absence(const TileId& id, const CacheRecord& record);
+  [[nodiscard]] WriteStatus put_missing(const TileId& id, const CacheRecord& record);
   [[nodiscard]] WriteStatus delete_tile(std::int64_t row);
   [[nodiscard]] WriteStatus expire(std::int64_t row, std::optional<std::int64_t> expires_unix_s);
   [[nodiscard]] WriteResult<std::optional<std::int64_t>> row_of(const TileId& id);
@@ -52,18 +53,18 @@ class CacheRows {
     kFindTile,
     kUpdateTile,
     kPutSide,
-    kDropAbsence,
-    kPutAbsence,
+    kDropMissing,
+    kPutMissing,
     kDropTile,
     kDropSide,
     kRenewTile,
     kExpireTile,
-    kRenewAbsence,
+    kRenewMissing,
     kNoteUse,
     kOldest,
-    kDropOldAbsences,
+    kDropOldMissing,
     kTileStored,
-    kAbsenceStored,
+    kMissingStored,
     kAnyUnpinned,
     kPin,
     kRelease,

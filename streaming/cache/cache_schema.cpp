@@ -111,7 +111,7 @@ WriteStatus add_levels(SqliteWriter& database, const TileGrid& grid) {
   all.max_level = std::max(before.max_level, grid.max_level);
   for (int level = all.min_level; level <= all.max_level; ++level) {
     if (level >= before.min_level && level <= before.max_level) continue;
-    if (WriteStatus added = database.run(tile_matrix_row(all, level)); !added) return added;
+    if (WriteStatus added = database.run(tile_matrix_row(*held, level)); !added) return added;
   }
   const SqlStatement changes[] = {
       {fmt::format("UPDATE {} SET value = ?2 WHERE key = ?1", kTileSetTable), {kTileSetKey, to_tileset_json(*held)}},
@@ -124,13 +124,13 @@ WriteStatus add_levels(SqliteWriter& database, const TileGrid& grid) {
 
 }  // namespace
 
-const char* absence_name(Absence kind) { return kNames.at(static_cast<std::size_t>(kind)); }
+const char* missing_name(MissingKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
 
-Absence absence_named(const std::string& name) {
+MissingKind missing_named(const std::string& name) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (name == kNames.at(i)) return static_cast<Absence>(i);
+    if (name == kNames.at(i)) return static_cast<MissingKind>(i);
   }
-  return Absence::failed;
+  return MissingKind::failed;
 }
 
 WriteStatus write_cache_schema(SqliteWriter& database, const TileSetInfo& info, const std::string& source_key) {

@@ -15,14 +15,14 @@ inline constexpr const char* kCacheTable = "terrella_cache";  ///< key, value: '
 /// One row for each tile, keyed by the tile's id.
 inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";
 /// Places without a tile, and the reason.
-inline constexpr const char* kCacheAbsencesTable = "terrella_cache_absences";
+inline constexpr const char* kCacheMissingTable = "terrella_cache_absences";
 inline constexpr int kCacheVersion = 1;
 inline constexpr std::int64_t kCachePageBytes = 4096;
 
-/// Name of an absence in the file. Never change a name.
-[[nodiscard]] const char* absence_name(Absence kind);
+/// Name of a missing-tile record in the file. Never change a name.
+[[nodiscard]] const char* missing_name(MissingKind kind);
 /// Returns `failed` for an unknown name; the tile is then requested again.
-[[nodiscard]] Absence absence_named(const std::string& name);
+[[nodiscard]] MissingKind missing_named(const std::string& name);
 
 /// Makes an empty database a GeoPackage with the side tables.
 [[nodiscard]] WriteStatus write_cache_schema(SqliteWriter& database, const TileSetInfo& info,

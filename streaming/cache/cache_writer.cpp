@@ -136,7 +136,7 @@ WriteResult<bool> CacheWriter::make_room(std::int64_t needed_pages) {
 }
 
 WriteResult<bool> CacheWriter::fits(const CacheChange& change) {
-  if (!change.record || change.record->absence) return true;
+  if (!change.record || change.record->missing) return true;
   const WriteResult<std::int64_t> there = rows_->tile_bytes(change.id);
   if (!there) return there.error();
   const auto bytes = static_cast<std::int64_t>(change.record->bytes.size());

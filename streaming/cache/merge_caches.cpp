@@ -31,16 +31,17 @@ constexpr std::int64_t kRowsPerReport = 256;
 constexpr const char* kTilesSql =
     "SELECT zoom_level, tile_column, tile_row, tile_data, NULL, '', s.etag, s.last_modified, s.stored, s.expires, s.used, "
     "s.id IS NOT NULL AND s.used IS NULL FROM tiles t LEFT JOIN terrella_cache_tiles s ON s.id = t.id ORDER BY t.id";
-constexpr const char* kAbsencesSql =
+constexpr const char* kMissingSql =
     "SELECT zoom_level, tile_column, tile_row, NULL, kind, why, etag, last_modified, stored, expires, NULL, 0 "
     "FROM terrella_cache_absences";
 // clang-format on
 
-/// True if a record replaces the known record of its place: a tile replaces any absence, else the later record wins.
+/// True if a record replaces the known record of its place: a tile replaces any missing-tile record, else the later
+/// record wins.
 bool wins(const CacheRecord& record, const CacheRows::Known& known) {
-  if (!record.absence) return !known.tile_stored || record.stored_unix_s >= *known.tile_stored;
+  if (!record.missing) return !known.tile_stored || record.stored_unix_s >= *known.tile_stored;
   if (known.tile_stored) return false;
-  return !known.absence_stored || record.stored_unix_s >= *known.absence_stored;
+  return !known.missing_stored || record.stored_unix_s >= *known.missing_stored;
 }
 
 struct Row {
@@ -56,7 +57,7 @@ Row row_of(const SqliteQuery& query) {
           .used = query.integer(10).value_or(0)};
   CacheRecord& record = row.record;
   if (const auto bytes = query.blob(3)) record.bytes.assign(bytes->begin(), bytes->end());
-  if (const auto kind = query.text(4)) record.absence = absence_named(*kind);
+  if (const auto kind = query.text(4)) record.missing = missing_named(*kind);
   record.why = query.text(5).value_or("");
   record.etag = query.text(6).value_or("");
   record.last_modified = query.text(7).value_or("");
@@ -94,15 +95,15 @@ class MergedFile {
     const WriteResult<CacheRows::Known> known = rows_->known(row.id);
     if (!known) return known.error();
     const bool better = wins(row.record, *known);
-    const bool had = known->tile_stored || known->absence_stored;
+    const bool had = known->tile_stored || known->missing_stored;
     summary.dropped += had ? 1 : 0;
     if (!better && row.record.pinned) {
       const auto pinned = rows_->pin(row.id, {.last_y = row.id.y});
       return pinned ? WriteStatus(Done{}) : WriteStatus(pinned.error());
     }
     if (!better) return Done{};
-    summary.tiles += (row.record.absence ? 0 : 1) - (known->tile_stored ? 1 : 0);
-    summary.absences += (row.record.absence ? 1 : 0) - (known->absence_stored ? 1 : 0);
+    summary.tiles += (row.record.missing ? 0 : 1) - (known->tile_stored ? 1 : 0);
+    summary.missing += (row.record.missing ? 1 : 0) - (known->missing_stored ? 1 : 0);
     return rows_->put(row.id, row.record, row.used);
   }
 
@@ -183,7 +184,7 @@ Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64
     Result<CacheReport> report = read_cache_report(cache, std::time(nullptr));
     if (!report) return report.error();
     rows += report->tiles;
-    for (const std::int64_t absences : report->absences) rows += absences;
+    for (const std::int64_t missing : report->missing) rows += missing;
     if (!first) {
       first = *std::move(report);
     } else if (!same_source(report->source_key, first->source_key)) {
@@ -224,7 +225,7 @@ Result<MergeSummary> merge_caches(const std::vector<fs::path>& caches, const fs:
   if (Status begun = merged.begin(*first); !begun) return begun.error();
   MergeSummary summary;
   for (const fs::path& cache : caches) {
-    for (const char* sql : {kTilesSql, kAbsencesSql}) {
+    for (const char* sql : {kTilesSql, kMissingSql}) {
       if (Status copied = copy_rows(cache, sql, merged, summary, rows); !copied) return copied.error();
     }
   }

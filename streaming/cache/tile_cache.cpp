@@ -29,7 +29,7 @@ void apply(const Renewal& renewal, CacheRecord& record) {
 }
 
 CacheRecord without_bytes(const CacheRecord& record) {
-  return {.absence = record.absence,
+  return {.missing = record.missing,
           .bytes = {},
           .why = record.why,
           .etag = record.etag,
@@ -42,7 +42,7 @@ CacheRecord without_bytes(const CacheRecord& record) {
 /// Record of a place after the queue is written, if that does not depend on the file.
 CacheRecord record_of(const PendingRecord& pending, bool whole) {
   CacheRecord record = whole ? *pending.record : without_bytes(*pending.record);
-  if (pending.renewal && record.absence != Absence::failed) apply(*pending.renewal, record);
+  if (pending.renewal && record.missing != MissingKind::failed) apply(*pending.renewal, record);
   return record;
 }
 
@@ -128,17 +128,17 @@ class SqliteTileCache : public TileCache {
   [[nodiscard]] Result<std::optional<CacheRecord>> look_up(const TileId& id, bool whole) {
     // Asks the queue before the file: a change that leaves the queue meanwhile is in the file by then.
     const std::optional<PendingRecord> pending = queue_.pending(id);
-    const CacheRecord* absence =
-        pending && pending->record && pending->record->absence ? pending->record.get() : nullptr;
-    if (pending && pending->record && absence == nullptr) return std::optional(record_of(*pending, whole));
+    const CacheRecord* missing =
+        pending && pending->record && pending->record->missing ? pending->record.get() : nullptr;
+    if (pending && pending->record && missing == nullptr) return std::optional(record_of(*pending, whole));
     Result<std::optional<FoundRecord>> found = readers_.find(id, whole);
     if (!found) return found.error();
-    // A queued absence does not replace a tile.
-    if (absence != nullptr && (!*found || (*found)->record.absence)) return std::optional(record_of(*pending, whole));
+    // A queued missing-tile record does not replace a tile.
+    if (missing != nullptr && (!*found || (*found)->record.missing)) return std::optional(record_of(*pending, whole));
     if (!*found) return std::optional<CacheRecord>();
     if (whole) note_use(**found);
     CacheRecord& record = (*found)->record;
-    if (absence != nullptr && absence->absence != Absence::failed) record.expires_unix_s = absence->expires_unix_s;
+    if (missing != nullptr && missing->missing != MissingKind::failed) record.expires_unix_s = missing->expires_unix_s;
     if (pending && pending->renewal) apply(*pending->renewal, record);
     return std::optional(std::move(record));
   }

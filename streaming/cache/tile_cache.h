@@ -16,9 +16,9 @@ namespace terrella {
 /// A cached tile: its bytes, or the reason why there are none (engine/DESIGN.md, 11), and the validators for a
 /// conditional request.
 struct CacheRecord {
-  std::optional<Absence> absence;  ///< none: `bytes` is the tile
+  std::optional<MissingKind> missing;  ///< none: `bytes` is the tile
   std::vector<std::byte> bytes;
-  std::string why;  ///< reason of the absence
+  std::string why;  ///< the reason why the tile is missing
   std::string etag;
   std::string last_modified;
   std::int64_t stored_unix_s = 0;
@@ -60,9 +60,9 @@ struct CacheCounts {
 };
 
 /// Cache of one source's tiles in a GeoPackage. GDAL and QGIS can open the file while it is in use (engine/DESIGN.md,
-/// 8). Tiles are stored as in any GeoPackage; absences, validators, expiry and last use are in side tables. Several
-/// processes may share a file.
-/// One thread does all writing, in batches. Root tiles (level grid.min_level) and pinned tiles are never evicted.
+/// 8). Tiles are stored as in any GeoPackage; missing-tile records, validators, expiry and last use are in side tables.
+/// Several processes may share a file. One thread does all writing, in batches. Root tiles (level grid.min_level) and
+/// pinned tiles are never evicted.
 class TileCache {
  public:
   /// Opens or creates a cache. A file of another source (another grid or another `source_key`) is refused by name. A
@@ -92,11 +92,10 @@ class TileCache {
     }
     return Done{};
   }
-  /// Queues a record, which replaces the present record. An absence never replaces a tile: the tile then takes the
-  /// absence's expiry (`failed` changes nothing).
-  /// `on_durable` is called on the writer's thread when the record would survive kill -9, or with the reason why it
-  /// could not be written (disk full, no room under the limit). After a failure later records are still tried.
-  /// thread: any
+  /// Queues a record, which replaces the present record. A missing-tile record never replaces a tile: the tile then
+  /// takes the record's expiry (`failed` changes nothing). `on_durable` is called on the writer's thread when the
+  /// record would survive kill -9, or with the reason why it could not be written (disk full, no room under the limit).
+  /// After a failure later records are still tried. thread: any
   virtual void store(const TileId& id, CacheRecord record, std::function<void(const StoreStatus&)> on_durable = {}) = 0;
   /// Records that a tile was found unchanged (304): new expiry, same bytes. thread: any
   virtual void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,

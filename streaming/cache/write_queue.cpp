@@ -40,15 +40,15 @@ void WriteQueue::merge_pending(const CacheChange& change) {
     return;
   }
   const CacheRecord& record = *change.record;
-  if (record.absence && pending.record && !pending.record->absence) {
-    if (record.absence == Absence::failed) return;
+  if (record.missing && pending.record && !pending.record->missing) {
+    if (record.missing == MissingKind::failed) return;
     const std::int64_t stored = pending.renewal ? pending.renewal->stored_unix_s : pending.record->stored_unix_s;
     pending.renewal = {stored, record.expires_unix_s};
     return;
   }
-  // A renewal queued before an absence applies to the file, which may have a tile.
-  if (!record.absence) pending.renewal.reset();
-  if (pending.renewal && record.absence != Absence::failed) pending.renewal->expires_unix_s = record.expires_unix_s;
+  // A renewal queued before a missing-tile record applies to the file, which may have a tile.
+  if (!record.missing) pending.renewal.reset();
+  if (pending.renewal && record.missing != MissingKind::failed) pending.renewal->expires_unix_s = record.expires_unix_s;
   pending.record = change.record;
 }
 

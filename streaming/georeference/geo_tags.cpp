@@ -5,9 +5,8 @@
 
 #include <string_view>
 
-#include "streaming/cut/input/row_formats.h"
-#include "streaming/cut/input/tiff_open.h"
 #include "streaming/file_bytes.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {

@@ -27,9 +27,9 @@ DecodedTiles::Decoded picture_of(const Source& source, int tile_px, DecodedTiles
     DecodeLimits limits;
     limits.max_side_px = std::max(tile_px, 1024);
     Result<Image> image = decode_image(*source.bytes, limits);
-    if (!image) return TileFailure{Absence::broken, named(source.id, image.error().message)};
+    if (!image) return TileFailure{MissingKind::broken, named(source.id, image.error().message)};
     if (image->width_px != tile_px || image->height_px != tile_px) {
-      return TileFailure{Absence::broken,
+      return TileFailure{MissingKind::broken,
                          named(source.id, fmt::format("it is {}×{} pixels, the tile set says {}×{}", image->width_px,
                                                       image->height_px, tile_px, tile_px))};
     }
@@ -46,9 +46,9 @@ MercatorJob::MercatorJob(const TileGrid& mercator, const TileId& id)
 
 void MercatorJob::advance(const LookUp& look_up) {
   for (Piece& piece : pieces_) look(piece, look_up);
-  while (!failed_ && !all_lacking_ && missing().empty()) {
-    all_lacking_ = failure_of_all();
-    if (all_lacking_) return;
+  while (!failed_ && !all_missing_ && missing().empty()) {
+    all_missing_ = failure_of_all();
+    if (all_missing_) return;
     climb();
     if (std::ranges::none_of(pieces_, [](const Piece& piece) { return piece.state == State::open; })) return;
     for (Piece& piece : pieces_) look(piece, look_up);
@@ -57,7 +57,7 @@ void MercatorJob::advance(const LookUp& look_up) {
 
 std::vector<TileId> MercatorJob::missing() const {
   std::vector<TileId> tiles;
-  if (failed_ || all_lacking_) return tiles;
+  if (failed_ || all_missing_) return tiles;
   for (const Piece& piece : pieces_) {
     if (piece.state == State::missing && std::ranges::find(tiles, piece.from) == tiles.end()) {
       tiles.push_back(piece.from);
@@ -82,17 +82,17 @@ void MercatorJob::take(Piece& piece, const Found& found) {
   piece.state = State::found;
   if (!found.failure) return;
   switch (found.failure->kind) {
-    case Absence::remote:
+    case MissingKind::remote:
       piece.state = State::missing;
       return;
-    case Absence::failed:
-      if (!failed_) failed_ = TileFailure{Absence::failed, named(piece.from, found.failure->why)};
+    case MissingKind::failed:
+      if (!failed_) failed_ = TileFailure{MissingKind::failed, named(piece.from, found.failure->why)};
       return;
-    case Absence::absent:
-    case Absence::broken:
+    case MissingKind::absent:
+    case MissingKind::broken:
       piece.state = State::absent;
       return;
-    case Absence::blank:
+    case MissingKind::blank:
       piece.state = State::hole;
       return;
   }
@@ -123,16 +123,16 @@ std::optional<TileFailure> MercatorJob::failure_of_all() const {
       continue;
     }
     const TileFailure& failure = *piece.found.failure;
-    if (failure.kind == Absence::broken) return TileFailure{Absence::broken, named(piece.from, failure.why)};
-    if (!worst || failure.kind == Absence::blank) worst = TileFailure{failure.kind, named(piece.from, failure.why)};
+    if (failure.kind == MissingKind::broken) return TileFailure{MissingKind::broken, named(piece.from, failure.why)};
+    if (!worst || failure.kind == MissingKind::blank) worst = TileFailure{failure.kind, named(piece.from, failure.why)};
   }
   if (any) return std::nullopt;
-  return worst ? worst : TileFailure{Absence::absent, "outside the tile set"};
+  return worst ? worst : TileFailure{MissingKind::absent, "outside the tile set"};
 }
 
 Result<EncodedTile, TileFailure> MercatorJob::result(const std::shared_ptr<DecodedTiles>& decoded) const {
   if (failed_) return *failed_;
-  if (all_lacking_) return *all_lacking_;
+  if (all_missing_) return *all_missing_;
   assert(missing().empty());
   std::vector<Source> sources;
   for (const Piece& piece : pieces_) {

@@ -53,7 +53,7 @@ class MercatorJob {
   std::shared_ptr<const MercatorPlan> plan_;
   std::vector<Piece> pieces_;
   std::optional<TileFailure> failed_;       ///< a failed stored tile: this tile then fails too
-  std::optional<TileFailure> all_lacking_;  ///< set if nothing lies under the tile itself
+  std::optional<TileFailure> all_missing_;  ///< set if nothing lies under the tile itself
 };
 
 }  // namespace terrella

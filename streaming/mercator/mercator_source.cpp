@@ -1,5 +1,7 @@
 #include "streaming/mercator/mercator_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <limits>
@@ -237,10 +239,10 @@ class MercatorSource : public TileSource, public RemoteTiles {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
 
   [[nodiscard]] Encoded read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     MercatorJob job(*info_.made_of, id);
     job.advance([this](const TileId& stored) { return stored_.find(stored); });
-    if (!job.missing().empty()) return TileFailure{Absence::remote, {}};
+    if (!job.missing().empty()) return TileFailure{MissingKind::remote, {}};
     return job.result(stored_.decoded());
   }
 
@@ -261,6 +263,10 @@ class MercatorSource : public TileSource, public RemoteTiles {
 
 Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored, const std::string& where) {
   TileSetInfo info = stored->info();
+  if (info.square) {
+    return Error{fmt::format("{}: its tiles are in {}; tiles in EPSG:4326 or EPSG:3857 can be shown", where,
+                             info.square->crs.substr(0, 100))};
+  }
   if (info.grid.projection != Projection::web_mercator) return stored;
   if (info.elevation) {
     return Error{where +

@@ -22,16 +22,16 @@ HttpReply answer_of(Result<EncodedTile, TileFailure>&& tile, std::uint64_t numbe
   }
   reply.why = tile.error().why;
   switch (tile.error().kind) {
-    case Absence::absent:
+    case MissingKind::absent:
       reply.outcome = HttpOutcome::nothing;
       break;
-    case Absence::blank:  // content of no bytes
+    case MissingKind::blank:  // content of no bytes
       break;
-    case Absence::broken:
+    case MissingKind::broken:
       reply.outcome = HttpOutcome::refused;
       break;
-    case Absence::failed:
-    case Absence::remote:
+    case MissingKind::failed:
+    case MissingKind::remote:
       reply.outcome = HttpOutcome::failed;
       break;
   }

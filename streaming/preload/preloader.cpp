@@ -41,7 +41,7 @@ class Run {
     if (const Status passed = first_pass(); !passed) return passed.error();
     if (end_ == PreloadEnd::complete) second_pass();
     wind_down();
-    for (const auto& [asked, why] : failed_) lack(asked.id, Lack::failed, why);
+    for (const auto& [asked, why] : failed_) note_missing(asked.id, PreloadMissing::failed, why);
     last_asked_ = origin_->counts();
     origin_.reset();
     if (const Status flushed = cache_.flush(); !flushed && !tally_->failed()) return flushed.error();
@@ -102,14 +102,14 @@ class Run {
   }
 
   void ask(WantedTileRecord wanted) {
-    if (tally_->out_of_room() && !wanted.have) return lack(wanted.id, Lack::no_room, kNoRoom);
+    if (tally_->out_of_room() && !wanted.have) return note_missing(wanted.id, PreloadMissing::no_room, kNoRoom);
     const std::uint64_t number = ++last_number_;
     asked_.emplace(number, Asked{wanted.id, wanted.have});
     origin_->ask({number, wanted.id, std::move(wanted.etag), std::move(wanted.last_modified)});
   }
 
   void note_tiles_without_room() {
-    for (const TileId& id : tally_->take_without_room()) lack(id, Lack::no_room, kNoRoom);
+    for (const TileId& id : tally_->take_without_room()) note_missing(id, PreloadMissing::no_room, kNoRoom);
   }
 
   void take_answers(milliseconds longest) {
@@ -130,25 +130,28 @@ class Run {
         return settle_content(asked, std::move(reply));
       case HttpOutcome::not_modified:
         if (!asked.have)
-          return lack(asked.id, Lack::broken, "304 Not Modified of what was never asked for conditionally");
+          return note_missing(asked.id, PreloadMissing::broken,
+                              "304 Not Modified of what was never asked for conditionally");
         return cache_.renew(asked.id, unix_now_s(), expiry(reply, options_.tile_life),
                             tally_->sent(StoreTally::Kind::unchanged, asked.id, 0));
       case HttpOutcome::nothing:
-        return note_absence(asked, Absence::absent, std::move(reply));
+        return note_missing(asked, MissingKind::absent, std::move(reply));
       case HttpOutcome::refused:
-        return lack(asked.id, Lack::refused, reply.why);
+        return note_missing(asked.id, PreloadMissing::refused, reply.why);
       case HttpOutcome::failed:
-        if (second_ || failed_.size() >= options_.most_second_tries) return lack(asked.id, Lack::failed, reply.why);
+        if (second_ || failed_.size() >= options_.most_second_tries)
+          return note_missing(asked.id, PreloadMissing::failed, reply.why);
         failed_.emplace_back(asked, std::move(reply.why));
     }
   }
 
   void settle_content(const Asked& asked, HttpReply&& reply) {
     const TileId& id = asked.id;
-    if (reply.no_store) return lack(id, Lack::refused, "the server forbids storing it (Cache-Control: no-store)");
-    if (reply.body.empty()) return note_absence(asked, Absence::blank, std::move(reply));
+    if (reply.no_store)
+      return note_missing(id, PreloadMissing::refused, "the server forbids storing it (Cache-Control: no-store)");
+    if (reply.body.empty()) return note_missing(asked, MissingKind::blank, std::move(reply));
     if (const Status good = check_tile(reply.body, options_.tile_px); !good) {
-      return lack(id, Lack::broken, good.error().message);
+      return note_missing(id, PreloadMissing::broken, good.error().message);
     }
     const std::size_t bytes = reply.body.size();
     CacheRecord record = record_of(std::move(reply), options_.tile_life);
@@ -157,13 +160,13 @@ class Run {
   }
 
   // The cache keeps a stored tile.
-  void note_absence(const Asked& asked, Absence kind, HttpReply&& reply) {
+  void note_missing(const Asked& asked, MissingKind kind, HttpReply&& reply) {
     reply.body.clear();
     std::string why = std::move(reply.why);
-    CacheRecord record = record_of(std::move(reply), options_.absence_life);
-    record.absence = kind;
+    CacheRecord record = record_of(std::move(reply), options_.missing_life);
+    record.missing = kind;
     record.why = std::move(why);
-    auto counted = kind == Absence::blank ? StoreTally::Kind::blank : StoreTally::Kind::absent;
+    auto counted = kind == MissingKind::blank ? StoreTally::Kind::blank : StoreTally::Kind::absent;
     if (asked.have) counted = StoreTally::Kind::kept;
     cache_.store(asked.id, std::move(record), tally_->sent(counted, asked.id, 0));
   }
@@ -183,12 +186,12 @@ class Run {
     return reply.expires_unix_s ? *reply.expires_unix_s : unix_now_s() + life.count();
   }
 
-  void lack(const TileId& id, Lack kind, const std::string& why) {
-    if (kind == Lack::broken) ++counts_.broken;
-    if (kind == Lack::refused) ++counts_.refused;
-    if (kind == Lack::failed) ++counts_.failed;
-    if (kind == Lack::no_room) ++counts_.no_room;
-    if (options_.on_lacking) options_.on_lacking(id, kind, why);
+  void note_missing(const TileId& id, PreloadMissing kind, const std::string& why) {
+    if (kind == PreloadMissing::broken) ++counts_.broken;
+    if (kind == PreloadMissing::refused) ++counts_.refused;
+    if (kind == PreloadMissing::failed) ++counts_.failed;
+    if (kind == PreloadMissing::no_room) ++counts_.no_room;
+    if (options_.on_missing) options_.on_missing(id, kind, why);
   }
 
   // Waits for answers that the host has begun. Withdraws requests not sent yet, which are the newest.
@@ -215,7 +218,7 @@ class Run {
     counts.locked = cache_.counts().locked;
     counts.stored_bytes = tally_->bytes();
     counts.passed =
-        counts.there + counts.stored + counts.unchanged + counts.absent + counts.blank + counts.kept + counts.lacking();
+        counts.there + counts.stored + counts.unchanged + counts.absent + counts.blank + counts.kept + counts.missing();
     if (origin_) last_asked_ = origin_->counts();
     counts.asked = last_asked_;
     return counts;

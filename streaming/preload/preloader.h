@@ -15,7 +15,7 @@
 namespace terrella {
 
 /// Reason why a requested tile is missing in the cache afterwards.
-enum class Lack {
+enum class PreloadMissing {
   broken,   ///< the answer is no picture of the set's size, or a truncated picture
   refused,  ///< the server refuses: 401, 403, endless redirects, too large, not to be stored
   failed,   ///< no answer in both rounds of attempts
@@ -32,11 +32,11 @@ struct PreloadCounts {
   std::int64_t absent = 0;     ///< the source has no such tile (404, 204, 410); recorded in the cache
   std::int64_t blank = 0;      ///< the tile has no content; recorded in the cache
   std::int64_t kept = 0;       ///< no longer in the source; the stored tile stays
-  std::int64_t broken = 0, refused = 0, failed = 0, no_room = 0;  ///< see Lack
+  std::int64_t broken = 0, refused = 0, failed = 0, no_room = 0;  ///< see PreloadMissing
   std::uint64_t stored_bytes = 0;
   HttpCounts asked;
   bool locked = false;  ///< another program holds the cache file and blocks writing for now
-  [[nodiscard]] std::int64_t lacking() const { return broken + refused + failed + no_room; }
+  [[nodiscard]] std::int64_t missing() const { return broken + refused + failed + no_room; }
 };
 
 struct PreloadOptions {
@@ -44,7 +44,7 @@ struct PreloadOptions {
   int tile_px = 256;
   std::optional<std::chrono::seconds> refresh_older_than{};  ///< none: only expired tiles are requested again
   std::chrono::seconds tile_life{7 * 24 * 3600};             ///< used if the server gives no expiry
-  std::chrono::seconds absence_life{24 * 3600};              ///< used if the server gives no expiry
+  std::chrono::seconds missing_life{24 * 3600};              ///< used if the server gives no expiry
   bool expires = true;                            ///< false: tiles without an expiry never expire (sets on disk)
   std::size_t most_second_tries = 1000000;        ///< failures beyond this number get no second try
   int give_up_after = 512;                        ///< consecutive failures after which the source counts as down
@@ -55,7 +55,7 @@ struct PreloadOptions {
   /// Called for each tile that would survive kill -9. thread: the cache's writer
   std::function<void(const TileId&)> on_stored;
   /// Called for each tile that is finally missing, with the reason. thread: the caller of preload()
-  std::function<void(const TileId&, Lack, const std::string& why)> on_lacking;
+  std::function<void(const TileId&, PreloadMissing, const std::string& why)> on_missing;
 };
 
 enum class PreloadEnd {
@@ -74,9 +74,9 @@ struct PreloadResult {
 
 /// Brings what a plan names into a cache: passes over what is there and fresh without a request, asks for the rest,
 /// with validators where there is something, checks what comes and stores it; at the end asks once more for what
-/// failed. What is lacking is not noted in the cache, so that the next run asks for it again, and never takes the place
+/// failed. What is missing is not noted in the cache, so that the next run asks for it again, and never takes the place
 /// of an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile,
-/// tiles that it does not have are not asked for any more: they are lacking too. `make_origin` gets the queue that
+/// tiles that it does not have are not asked for any more: they are missing too. `make_origin` gets the queue that
 /// takes the answers. Fails only if the cache cannot be read or written (disk full); what was stored before stays.
 /// Blocks. thread: any but the cache's writer
 [[nodiscard]] Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,

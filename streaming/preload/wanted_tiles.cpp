@@ -49,12 +49,12 @@ Status WantedTiles::look() {
         unknown_until(y);
         ++next_y;
         const bool up_to_date = is_up_to_date(record);
-        if (record.pinned || (up_to_date && record.absence)) ++settled_;
+        if (record.pinned || (up_to_date && record.missing)) ++settled_;
         if (up_to_date) {
           ++there_;
           return;
         }
-        const bool have = !record.absence;
+        const bool have = !record.missing;
         found_.push_back({{run_.level, run_.x, y}, have, have ? record.etag : "", have ? record.last_modified : ""});
       });
   if (!looked) return looked.error();
@@ -64,7 +64,7 @@ Status WantedTiles::look() {
 }
 
 bool WantedTiles::is_up_to_date(const CacheRecord& record) const {
-  if (record.absence == Absence::broken || record.absence == Absence::failed) return false;
+  if (record.missing == MissingKind::broken || record.missing == MissingKind::failed) return false;
   if (refresh_older_than_) return now_unix_s_ - record.stored_unix_s < refresh_older_than_->count();
   return is_fresh(record, now_unix_s_);
 }

@@ -33,7 +33,7 @@ class WantedTiles {
   [[nodiscard]] Result<std::optional<WantedTileRecord>> next();
   [[nodiscard]] bool done() const { return done_ && at_ == found_.size(); }
   [[nodiscard]] std::int64_t there() const { return there_; }  ///< tiles not wanted so far
-  /// Number of checked tiles that are pinned, or are fresh absences. They need no additional room.
+  /// Number of checked tiles that are pinned, or are fresh missing-tile records. They need no additional room.
   [[nodiscard]] std::int64_t settled() const { return settled_; }
 
  private:

@@ -53,7 +53,7 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
   if (merged.subdomains.empty()) merged.subdomains = otherwise.subdomains;
   merged.headers.insert(merged.headers.end(), otherwise.headers.begin(), otherwise.headers.end());
   prefer(merged.tile_life, otherwise.tile_life);
-  prefer(merged.absence_life, otherwise.absence_life);
+  prefer(merged.missing_life, otherwise.missing_life);
   return merged;
 }
 

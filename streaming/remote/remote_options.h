@@ -35,7 +35,7 @@ struct RemoteOptions {
   std::vector<std::string> subdomains{};  ///< for {s}; empty: a, b, c
   std::vector<std::string> headers{};     ///< "Name: value", for the documents and the tiles; may be secret
   std::optional<std::chrono::seconds> tile_life{};
-  std::optional<std::chrono::seconds> absence_life{};
+  std::optional<std::chrono::seconds> missing_life{};
 };
 
 /// Merges options: `said` wins, `otherwise` fills the gaps. Headers of both are kept, those of `said` first.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <mutex>
 #include <system_error>
@@ -19,10 +20,10 @@ namespace {
 using std::chrono::seconds;
 
 constexpr seconds kTileLife{7 * 24 * 3600};
-constexpr seconds kAbsenceLife{24 * 3600};
-// What a server sent by mistake is worth asking for again soon.
+constexpr seconds kMissingLife{24 * 3600};
+// Broken tiles are requested again soon, because the server probably sent them by mistake.
 constexpr seconds kBrokenLife{3600};
-// Threads that bring replies to the cache and to who asked. One may wait for a disk while the other goes on.
+// Threads that check replies, store them in the cache and answer requests. If one waits for a disk, the other goes on.
 constexpr int kAnswerers = 2;
 
 std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr)); }
@@ -30,8 +31,23 @@ std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr))
 using Encoded = Result<EncodedTile, TileFailure>;
 
 Encoded tile_of(CacheRecord&& record) {
-  if (record.absence) return TileFailure{*record.absence, std::move(record.why)};
+  if (record.missing) return TileFailure{*record.missing, std::move(record.why)};
   return EncodedTile{std::move(record.bytes)};
+}
+
+/// A stored raster ends inside its last tiles, and a server may send only the part that there is.
+TileSides sides_of(const TileSetInfo& info, const TileId& id) {
+  const TileGrid& grid = info.grid;
+  TileSides sides{.least_width_px = grid.tile_px, .least_height_px = grid.tile_px, .most_px = grid.tile_px};
+  if (!info.square) return sides;
+  const TileBounds tile = tile_bounds(grid, id);
+  if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;
+  if (tile.south_deg < grid.bounds.south.deg()) sides.least_height_px = 1;
+  return sides;
+}
+
+bool is_exception(const std::vector<std::byte>& body) {
+  return !server_exception({reinterpret_cast<const char*>(body.data()), body.size()}).empty();
 }
 
 class RemoteSource : public TileSource, public RemoteTiles {
@@ -47,10 +63,10 @@ class RemoteSource : public TileSource, public RemoteTiles {
   [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
 
   [[nodiscard]] Encoded read(const TileId& id) override {
-    if (!exists(set_.info.grid, id)) return TileFailure{Absence::absent, "outside the tile set"};
+    if (!exists(set_.info.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     std::optional<CacheRecord> record = cached(id);
     if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
-    return TileFailure{Absence::remote, {}};
+    return TileFailure{MissingKind::remote, {}};
   }
 
   [[nodiscard]] RemoteTiles* remote() override { return this; }
@@ -108,7 +124,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
     const std::lock_guard lock(mutex_);
     auto asked = asked_.extract(number);
     if (asked.empty()) return std::nullopt;
-    // The same tile may have been asked for anew.
+    // Another request for the same tile may have followed.
     const auto latest = numbers_.find(asked.mapped().id);
     if (latest != numbers_.end() && latest->second == number) numbers_.erase(latest);
     return std::move(asked.mapped());
@@ -122,7 +138,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
         });
       } catch (const std::system_error&) {
         if (answerers_.empty()) throw;
-        return;  // the system has no more threads: one will do
+        return;  // the system has no more threads; one suffices
       }
     }
   }
@@ -139,64 +155,70 @@ class RemoteSource : public TileSource, public RemoteTiles {
     const std::optional<TileId> id = id_of_request(number);
     if (!id) return;
     Encoded encoded = answer_or_failure(*id, std::move(reply));
-    // The cache may have been slow, and the tile cancelled meanwhile.
+    // The cache may have been slow, and the request may have been cancelled meanwhile.
     if (const std::optional<Asked> asked = forget(number)) asked->done(std::move(encoded));
   }
 
-  /// An exception that leaves a thread would end the program.
+  /// Catches all exceptions, because an exception that leaves a thread ends the program.
   Encoded answer_or_failure(const TileId& id, HttpReply&& reply) {
     try {
       return answer(id, std::move(reply));
     } catch (const std::exception& error) {
-      return TileFailure{Absence::failed, error.what()};
+      return TileFailure{MissingKind::failed, error.what()};
     } catch (...) {
-      return TileFailure{Absence::failed, "unknown exception"};
+      return TileFailure{MissingKind::failed, "unknown exception"};
     }
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
+    if (std::ranges::find(set_.missing_statuses, reply.status) != set_.missing_statuses.end()) {
+      return missing(id, MissingKind::absent, std::move(reply), missing_life());
+    }
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
       case HttpOutcome::not_modified:
         if (auto record = cached(id)) {
-          cache_->renew(id, unix_now_s(), expiry(reply, record->absence ? absence_life() : tile_life()));
+          cache_->renew(id, unix_now_s(), expiry(reply, record->missing ? missing_life() : tile_life()));
           return tile_of(*std::move(record));
         }
         break;
       case HttpOutcome::nothing:
-        return absence(id, Absence::absent, std::move(reply), absence_life());
+        return missing(id, MissingKind::absent, std::move(reply), missing_life());
       case HttpOutcome::refused:
       case HttpOutcome::failed:
         // An old tile is better than none (stale-if-error, RFC 5861).
         if (auto record = cached(id)) return tile_of(*std::move(record));
         break;
     }
-    return TileFailure{Absence::failed, std::move(reply.why)};
+    return TileFailure{MissingKind::failed, std::move(reply.why)};
   }
 
   Encoded content(const TileId& id, HttpReply&& reply) {
-    if (reply.body.empty()) return absence(id, Absence::blank, std::move(reply), absence_life());
-    if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
+    if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
+    if (const Status good = check_tile(reply.body, sides_of(set_.info, id)); !good) {
       reply.why = good.error().message;
+      if (set_.exception_is_missing && is_exception(reply.body)) {
+        return missing(id, MissingKind::absent, std::move(reply), missing_life());
+      }
       reply.expires_unix_s.reset();
-      return absence(id, Absence::broken, std::move(reply), kBrokenLife);
+      return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
     }
     EncodedTile tile{reply.body};
     if (cache_ != nullptr && !reply.no_store) cache_->store(id, record_of(std::move(reply), tile_life()));
     return tile;
   }
 
-  Encoded absence(const TileId& id, Absence kind, HttpReply&& reply, seconds life) {
+  Encoded missing(const TileId& id, MissingKind kind, HttpReply&& reply, seconds life) {
     TileFailure failure{kind, reply.why};
     if (cache_ == nullptr) return failure;
-    // The cache keeps a tile that it has (CacheRows::put()), and so does the picture.
+    // If the cache has the tile, the cache keeps it (CacheRows::put()) and the picture shows it.
     auto known = cached(id);
-    const bool stored = known && !known->absence;
+    const bool stored = known && !known->missing;
     if (reply.no_store) return stored ? tile_of(*std::move(known)) : Encoded(failure);
     reply.body.clear();
     CacheRecord record = record_of(std::move(reply), life);
-    record.absence = kind;
+    record.missing = kind;
     record.why = failure.why;
     cache_->store(id, std::move(record));
     return stored ? tile_of(*std::move(known)) : Encoded(failure);
@@ -217,17 +239,17 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   [[nodiscard]] seconds tile_life() const { return set_.tile_life.value_or(kTileLife); }
-  [[nodiscard]] seconds absence_life() const { return set_.absence_life.value_or(kAbsenceLife); }
+  [[nodiscard]] seconds missing_life() const { return set_.missing_life.value_or(kMissingLife); }
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the next three members
   std::uint64_t last_number_ = 0;
   std::unordered_map<std::uint64_t, Asked> asked_;
-  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< of the latest request for a tile
+  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< number of the latest request for each tile
   ReplyQueue replies_;
   HttpFetcher fetcher_;
-  std::vector<std::jthread> answerers_;  ///< last: they use the rest
+  std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace terrella {
 
 /// Tiles behind a network, with the cache before them (engine/DESIGN.md, 8 to 11). What becomes of a tile:
-///   cached and fresh: read() gives it, or its absence, without a request;
+///   cached and fresh: read() gives it, or why it is missing, without a request;
 ///   cached and expired: fetch() asks with its validators; unchanged (304) or unreachable, the cached one serves;
 ///   not cached: fetch() asks, and what comes is stored: a tile, or that it is absent, blank or broken, each with its
 ///   own life; what failed for now is not stored.

@@ -34,11 +34,11 @@ class GeoPackageSource : public TileSource, public TileLister {
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
     const auto level = tiles_.levels.find(id.level);
     if (!exists(tiles_.info.grid, id) || level == tiles_.levels.end()) {
-      return TileFailure{Absence::absent, "outside the tile set"};
+      return TileFailure{MissingKind::absent, "outside the tile set"};
     }
     if (id.squeeze != 0) return squeezed_->read({.zoom = level->second.zoom, .column = id.x, .row = id.y});
     const auto place = place_of(level->second, id);
-    if (!place) return TileFailure{Absence::absent, "outside the tile matrix"};
+    if (!place) return TileFailure{MissingKind::absent, "outside the tile matrix"};
     return table_->read({.zoom = level->second.zoom, .column = place->first, .row = place->second});
   }
 

@@ -9,10 +9,10 @@ namespace {
 
 /// Returns the tile in the query's row, as a copy, because reset() frees the row.
 Result<EncodedTile, TileFailure> tile_of(const SqliteQuery& query, bool row) {
-  if (!row) return TileFailure{Absence::absent, "the file has no such tile"};
+  if (!row) return TileFailure{MissingKind::absent, "the file has no such tile"};
   const auto blob = query.blob(0);
-  if (!blob) return TileFailure{Absence::broken, "tile_data is not a blob"};
-  if (blob->empty()) return TileFailure{Absence::blank, "tile_data is empty"};
+  if (!blob) return TileFailure{MissingKind::broken, "tile_data is not a blob"};
+  if (blob->empty()) return TileFailure{MissingKind::blank, "tile_data is empty"};
   return EncodedTile{.bytes = {blob->begin(), blob->end()},
                      .number_scale = query.number(1).value_or(1.0),
                      .number_offset = query.number(2).value_or(0.0)};
@@ -73,9 +73,9 @@ Result<SqliteTiles::Connection, SqlError> SqliteTiles::connect() const {
 }
 
 Result<EncodedTile, TileFailure> SqliteTiles::read(const SqlitePlace& place) {
-  if (given_up_) return TileFailure{Absence::broken, "given up: reading another tile took too long"};
+  if (given_up_) return TileFailure{MissingKind::broken, "given up: reading another tile took too long"};
   Result<Connection, SqlError> connection = take();
-  if (!connection) return TileFailure{Absence::failed, connection.error().message};
+  if (!connection) return TileFailure{MissingKind::failed, connection.error().message};
   connection->tile.bind(1, place.zoom);
   connection->tile.bind(2, place.column);
   connection->tile.bind(3, place.row);
@@ -119,7 +119,7 @@ Result<bool, SqlError> SqliteTiles::for_each(std::int64_t zoom,
 /// After one query without end, the file is given up, because the next tile would take as long.
 TileFailure SqliteTiles::failure_of(const SqlError& error) {
   if (error.problem == SqlProblem::too_long) given_up_ = true;
-  return TileFailure{error.problem == SqlProblem::busy ? Absence::failed : Absence::broken, error.message};
+  return TileFailure{error.problem == SqlProblem::busy ? MissingKind::failed : MissingKind::broken, error.message};
 }
 
 Result<SqliteTiles::Connection, SqlError> SqliteTiles::take() {

@@ -12,15 +12,15 @@ namespace terrella {
 namespace {
 
 namespace fs = std::filesystem;
-using test::absence_record;
 using test::found;
+using test::missing_record;
 using test::nth_tile;
 using test::open_cache;
 using test::tile_record;
 
 void expect_same(const std::optional<CacheRecord>& got, const CacheRecord& expected) {
   ASSERT_TRUE(got);
-  EXPECT_EQ(got->absence, expected.absence);
+  EXPECT_EQ(got->missing, expected.missing);
   EXPECT_EQ(got->bytes, expected.bytes);
   EXPECT_EQ(got->why, expected.why);
   EXPECT_EQ(got->etag, expected.etag);
@@ -83,11 +83,11 @@ TEST_F(Cache, TellsWhenARecordIsDurable) {
   EXPECT_EQ(durable, 1000);
 }
 
-TEST_F(Cache, KeepsEveryKindOfAbsenceWithItsReasonAndItsLife) {
-  const Absence kinds[] = {Absence::absent, Absence::blank, Absence::broken, Absence::failed};
+TEST_F(Cache, KeepsEveryKindOfMissingWithItsReasonAndItsLife) {
+  const MissingKind kinds[] = {MissingKind::absent, MissingKind::blank, MissingKind::broken, MissingKind::failed};
   const auto check = [&](TileCache& cache) {
     for (int n = 0; n < 4; ++n) {
-      const CacheRecord expected = absence_record(kinds[n], "why " + std::to_string(n), 5000 + n);
+      const CacheRecord expected = missing_record(kinds[n], "why " + std::to_string(n), 5000 + n);
       expect_same(found(cache, nth_tile(4, n)), expected);
       EXPECT_TRUE(is_fresh(expected, 5000 + n + 59));
       EXPECT_FALSE(is_fresh(expected, 5000 + n + 60));
@@ -96,7 +96,7 @@ TEST_F(Cache, KeepsEveryKindOfAbsenceWithItsReasonAndItsLife) {
   {
     const auto cache = open_cache(file_);
     for (int n = 0; n < 4; ++n) {
-      cache->store(nth_tile(4, n), absence_record(kinds[n], "why " + std::to_string(n), 5000 + n));
+      cache->store(nth_tile(4, n), missing_record(kinds[n], "why " + std::to_string(n), 5000 + n));
     }
     check(*cache);
     ASSERT_TRUE(cache->flush());
@@ -108,8 +108,9 @@ TEST_F(Cache, KeepsEveryKindOfAbsenceWithItsReasonAndItsLife) {
 TEST_F(Cache, TheLastRecordOfAPlaceIsKept) {
   const TileId id = nth_tile(4, 5);
   const auto cache = open_cache(file_);
-  const CacheRecord records[] = {absence_record(Absence::absent, "not yet"), absence_record(Absence::blank, "sea"),
-                                 tile_record(id, 3000, 1), tile_record(id, 9000, 2), tile_record(id, 2000, 3)};
+  const CacheRecord records[] = {missing_record(MissingKind::absent, "not yet"),
+                                 missing_record(MissingKind::blank, "sea"), tile_record(id, 3000, 1),
+                                 tile_record(id, 9000, 2), tile_record(id, 2000, 3)};
   for (const bool flushed : {false, true}) {
     ASSERT_TRUE(cache->flush());
     test::sql(file_, "DELETE FROM tiles; DELETE FROM terrella_cache_tiles");
@@ -126,10 +127,10 @@ TEST_F(Cache, TheLastRecordOfAPlaceIsKept) {
   EXPECT_EQ(test::sql(file_, "SELECT count(*) FROM terrella_cache_absences"), "0");
 }
 
-TEST_F(Cache, NoAbsenceTakesThePlaceOfATileWhichIsAskedForAgainAfterTheAbsencesLife) {
+TEST_F(Cache, NoMissingTakesThePlaceOfATileWhichIsAskedForAgainAfterTheMissingLife) {
   const TileId id = nth_tile(4, 5);
   const auto cache = open_cache(file_);
-  for (const Absence kind : {Absence::absent, Absence::blank, Absence::broken, Absence::failed}) {
+  for (const MissingKind kind : {MissingKind::absent, MissingKind::blank, MissingKind::broken, MissingKind::failed}) {
     for (const bool flushed : {false, true}) {
       SCOPED_TRACE(testing::Message() << static_cast<int>(kind) << flushed);
       CacheRecord expected = tile_record(id);
@@ -137,9 +138,9 @@ TEST_F(Cache, NoAbsenceTakesThePlaceOfATileWhichIsAskedForAgainAfterTheAbsencesL
       if (flushed) {
         ASSERT_TRUE(cache->flush());
       }
-      const CacheRecord absence = absence_record(kind, "gone", 5000);
-      cache->store(id, absence);
-      if (kind != Absence::failed) expected.expires_unix_s = absence.expires_unix_s;
+      const CacheRecord missing = missing_record(kind, "gone", 5000);
+      cache->store(id, missing);
+      if (kind != MissingKind::failed) expected.expires_unix_s = missing.expires_unix_s;
       expect_same(found(*cache, id), expected);
       ASSERT_TRUE(cache->flush());
       expect_same(found(*cache, id), expected);

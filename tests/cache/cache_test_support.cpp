@@ -25,7 +25,7 @@ std::vector<std::byte> tile_bytes(const TileId& id, std::size_t size, unsigned v
 }
 
 CacheRecord tile_record(const TileId& id, std::size_t size, unsigned version) {
-  return {.absence = {},
+  return {.missing = {},
           .bytes = tile_bytes(id, size, version),
           .why = "",
           .etag = "\"" + std::to_string(version) + "\"",
@@ -34,9 +34,9 @@ CacheRecord tile_record(const TileId& id, std::size_t size, unsigned version) {
           .expires_unix_s = 2000 + version};
 }
 
-CacheRecord absence_record(Absence kind, const std::string& why, std::int64_t stored_unix_s) {
+CacheRecord missing_record(MissingKind kind, const std::string& why, std::int64_t stored_unix_s) {
   CacheRecord record;
-  record.absence = kind;
+  record.missing = kind;
   record.why = why;
   record.stored_unix_s = stored_unix_s;
   record.expires_unix_s = stored_unix_s + 60;

@@ -19,7 +19,7 @@ inline constexpr const char* kSource = "https://tiles.example/{z}/{x}/{y}.jpg";
 /// Bytes that belong to a tile and a version of it and to no other.
 [[nodiscard]] std::vector<std::byte> tile_bytes(const TileId& id, std::size_t size, unsigned version = 0);
 [[nodiscard]] CacheRecord tile_record(const TileId& id, std::size_t size = 3000, unsigned version = 0);
-[[nodiscard]] CacheRecord absence_record(Absence kind, const std::string& why, std::int64_t stored_unix_s = 1000);
+[[nodiscard]] CacheRecord missing_record(MissingKind kind, const std::string& why, std::int64_t stored_unix_s = 1000);
 
 /// The n-th tile of a level, row by row from the north.
 [[nodiscard]] TileId nth_tile(int level, std::int64_t n);

@@ -60,7 +60,7 @@ void use_once(TileCache& cache, std::mt19937& random) {
     case 0:
       return cache.renew(id, 5000, 6000, checked);
     case 1:
-      return cache.store(id, test::absence_record(Absence::failed, "busy"), checked);
+      return cache.store(id, test::missing_record(MissingKind::failed, "busy"), checked);
     case 2:
     case 3:
     case 4:
@@ -70,7 +70,7 @@ void use_once(TileCache& cache, std::mt19937& random) {
   }
   const auto found = cache.find(id);
   if (!found) fail(found.error().message);
-  if (*found && !(*found)->absence && (*found)->bytes != tile_record(id, 8000).bytes) fail("another tile's bytes");
+  if (*found && !(*found)->missing && (*found)->bytes != tile_record(id, 8000).bytes) fail("another tile's bytes");
 }
 
 void share(const std::string& file, int seed, double seconds) {

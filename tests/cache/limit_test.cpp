@@ -92,7 +92,7 @@ TEST_F(CacheLimit, PinnedTilesStayAndWhatHasNoRoomIsSaidAndNotKept) {
   for (int n = 0; n < 300; ++n) {
     cache->store(nth_tile(9, n), tile_record(nth_tile(9, n), kLimitedTileBytes),
                  [&](const StoreStatus& status) { no_room += !status && status.error().no_room ? 1 : 0; });
-    cache->store(nth_tile(10, n), test::absence_record(Absence::absent, "the sea", n));
+    cache->store(nth_tile(10, n), test::missing_record(MissingKind::absent, "the sea", n));
   }
   ASSERT_TRUE(cache->flush());
   EXPECT_EQ(no_room, 300);
@@ -120,10 +120,10 @@ TEST_F(CacheLimit, SpaceIsGivenBackWhenTheLimitIsLowered) {
   EXPECT_LE(static_cast<double>(test::size_on_disk(file_)), (1.0 + kLimitSlack) * static_cast<double>(kLimit));
 }
 
-TEST_F(CacheLimit, AbsencesGoToo) {
+TEST_F(CacheLimit, MissingGoToo) {
   const auto cache = open_cache(file_, {.max_bytes = 1UL << 20});
   for (int n = 0; n < 20'000; ++n) {
-    cache->store(nth_tile(10, n), test::absence_record(Absence::absent, "the sea, and more of the sea", n));
+    cache->store(nth_tile(10, n), test::missing_record(MissingKind::absent, "the sea, and more of the sea", n));
   }
   ASSERT_TRUE(cache->flush());
   EXPECT_LE(test::size_on_disk(file_), (1UL << 20) * 5 / 4);

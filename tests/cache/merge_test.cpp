@@ -16,8 +16,8 @@ namespace terrella {
 namespace {
 
 namespace fs = std::filesystem;
-using test::absence_record;
 using test::found;
+using test::missing_record;
 using test::nth_tile;
 using test::open_cache;
 using test::tile_record;
@@ -53,11 +53,11 @@ TEST_F(Merge, LosesNothing) {
       (n % 3 == 0 ? a : b)->store(nth_tile(6, n), tile_record(nth_tile(6, n), 500, static_cast<unsigned>(n % 7)));
     }
   }
-  put(a_, nth_tile(7, 1), absence_record(Absence::blank, "the sea"));
-  put(b_, nth_tile(7, 2), absence_record(Absence::failed, "time-out"));
+  put(a_, nth_tile(7, 1), missing_record(MissingKind::blank, "the sea"));
+  put(b_, nth_tile(7, 2), missing_record(MissingKind::failed, "time-out"));
   const MergeSummary summary = merge();
   EXPECT_EQ(summary.tiles, 300);
-  EXPECT_EQ(summary.absences, 2);
+  EXPECT_EQ(summary.missing, 2);
   EXPECT_EQ(summary.dropped, 0);
   EXPECT_EQ(test::integrity(out_), "ok");
   const auto merged = open_cache(out_);
@@ -72,9 +72,9 @@ TEST_F(Merge, LosesNothing) {
     EXPECT_EQ(got->stored_unix_s, expected.stored_unix_s);
     EXPECT_EQ(got->expires_unix_s, expected.expires_unix_s);
   }
-  EXPECT_EQ(found(*merged, nth_tile(7, 1))->absence, Absence::blank);
+  EXPECT_EQ(found(*merged, nth_tile(7, 1))->missing, MissingKind::blank);
   EXPECT_EQ(found(*merged, nth_tile(7, 1))->why, "the sea");
-  EXPECT_EQ(found(*merged, nth_tile(7, 2))->absence, Absence::failed);
+  EXPECT_EQ(found(*merged, nth_tile(7, 2))->missing, MissingKind::failed);
 }
 
 TEST_F(Merge, ATileOrElseTheNewestOfAPlaceWinsInEitherOrder) {
@@ -84,11 +84,11 @@ TEST_F(Merge, ATileOrElseTheNewestOfAPlaceWinsInEitherOrder) {
   const TileId id = nth_tile(6, 5);
   const Case cases[] = {
       {tile_record(id, 100, 1), tile_record(id, 200, 2)},
-      {absence_record(Absence::absent, "", 1000), tile_record(id, 100, 1)},
-      {absence_record(Absence::absent, "gone", 5000), tile_record(id, 100, 1)},
-      {absence_record(Absence::blank, "", 1001), tile_record(id, 100, 1)},  // the same second: the tile
-      {absence_record(Absence::failed, "", 9000), tile_record(id, 100, 1)},
-      {absence_record(Absence::absent, "", 1000), absence_record(Absence::blank, "", 2000)},
+      {missing_record(MissingKind::absent, "", 1000), tile_record(id, 100, 1)},
+      {missing_record(MissingKind::absent, "gone", 5000), tile_record(id, 100, 1)},
+      {missing_record(MissingKind::blank, "", 1001), tile_record(id, 100, 1)},  // the same second: the tile
+      {missing_record(MissingKind::failed, "", 9000), tile_record(id, 100, 1)},
+      {missing_record(MissingKind::absent, "", 1000), missing_record(MissingKind::blank, "", 2000)},
   };
   for (const Case& one : cases) {
     for (const bool swapped : {false, true}) {
@@ -97,7 +97,7 @@ TEST_F(Merge, ATileOrElseTheNewestOfAPlaceWinsInEitherOrder) {
       EXPECT_EQ(merge().dropped, 1);
       const auto got = found(*open_cache(out_), id);
       ASSERT_TRUE(got);
-      EXPECT_EQ(got->absence, one.winner.absence);
+      EXPECT_EQ(got->missing, one.winner.missing);
       EXPECT_EQ(got->bytes, one.winner.bytes);
       EXPECT_EQ(got->stored_unix_s, one.winner.stored_unix_s);
       for (const fs::path& file : {a_, b_, out_}) fs::remove(file);
@@ -240,17 +240,17 @@ TEST_F(Merge, ReportsCountAndFindDamage) {
   {
     const auto cache = open_cache(a_);
     for (int n = 0; n < 200; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 3000, n % 2));
-    cache->store(nth_tile(9, 0), absence_record(Absence::absent, "", 1000));
-    cache->store(nth_tile(9, 1), absence_record(Absence::absent, "", 5000));
-    cache->store(nth_tile(9, 2), absence_record(Absence::broken, "", 5000));
+    cache->store(nth_tile(9, 0), missing_record(MissingKind::absent, "", 1000));
+    cache->store(nth_tile(9, 1), missing_record(MissingKind::absent, "", 5000));
+    cache->store(nth_tile(9, 2), missing_record(MissingKind::broken, "", 5000));
     ASSERT_TRUE(cache->flush());
     const auto report = verify_cache(a_, 2000);  // in use
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->source_key, test::kSource);
     EXPECT_EQ(report->tiles, 200);
     EXPECT_EQ(report->expired_tiles, 100);
-    EXPECT_EQ(report->absences, (std::array<std::int64_t, 4>{2, 0, 1, 0}));
-    EXPECT_EQ(report->expired_absences, (std::array<std::int64_t, 4>{1, 0, 0, 0}));
+    EXPECT_EQ(report->missing, (std::array<std::int64_t, 4>{2, 0, 1, 0}));
+    EXPECT_EQ(report->expired_missing, (std::array<std::int64_t, 4>{1, 0, 0, 0}));
     EXPECT_TRUE(report->problems->empty());
   }
   int listed = 0;

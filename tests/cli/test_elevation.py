@@ -91,7 +91,7 @@ class BadHeights(ProgramTest):
         # All of the finest level: the camera sees some of it.
         self.spoil(f'UPDATE "{table}" SET tile_data = substr(tile_data, 1, 60) WHERE zoom_level = ?', level)
         _, done = self.render(DONE_IN_PART)
-        self.assertRegex(done.stderr, rf"relief\.gpkg lacks the heights {level}/\d+/\d+: PNG")
+        self.assertRegex(done.stderr, rf"relief\.gpkg: heights missing: {level}/\d+/\d+: PNG")
         self.assertIn("heights missing", done.stdout)
 
     def test_missing_tiles(self):
@@ -100,7 +100,7 @@ class BadHeights(ProgramTest):
         level, table = self.finest()
         self.spoil(f'DELETE FROM "{table}" WHERE zoom_level = ?', level)
         coarse, done = self.render(DONE_IN_PART)
-        self.assertRegex(done.stderr, rf"relief\.gpkg lacks the heights {level}/\d+/\d+: ")
+        self.assertRegex(done.stderr, rf"relief\.gpkg: heights missing: {level}/\d+/\d+: ")
         self.assertNotEqual(coarse, whole)
         flat, _ = self.run_flat()
         self.assertNotEqual(coarse, flat, "the coarser levels stand for what is missing")
@@ -214,7 +214,7 @@ class HeightsFromServer(ProgramTest):
             tile.unlink()
         with servers.nginx(self.relief) as server:
             coarse = self.render(self.describe(server.template), code=DONE_IN_PART)
-        self.assertRegex(self.done.stderr, rf"heights\.json lacks the heights {finest}/\d+/\d+: .*404")
+        self.assertRegex(self.done.stderr, rf"heights\.json: heights missing: {finest}/\d+/\d+: .*404")
         self.assertRegex(self.done.stdout, r"[1-9]\d* tiles of heights missing")
         self.assertNotEqual(coarse, self.truth)
 

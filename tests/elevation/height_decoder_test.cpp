@@ -28,7 +28,7 @@ Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const Eleva
 
 void expect_broken(const Result<HeightTile, TileFailure>& tile, const std::string& says) {
   ASSERT_FALSE(tile);
-  EXPECT_EQ(tile.error().kind, Absence::broken);
+  EXPECT_EQ(tile.error().kind, MissingKind::broken);
   EXPECT_NE(tile.error().why.find(says), std::string::npos) << tile.error().why;
 }
 

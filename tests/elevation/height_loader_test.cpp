@@ -72,7 +72,7 @@ TEST_F(HeightLoaderTest, GivesTheHeightsOfWhatIsAskedForOnce) {
     }
   }
   EXPECT_EQ(loader.counts().read, 8U);
-  EXPECT_EQ(loader.counts().lacked, 0U);
+  EXPECT_EQ(loader.counts().missing, 0U);
 }
 
 TEST_F(HeightLoaderTest, FailuresAreTypedAsThoseOfPictures) {
@@ -86,13 +86,14 @@ TEST_F(HeightLoaderTest, FailuresAreTypedAsThoseOfPictures) {
   loader.request(all_tiles());
   const auto tiles = drain(loader, 1U << 20);
   ASSERT_EQ(tiles.size(), 8U);
-  const std::map<std::int64_t, Absence> expected = {{1, Absence::broken}, {2, Absence::blank}, {3, Absence::absent}};
+  const std::map<std::int64_t, MissingKind> expected = {
+      {1, MissingKind::broken}, {2, MissingKind::blank}, {3, MissingKind::absent}};
   for (const auto& [x, kind] : expected) {
     const auto& tile = tiles.at({.level = 1, .x = x, .y = 0});
     ASSERT_FALSE(tile.tile);
     EXPECT_EQ(tile.tile.error().kind, kind) << x;
   }
-  EXPECT_EQ(loader.counts().lacked, 3U);
+  EXPECT_EQ(loader.counts().missing, 3U);
 }
 
 TEST_F(HeightLoaderTest, WorkersPauseOverTheBoundAndPollsAreBounded) {

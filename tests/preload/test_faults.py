@@ -50,7 +50,7 @@ class Faults(PreloadTest):
         for kind in ("absent", "blank", "refused", "failed", "broken"):
             self.assertEqual(summary[kind], sum(becomes == kind for _, becomes, _ in FAULTS.values()), kind)
         self.assertEqual(len(missing), summary["refused"] + summary["failed"] + summary["broken"])
-        self.assertIn(f"{len(missing)} tiles are lacking", said)
+        self.assertIn(f"{len(missing)} tiles are missing", said)
         whole = servers.tiles_in(3) - sum(becomes != "stored" for _, becomes, _ in FAULTS.values())
         self.assertEqual(summary["stored"], whole)
         self.assert_stored_are_right()
@@ -64,7 +64,7 @@ class Faults(PreloadTest):
         for path, count in counts.items():
             self.assertLessEqual(count, 24 if path == "/2/2/0.jpg" else 4, path)
 
-    def test_the_next_run_asks_only_for_what_is_lacking(self):
+    def test_the_next_run_asks_only_for_missing_tiles(self):
         servers.write_pyramid(self.root, 3)
         with servers.misbehaving(self.root, {"2/0/0.jpg": "500?times=2", "1/0/0.jpg": "404"}) as server:
             self.preload(server.template, "--levels", "0-2", "--retries", "0", code=DONE_IN_PART)

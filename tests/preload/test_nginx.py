@@ -88,7 +88,7 @@ class Nginx(PreloadTest):
         self.assertIn((4, int((180 + 8) / 11.25), int((90 - 47) / 11.25)), places)
         self.assertIn((4, int((180 + 12) / 11.25), int((90 - 42) / 11.25)), places)
         for z, x, y in places:
-            self.assertTrue(z == 0 or (z - 1, x // 2, y // 2) in places, "an ancestor is lacking")
+            self.assertTrue(z == 0 or (z - 1, x // 2, y // 2) in places, "an ancestor is missing")
 
     def test_shards_together_are_the_whole(self):
         stored = []
@@ -313,7 +313,7 @@ class Other(PreloadTest):
     def test_nobody_answers(self):
         _, said = self.preload("http://127.0.0.1:9/{z}/{x}/{y}.jpg", "--levels", "0-2", "--retries", "0",
                                code=DONE_IN_PART)
-        self.assertIn("42 tiles are lacking", said)
+        self.assertIn("42 tiles are missing", said)
 
 
 if __name__ == "__main__":

@@ -71,19 +71,19 @@ TEST(Wmts, ADocumentOfGibsFormGivesItsLayers) {
   EXPECT_EQ(still.info.attribution, "Provider");
   EXPECT_EQ(still.info.body, "earth");
   EXPECT_EQ(still.info.format, ImageFormat::jpeg);
-  EXPECT_FALSE(still.absence_life);
+  EXPECT_FALSE(still.missing_life);
   const RemoteTileSet daily = read(test::gibs_document(), {.layer = "Daily"});
   EXPECT_EQ(tile_url(daily, {0, 1, 0}),
             "https://example.com/wmts/epsg4326/best/Daily/default/2024-05-20/250m/0/0/1.png");
   EXPECT_EQ(daily.info.format, ImageFormat::png);
-  EXPECT_EQ(daily.absence_life, std::chrono::hours(1));
+  EXPECT_EQ(daily.missing_life, std::chrono::hours(1));
 }
 
 TEST(Wmts, TimesAreThoseThatAreListed) {
   const auto with_time = [](const std::string& time) { return RemoteOptions{.layer = "Daily", .time = time}; };
   const RemoteTileSet old = read(test::gibs_document(), with_time("2012-07-09"));
   EXPECT_NE(old.url.with_secrets().find("/2012-07-09/"), std::string::npos) << old.url.redacted();
-  EXPECT_FALSE(old.absence_life);
+  EXPECT_FALSE(old.missing_life);
   EXPECT_NE(
       read(test::gibs_document(), with_time("2012-07-09T12:30:00Z")).url.with_secrets().find("/2012-07-09T12:30:00Z/"),
       std::string::npos);

@@ -143,7 +143,7 @@ TEST_F(FramePlans, OfRandomViewsAreTheSameFromTwoThreadsAtOnce) {
 
 // The plan of the view below, as it was recorded.
 constexpr std::string_view kRecordedPlan = R"(frame layers 1 meshes 0 put off 0
-layer detail 1 tiles 12 missing 12 uncovered 7 shown false uses 62
+layer detail 1 tiles 12 pending 12 missing 0 uncovered 7 shown false uses 62
 patch 4/5/17/0 level 7 squeeze 0 coarse 0 cut pixel 997.965 m footprint 3.28345 cells 7070000 7070000 7070000 7070000 7070000 7070000 7070000 7070000 7070000
 patch 4/5/17/1 level 6 squeeze 0 coarse 0 cut pixel 1387.97 m footprint 2.23505 cells 6060000 6060000 6060000 6060000
 patch 4/5/18/0 level 7 squeeze 0 coarse 0 cut pixel 904.154 m footprint 2.23608 cells 7070000 7070000 7070000 7070000 7070000 7070000 7070000 7070000 7070000

@@ -220,13 +220,13 @@ void expect_each_once_and_in_the_grid(const TileGrid& grid, const TileCoverage& 
   }
 }
 
-/// Serves what is wanted, each tile as resident or as lacking, until nothing is wanted.
-void serve(const TileCoverage& coverage, TileResidency& residency, int one_in_lacking, Draw& draw, int& slot) {
+/// Serves what is wanted, each tile as resident or as missing, until nothing is wanted.
+void serve(const TileCoverage& coverage, TileResidency& residency, int one_in_missing, Draw& draw, int& slot) {
   for (const WantedTile& wanted : coverage.wanted) {
     TileResidency::Entry& entry = residency.entry(wanted.id);
-    const bool lacking = one_in_lacking > 0 && draw.whole(1, one_in_lacking) == 1;
-    entry.state = lacking ? TileState::missing : TileState::resident;
-    if (!lacking) entry.slot = slot++;
+    const bool missing = one_in_missing > 0 && draw.whole(1, one_in_missing) == 1;
+    entry.state = missing ? TileState::missing : TileState::resident;
+    if (!missing) entry.slot = slot++;
   }
 }
 
@@ -256,7 +256,7 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
         expect_each_once_and_in_the_grid(grid, coverage);
         const bool whole_planet = grid.bounds.north > Angle::degrees(80);
         EXPECT_TRUE(!whole_planet || coverage.uncovered == 0);
-        EXPECT_GE(coverage.tiles, coverage.missing + coverage.lacking);
+        EXPECT_GE(coverage.tiles, coverage.pending + coverage.missing);
         serve(coverage, residency, k % 3 == 0 ? 3 : 0, draw, slot);
         ASSERT_LT(frame, 40U) << "something is wanted for ever";
       } while (!coverage.wanted.empty());

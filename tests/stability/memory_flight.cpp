@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/render/painted_heights.h"
+#include "tests/gl/painted_heights.h"
 #include "view/flight.h"
 
 namespace terrella::test {
@@ -54,7 +54,7 @@ class ColouredTiles : public TileSource {
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
     return EncodedTile{tiles_[static_cast<std::size_t>(id.level + id.x + 3 * id.y) % kColours]};
   }
 

@@ -117,7 +117,7 @@ TEST(Mbtiles, BoundsOfItsMetadataNarrowIt) {
   EXPECT_EQ((*source)->info().grid.root_span_deg, 180.0);
   const auto absent = (*source)->read({2, 7, 0});
   ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().kind, Absence::absent);
+  EXPECT_EQ(absent.error().kind, MissingKind::absent);
   EXPECT_TRUE((*source)->read({2, 0, 3}));
 }
 

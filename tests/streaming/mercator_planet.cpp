@@ -48,10 +48,10 @@ Result<EncodedTile, TileFailure> MercatorPlanet::read(const TileId& id) {
     const std::lock_guard lock(mutex_);
     ++reads_[id];
   }
-  if (const auto lacking = lacking_.find(id); lacking != lacking_.end()) {
-    return TileFailure{lacking->second, "the test says so"};
+  if (const auto missing = missing_.find(id); missing != missing_.end()) {
+    return TileFailure{missing->second, "the test says so"};
   }
-  if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside"};
+  if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
   const auto given = given_.find(id);
   return EncodedTile{*encode_png(
       given != given_.end() ? given->second : mercator_tile(planet_, info_.grid.tile_px, id.level, id.x, id.y))};

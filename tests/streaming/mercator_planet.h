@@ -31,14 +31,14 @@ class MercatorPlanet : public TileSource {
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
 
   TileSetInfo& change() { return info_; }
-  void lack(const TileId& id, Absence kind) { lacking_[id] = kind; }
+  void note_missing(const TileId& id, MissingKind kind) { missing_[id] = kind; }
   void give(const TileId& id, Image picture) { given_[id] = std::move(picture); }
   [[nodiscard]] std::map<TileId, int> reads();
 
  private:
   const Planet planet_;
   TileSetInfo info_;
-  std::map<TileId, Absence> lacking_;
+  std::map<TileId, MissingKind> missing_;
   std::map<TileId, Image> given_;
   std::mutex mutex_;  ///< guards what follows
   std::map<TileId, int> reads_;

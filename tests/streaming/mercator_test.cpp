@@ -1,4 +1,4 @@
-// Tiles made of Web Mercator's: where they show things, how sharp, what they do where something is lacking.
+// Tiles made of Web Mercator's: where they show things, how sharp, what they do where something is missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -184,10 +184,10 @@ TEST(Mercator, FarFromTheEquatorALevelLessIsEnough) {
   EXPECT_EQ(level_at(84.0), 7);
 }
 
-// ---- what is lacking
+// ---- what is missing
 
-struct LackingTest : testing::Test {
-  LackingTest() : planet(std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5)), stored(*planet) {}
+struct MissingTest : testing::Test {
+  MissingTest() : planet(std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5)), stored(*planet) {}
   Result<Image, TileFailure> make(const TileId& id) {
     if (planet) tiles = geodetic(std::move(planet));
     return picture(*tiles, id);
@@ -199,13 +199,13 @@ struct LackingTest : testing::Test {
   static constexpr TileId kTile{5, 10, 6};
 };
 
-TEST_F(LackingTest, AnAncestorStandsInForWhatIsAbsent) {
+TEST_F(MissingTest, AnAncestorStandsInForWhatIsAbsent) {
   const auto whole = make(kTile);
   ASSERT_TRUE(whole);
-  stored.lack({5, 10, 14}, Absence::absent);
+  stored.note_missing({5, 10, 14}, MissingKind::absent);
   tiles = geodetic(std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5));
   auto part = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
-  part->lack({5, 10, 14}, Absence::absent);
+  part->note_missing({5, 10, 14}, MissingKind::absent);
   tiles = geodetic(std::move(part));
   const auto made = make(kTile);
   ASSERT_TRUE(made) << made.error().why;
@@ -216,18 +216,19 @@ TEST_F(LackingTest, AnAncestorStandsInForWhatIsAbsent) {
   EXPECT_LT(worst, 8.0) << "which shows the same waves";
 }
 
-TEST_F(LackingTest, WithoutAnAncestorItIsTransparentThere) {
-  for (int level = 0; level <= 5; ++level) stored.lack({level, 10 >> (5 - level), 14 >> (5 - level)}, Absence::absent);
+TEST_F(MissingTest, WithoutAnAncestorItIsTransparentThere) {
+  for (int level = 0; level <= 5; ++level)
+    stored.note_missing({level, 10 >> (5 - level), 14 >> (5 - level)}, MissingKind::absent);
   const auto made = make(kTile);
   ASSERT_TRUE(made) << made.error().why;
   EXPECT_EQ(made->rgba[3], 255) << "north";
   EXPECT_EQ(made->rgba.back(), 0) << "south";
 }
 
-TEST_F(LackingTest, AllAbsentIsAbsentAndAllBlankIsBlank) {
-  for (const Absence kind : {Absence::absent, Absence::blank}) {
+TEST_F(MissingTest, AllAbsentIsAbsentAndAllBlankIsBlank) {
+  for (const MissingKind kind : {MissingKind::absent, MissingKind::blank}) {
     auto none = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
-    for (int y = 10; y < 17; ++y) none->lack({5, 10, y}, kind);
+    for (int y = 10; y < 17; ++y) none->note_missing({5, 10, y}, kind);
     tiles = geodetic(std::move(none));
     planet.reset();
     const auto made = tiles->read(kTile);
@@ -236,11 +237,11 @@ TEST_F(LackingTest, AllAbsentIsAbsentAndAllBlankIsBlank) {
   }
 }
 
-TEST_F(LackingTest, WhatFailedOrIsBrokenIsNamed) {
-  stored.lack({5, 10, 14}, Absence::failed);
+TEST_F(MissingTest, WhatFailedOrIsBrokenIsNamed) {
+  stored.note_missing({5, 10, 14}, MissingKind::failed);
   const auto failed = make(kTile);
   ASSERT_FALSE(failed);
-  EXPECT_EQ(failed.error().kind, Absence::failed);
+  EXPECT_EQ(failed.error().kind, MissingKind::failed);
   EXPECT_NE(failed.error().why.find("Web Mercator tile 5/10/14: the test says so"), std::string::npos);
 
   auto wrong = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
@@ -248,7 +249,7 @@ TEST_F(LackingTest, WhatFailedOrIsBrokenIsNamed) {
   tiles = geodetic(std::move(wrong));
   const auto small = picture(*tiles, kTile);
   ASSERT_FALSE(small);
-  EXPECT_EQ(small.error().kind, Absence::broken);
+  EXPECT_EQ(small.error().kind, MissingKind::broken);
   EXPECT_NE(small.error().why.find("5/10/14: it is 32×32 pixels, the tile set says 64×64"), std::string::npos);
 }
 
@@ -275,7 +276,7 @@ class FarPlanet : public TileSource, public RemoteTiles {
     disk_waits_ = !disk_turns_;
     disk_changed_.notify_all();
     disk_changed_.wait(lock, [this] { return disk_turns_; });
-    return TileFailure{Absence::remote, {}};
+    return TileFailure{MissingKind::remote, {}};
   }
   /// A disk that does not turn holds up read().
   void turn_disk(bool turns) {
@@ -354,7 +355,7 @@ struct FarMercator : testing::Test {
 TEST_F(FarMercator, WhatManyTilesAreMadeOfIsFetchedOnce) {
   std::vector<Result<EncodedTile, TileFailure>> answers;
   for (int y = 4; y < 8; ++y) {
-    ASSERT_EQ(tiles->read({5, 10, y}).error().kind, Absence::remote);
+    ASSERT_EQ(tiles->read({5, 10, y}).error().kind, MissingKind::remote);
     tiles->remote()->fetch({5, 10, y}, y, keep(answers));
   }
   for (const auto& [id, times] : network->fetches) EXPECT_EQ(times, 1) << id.y;
@@ -368,7 +369,7 @@ TEST_F(FarMercator, WhatManyTilesAreMadeOfIsFetchedOnce) {
 }
 
 TEST_F(FarMercator, AbsentOnesAreLookedForALevelHigherOverTheNetworkToo) {
-  stored->lack({5, 10, 14}, Absence::absent);
+  stored->note_missing({5, 10, 14}, MissingKind::absent);
   std::vector<Result<EncodedTile, TileFailure>> answers;
   tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
   network->answer_all();
@@ -393,7 +394,7 @@ TEST_F(FarMercator, WhatNobodyWaitsForIsCancelled) {
 }
 
 TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
-  stored->lack({5, 10, 14}, Absence::absent);
+  stored->note_missing({5, 10, 14}, MissingKind::absent);
   std::vector<Result<EncodedTile, TileFailure>> answers;
   tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
   network->turn_disk(false);
@@ -413,13 +414,13 @@ TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
 
 TEST_F(FarMercator, OneThatFailsEndsTheWaitAtOnce) {
   const auto first = plan_tile(stored->info().grid, {5, 10, 6}).pieces.front().id;
-  stored->lack(first, Absence::failed);
+  stored->note_missing(first, MissingKind::failed);
   std::vector<Result<EncodedTile, TileFailure>> answers;
   tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
   network->answer_all();
   ASSERT_EQ(answers.size(), 1U);
   ASSERT_FALSE(answers[0]);
-  EXPECT_EQ(answers[0].error().kind, Absence::failed);
+  EXPECT_EQ(answers[0].error().kind, MissingKind::failed);
   EXPECT_EQ(network->asked(), 0U);
 }
 

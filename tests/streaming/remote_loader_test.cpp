@@ -25,7 +25,7 @@ class FarSource : public TileSource, public RemoteTiles {
 
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId&) override {
-    return TileFailure{Absence::remote, {}};
+    return TileFailure{MissingKind::remote, {}};
   }
   [[nodiscard]] RemoteTiles* remote() override { return this; }
 
@@ -143,7 +143,7 @@ TEST(RemoteLoader, AnExceptionOfTheNetworkIsAFailedTile) {
   std::size_t failed = 0;
   while (loader.wait(std::chrono::steady_clock::now() + kRemotePatience)) {
     for (const LoadedTile& tile : loader.poll(std::size_t{1} << 30)) {
-      EXPECT_EQ(tile.tile ? Absence::absent : tile.tile.error().kind, Absence::failed);
+      EXPECT_EQ(tile.tile ? MissingKind::absent : tile.tile.error().kind, MissingKind::failed);
       ++failed;
     }
   }

@@ -41,7 +41,7 @@ class GatedSource : public TileSource {
     if (id.level == 9) throw std::runtime_error("thrown by the source");
     if (id.level == 7) throw 7;
     if (id.level == 6) return EncodedTile{.bytes = {}, .make_picture = []() -> Result<Image, TileFailure> { throw 6; }};
-    if (id.level == 10) return TileFailure{Absence::absent, "not there"};
+    if (id.level == 10) return TileFailure{MissingKind::absent, "not there"};
     return EncodedTile{id.level == 8 ? test::bytes_of("not a picture") : tile_};
   }
 
@@ -100,7 +100,7 @@ TEST(TileLoader, LoadsWhatIsAskedFor) {
   }
   EXPECT_EQ(ids, (std::set<TileId>{{5, 1, 0}, {5, 2, 0}, {5, 3, 0}}));
   EXPECT_EQ(loader.counts().read, 3U);
-  EXPECT_EQ(loader.counts().lacked, 0U);
+  EXPECT_EQ(loader.counts().missing, 0U);
 }
 
 TEST(TileLoader, ReadsInTheOrderOfTheLatestPriorities) {
@@ -152,14 +152,15 @@ TEST(TileLoader, SaysWhyThereAreNoPixels) {
   TileLoader loader(source);
   const std::vector<TileRequest> bad{{{8, 0, 0}, 0.0}, {{9, 0, 0}, 0.0}, {{10, 0, 0}, 0.0}};
   loader.request(bad);
-  std::map<int, Absence> kinds;
+  std::map<int, MissingKind> kinds;
   for (const LoadedTile& tile : drain(loader)) {
     ASSERT_FALSE(tile.tile);
     EXPECT_FALSE(tile.tile.error().why.empty());
     kinds[tile.id.level] = tile.tile.error().kind;
   }
-  EXPECT_EQ(kinds, (std::map<int, Absence>{{8, Absence::broken}, {9, Absence::failed}, {10, Absence::absent}}));
-  EXPECT_EQ(loader.counts().lacked, 3U);
+  EXPECT_EQ(kinds, (std::map<int, MissingKind>{
+                       {8, MissingKind::broken}, {9, MissingKind::failed}, {10, MissingKind::absent}}));
+  EXPECT_EQ(loader.counts().missing, 3U);
 }
 
 TEST(TileLoader, AnExceptionOfAnyTypeIsAFailedTile) {
@@ -172,7 +173,7 @@ TEST(TileLoader, AnExceptionOfAnyTypeIsAFailedTile) {
   EXPECT_EQ(tiles.size(), 2U);
   for (const LoadedTile& tile : tiles) {
     ASSERT_FALSE(tile.tile);
-    EXPECT_EQ(tile.tile.error().kind, Absence::failed);
+    EXPECT_EQ(tile.tile.error().kind, MissingKind::failed);
     EXPECT_NE(tile.tile.error().why.find("threw"), std::string::npos);
   }
 }

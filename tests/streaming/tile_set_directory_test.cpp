@@ -59,21 +59,21 @@ TEST(Directory, OurOwnSetIsRead) {
   EXPECT_EQ((*source)->count_tiles(2), 0);
 }
 
-TEST(Directory, AbsenceIsTyped) {
+TEST(Directory, MissingIsTyped) {
   const ScratchFolder folder;
   write_set(folder / "set");
   const auto source = open_tile_set(folder / "set");
   ASSERT_TRUE(source) << source.error().message;
   const auto kind = [&](const TileId& id) { return (*source)->read(id).error().kind; };
-  EXPECT_EQ(kind({1, 3, 1}), Absence::absent);
-  EXPECT_EQ(kind({1, 0, 0}), Absence::blank);
+  EXPECT_EQ(kind({1, 3, 1}), MissingKind::absent);
+  EXPECT_EQ(kind({1, 0, 0}), MissingKind::blank);
   for (const TileId& outside : {TileId{2, 0, 0}, TileId{-1, 0, 0}, TileId{0, 2, 0}, TileId{0, -1, 0}, TileId{0, 0, 1},
                                 TileId{1, 1LL << 60, 0}, TileId{1 << 30, 0, 0}}) {
-    EXPECT_EQ(kind(outside), Absence::absent);
+    EXPECT_EQ(kind(outside), MissingKind::absent);
   }
   fs::remove(folder / "set/1/1/0.png");
   fs::create_directory(folder / "set/1/1/0.png");
-  EXPECT_EQ(kind({1, 1, 0}), Absence::failed);
+  EXPECT_EQ(kind({1, 1, 0}), MissingKind::failed);
 }
 
 TEST(Directory, NaturalEarthCountsItsRowsFromTheSouth) {

@@ -113,7 +113,7 @@ TEST(TileTexels, SizeIsTheSumOfTheMips) {
 TEST(TileTexels, ATileOfAnotherSizeIsBroken) {
   const auto texels = make_texels(test::gradient(64, 32), 64, 4, 3);
   ASSERT_FALSE(texels);
-  EXPECT_EQ(texels.error().kind, Absence::broken);
+  EXPECT_EQ(texels.error().kind, MissingKind::broken);
   EXPECT_NE(texels.error().why.find("64×32"), std::string::npos) << texels.error().why;
   EXPECT_NE(texels.error().why.find("64×64"), std::string::npos) << texels.error().why;
 }

@@ -21,7 +21,7 @@ class SpeckledTiles : public TileSource {
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
-    if (!exists(info_.grid, id)) return TileFailure{Absence::absent, "outside the grid"};
+    if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the grid"};
     const int side = info_.grid.tile_px;
     Image image{side, side,
                 std::vector<std::uint8_t>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 4, 255)};
@@ -31,7 +31,7 @@ class SpeckledTiles : public TileSource {
       if (k % 4 < 3) image.rgba[k] = static_cast<std::uint8_t>(seed >> 24U);
     }
     Result<std::vector<std::byte>> bytes = encode_png(image);
-    if (!bytes) return TileFailure{Absence::failed, bytes.error().message};
+    if (!bytes) return TileFailure{MissingKind::failed, bytes.error().message};
     return EncodedTile{*std::move(bytes)};
   }
 

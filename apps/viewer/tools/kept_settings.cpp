@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -20,11 +18,6 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr std::size_t kMostSettingsBytes = 1UL << 20;
-constexpr double kMostExaggeration = 100.0;
-constexpr std::array<std::pair<std::string_view, Stereo>, 4> kStereoWords{{{"off", Stereo::off},
-                                                                           {"side-by-side", Stereo::side_by_side},
-                                                                           {"interlaced", Stereo::interlaced},
-                                                                           {"anaglyph", Stereo::anaglyph}}};
 
 /// Reads fields one by one and keeps the first fault.
 class FieldReader {
@@ -33,24 +26,11 @@ class FieldReader {
   void read(const char* name, bool& value) {
     if (const Json* field = find(name)) field->is_boolean() ? void(value = field->get<bool>()) : complain(name);
   }
-  void read(const char* name, double& value, double most) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const double number = field->is_number() ? field->get<double>() : -1.0;
-    number >= 0.0 && number <= most ? void(value = number) : complain(name);
-  }
   void read(const char* name, int& value) {
     const Json* field = find(name);
     if (field == nullptr) return;
     const std::int64_t number = field->is_number_integer() ? field->get<std::int64_t>() : -1;
     number >= 0 && number <= kMaxSide_px ? void(value = int(number)) : complain(name);
-  }
-  void read(const char* name, Stereo& value) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const std::string text = field->is_string() ? field->get<std::string>() : "";
-    const auto* word = std::ranges::find(kStereoWords, text, [](const auto& pair) { return pair.first; });
-    word != kStereoWords.end() ? void(value = word->second) : complain(name);
   }
   [[nodiscard]] const std::string& wrong() const { return wrong_; }
 
@@ -100,10 +80,6 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
   reader.read("panel", settings.panel);
   reader.read("layers", settings.layers);
   reader.read("graticule", settings.graticule);
-  reader.read("sky", settings.sky);
-  reader.read("opacity", settings.opacity, 1.0);
-  reader.read("exaggeration", settings.exaggeration, kMostExaggeration);
-  reader.read("stereo", settings.stereo);
   if (!reader.wrong().empty()) loaded.complaint = set_aside(file, "\"" + reader.wrong() + "\" is out of its range");
   return loaded;
 }
@@ -122,11 +98,6 @@ Status save_settings(const std::filesystem::path& file, const KeptSettings& sett
   json["panel"] = settings.panel;
   json["layers"] = settings.layers;
   json["graticule"] = settings.graticule;
-  json["sky"] = settings.sky;
-  json["opacity"] = settings.opacity;
-  json["exaggeration"] = settings.exaggeration;
-  const auto* word = std::ranges::find(kStereoWords, settings.stereo, [](const auto& pair) { return pair.second; });
-  json["stereo"] = word->first;
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   return write_file(file, std::as_bytes(std::span(text)));
 }
@@ -140,10 +111,6 @@ KeptSettings changed_since(KeptSettings kept, const KeptSettings& start, const K
   take(&KeptSettings::panel);
   take(&KeptSettings::layers);
   take(&KeptSettings::graticule);
-  take(&KeptSettings::sky);
-  take(&KeptSettings::opacity);
-  take(&KeptSettings::exaggeration);
-  take(&KeptSettings::stereo);
   return kept;
 }
 

@@ -94,7 +94,7 @@ std::string PictureJob::text() const {
   const std::string what = fmt::format("Picture of {} x {}: ", size_.width_px, size_.height_px);
   if (drawn()) return what + "writing " + file_.filename().string();
   const int wanted = stats_.tiles_wanted;
-  return what + fmt::format("{} of {} tiles; Esc cancels", wanted - stats_.tiles_missing, wanted);
+  return what + fmt::format("{} of {} tiles; Esc cancels", wanted - stats_.tiles_pending, wanted);
 }
 
 }  // namespace terrella

@@ -23,8 +23,9 @@ void print(const SelectedPatch& patch, std::span<const WindowCell> cells, std::s
 
 void print(const LayerPlan& layer, std::string& text) {
   const TileCoverage& c = layer.coverage;
-  fmt::format_to(std::back_inserter(text), "layer detail {:.6g} tiles {} missing {} uncovered {} shown {} uses {}\n",
-                 layer.detail, c.tiles, c.missing, c.uncovered, c.shown, c.uses.all().size());
+  fmt::format_to(std::back_inserter(text),
+                 "layer detail {:.6g} tiles {} pending {} missing {} uncovered {} shown {} uses {}\n", layer.detail,
+                 c.tiles, c.pending, c.missing, c.uncovered, c.shown, c.uses.all().size());
   const std::span<const WindowCell> cells(c.cells);
   for (std::size_t k = 0; k < layer.patches.size(); ++k) {
     const std::size_t first = c.draws[k].window.x;

@@ -7,8 +7,8 @@
 
 namespace terrella {
 
-/// How many texels the cells of a view ask for. A patch has the level of its nearest part; a cell that asks for less
-/// may take a coarser tile. thread: any
+/// Computes the texels that the cells of a view ask for. A patch has the level of its nearest part; a cell that asks
+/// for less may take a coarser tile. thread: any
 class TexelDemand {
  public:
   TexelDemand(const View& view, const Ellipsoid& ellipsoid, const TileGrid& grid, double texels_per_pixel);
@@ -20,7 +20,7 @@ class TexelDemand {
   /// True if so many tiles have far more texels than the view has pixels. Tiles of a full grid are ever narrower
   /// towards a pole, and a view from over it wants many that it hardly shows.
   [[nodiscard]] bool is_too_much(int tiles) const;
-  /// From now on texels may be longer than a pixel along the meridian where they are narrow.
+  /// Lets narrow texels be longer than a pixel along the meridian from now on.
   void lengthen_narrow_texels() { narrow_texels_are_long_ = true; }
 
  private:

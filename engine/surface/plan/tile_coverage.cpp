@@ -45,7 +45,7 @@ class Coverer {
 
  private:
   static constexpr std::uint32_t kUnseen = ~0U;  ///< the cell is out of view
-  /// What a cell would take by itself.
+  /// The tile that a cell would take by itself.
   struct Choice {
     std::uint32_t use = kUnseen;
     int spare = 0;  ///< levels coarser than the window
@@ -137,7 +137,7 @@ class Coverer {
     return find_seen(patch, id, choice.spare, choice.use);
   }
 
-  // From a tile `up` levels coarser than the cell's upwards.
+  // Climbs from a tile `up` levels coarser than the cell's.
   Found find_seen(const SelectedPatch& patch, const TileId& id, int up, std::uint32_t index) {
     bool counted = false;
     bool in_bounds = true;
@@ -182,8 +182,8 @@ class Coverer {
     if (use.counted) return;
     use.counted = true;
     ++out_.tiles;
-    if (use.state == TileState::unknown) ++out_.missing;
-    if (use.state == TileState::missing) ++out_.lacking;
+    if (use.state == TileState::unknown) ++out_.pending;
+    if (use.state == TileState::missing) ++out_.missing;
   }
 
   [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
@@ -233,7 +233,7 @@ void cover_with_tiles(const CoverInput& input, TileCoverage& out) {
   out.cells.clear();
   out.wanted.clear();
   out.uses.clear();
-  out.tiles = out.missing = out.lacking = out.uncovered = 0;
+  out.tiles = out.pending = out.missing = out.uncovered = 0;
   out.shown = false;
   Coverer(input, out).cover();
 }

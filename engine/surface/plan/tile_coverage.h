@@ -34,11 +34,11 @@ struct PatchDraw {
 struct TileCoverage {
   std::vector<PatchDraw> draws;  ///< one for each selected patch
   std::vector<WindowCell> cells;
-  std::vector<WantedTile> wanted;  ///< not there and not lacking; root tiles first
+  std::vector<WantedTile> wanted;  ///< not there and not missing; root tiles first
   TileUses uses;                   ///< of the residency's tiles
   int tiles = 0;                   ///< tiles of the view at full quality
-  int missing = 0;                 ///< of those, not there yet
-  int lacking = 0;                 ///< of those, replaced by an ancestor for good
+  int pending = 0;                 ///< of those, not there yet
+  int missing = 0;                 ///< of those, replaced by an ancestor for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
   bool operator==(const TileCoverage&) const = default;

@@ -8,7 +8,7 @@
 
 namespace terrella {
 
-/// How a plan uses one tile of a layer.
+/// Use of one tile of a layer by a plan.
 struct TileUse {
   TileId id;
   TileState state = TileState::unknown;  ///< in the residency, or outside

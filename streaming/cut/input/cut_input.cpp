@@ -115,7 +115,8 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open) {
 Result<CutInput> open_input(const CutOptions& options) {
   std::optional<HeightPlan> heights;
   if (options.elevation) {
-    if (options.format == ImageFormat::jpeg) return Error{"heights are written as PNG alone; leave --format out"};
+    if (options.format && options.format != ImageFormat::png)
+      return Error{"heights are written as PNG alone; leave --format out"};
     const auto planned = plan_heights(options.images, *options.elevation);
     if (!planned) return planned.error();
     heights = *planned;

@@ -20,13 +20,11 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Opens a reader. The file must be at its first byte, and its head already checked for the format.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_webp_rows(const std::string& name);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
                                                                 const std::optional<HeightCoding>& heights);
-
-/// True for the first bytes of a TIFF or BigTIFF in either byte order.
-[[nodiscard]] bool begins_as_tiff(std::string_view head);
 
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);

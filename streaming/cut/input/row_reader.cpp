@@ -1,13 +1,14 @@
 #include "streaming/cut/input/row_reader.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <vector>
 
+#include "codecs/image.h"
 #include "streaming/cut/input/row_formats.h"
 #include "streaming/other_formats.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -71,12 +72,6 @@ Status check_regular(const std::filesystem::path& path) {
   return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
 }
 
-bool begins_as_tiff(std::string_view head) {
-  using namespace std::string_view_literals;
-  constexpr std::array kHeads = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  return std::ranges::any_of(kHeads, [head](std::string_view start) { return head.starts_with(start); });
-}
-
 std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {
   if (reader->info().height_px == rows) return reader;
   return std::make_unique<PaddedRows>(std::move(reader), rows);
@@ -116,14 +111,15 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (head.empty()) return Error{fmt::format("{}: is empty", name)};
   std::rewind(file.get());
-  const bool jpeg = head.starts_with("\xff\xd8\xff");
-  if (jpeg && heights) return refuse_heights(name);
-  if (jpeg) return open_jpeg_rows(std::move(file), name);
-  if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name, heights);
+  const ImageFormat format = sniff_format(std::as_bytes(std::span(head)));
+  if (format == ImageFormat::png) return open_png_rows(std::move(file), name, heights);
+  if (format != ImageFormat::unknown && heights) return refuse_heights(name);
+  if (format == ImageFormat::jpeg) return open_jpeg_rows(std::move(file), name);
+  if (format == ImageFormat::webp) return open_webp_rows(name);
   if (begins_as_tiff(head)) return open_tiff_rows(name, heights);
   const std::string hint = convert_hint(path, head);
   return Error{
-      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, TIFF or BigTIFF" : hint)};
+      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, WebP, TIFF or BigTIFF" : hint)};
 }
 
 }  // namespace
