@@ -136,7 +136,8 @@ void add_info_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage or a picture")->required();
+  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage, PMTiles, MBTiles or a picture")
+      ->required();
   command->add_flag("--verify", options->verify,
                     "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
   command->add_flag("--json", options->json, "Print the result as one JSON object");

@@ -232,11 +232,11 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option(
-          "tileset", options.tile_set,
-          "A GeoPackage, a folder of tiles, a picture of the whole planet (JPEG, PNG, WebP, TIFF), a URL template "
-          "with {z}, {x} and {y}, the address of a WMTS capabilities document, or a JSON source description "
-          "(default: the included Earth)")
+      .add_option("tileset", options.tile_set,
+                  "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture of the whole planet (JPEG, PNG, WebP, "
+                  "TIFF), a URL template "
+                  "with {z}, {x} and {y}, the address of a WMTS capabilities document, or a JSON source description "
+                  "(default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);

@@ -16,7 +16,7 @@ namespace terrella {
 /// The relation between rows of the imagery and latitude. `equirectangular` is paper 1's formula (3), rows linear in
 /// latitude. `equal_area` is its formula (4), Lambert's cylinder, rows linear in the sine. The paper swaps the two
 /// names. `web_mercator` is EPSG:3857's square, rows linear in asinh(tan(latitude)). It describes tiles as stored:
-/// streaming/mercator converts them to equirectangular ones, and web_mercator itself is never drawn. `projected` also
+/// streaming/warp converts them to equirectangular ones, and web_mercator itself is never drawn. `projected` also
 /// describes tiles as stored, and is never drawn: a square of any coordinate reference system (TileSetInfo::square).
 enum class Projection { equirectangular, equal_area, web_mercator, projected };
 

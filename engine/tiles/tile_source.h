@@ -43,9 +43,9 @@ struct TileSetInfo {
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
   std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
-  /// The grid of the tiles from which this set's tiles are made (streaming/mercator).
+  /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
-  std::optional<CrsSquare> square = {};  ///< set if, and only if, the grid's projection is `projected`
+  std::optional<CrsSquare> square = {};  ///< of a `projected` grid: this set's, or that of `made_of`
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.

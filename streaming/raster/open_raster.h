@@ -30,9 +30,9 @@ struct RasterOptions {
   int jobs = 0;  ///< threads that decode rows; 0: one for each core. Blocks are decoded by the thread that reads them
 };
 
-/// Opens a picture file as a raster. TIFF and BigTIFF bring their overviews (in the file, or FILE.ovr) and masks. Tiles
-/// are decoded from the file by themselves. Pictures that can only be read row by row (striped TIFF, JPEG, PNG) are
-/// decoded once, when blocks are asked for (block_store.h). The error names the file, the fault and a cure. Blocks.
+/// Opens a TIFF or BigTIFF as a raster, with its overviews (in the file, or FILE.ovr) and masks. Tiles are decoded from
+/// the file by themselves. Striped pictures are decoded once, when blocks are asked for (block_store.h). For other
+/// picture files see streaming/cut/input/picture_raster.h. The error names the file, the fault and a cure. Blocks.
 /// thread: any
 [[nodiscard]] Result<std::unique_ptr<RasterSource>> open_raster(const std::filesystem::path& path,
                                                                 const RasterPlace& place,

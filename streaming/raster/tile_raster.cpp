@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace terrella {
@@ -14,43 +15,60 @@ std::int64_t pixels_over(double extent_deg, double pixel_deg) {
   return std::max<std::int64_t>(1, std::llround(std::ceil(extent_deg / pixel_deg - kSliverPx)));
 }
 
-RasterLevel level_of(const TileSetInfo& info, int level) {
-  const TileGrid& grid = info.grid;
+/// EPSG:3857; its coordinates end at ±π · 6378137 m.
+constexpr double kMercatorHalf_m = std::numbers::pi * 6378137.0;
+
+CrsSquare square_of(const TileSetInfo& info) {
+  assert(info.square || info.grid.projection == Projection::web_mercator);
+  if (info.square) return *info.square;
+  return {
+      .crs = "EPSG:3857", .west = -kMercatorHalf_m, .north = kMercatorHalf_m, .unit_per_deg = kMercatorHalf_m / 180.0};
+}
+
+RasterLevel level_of(const TileGrid& grid, const CrsSquare& square, int level) {
   const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
-  const double pixel = pixel_deg * info.square->unit_per_deg;
+  const double pixel = pixel_deg * square.unit_per_deg;
+  const RowLatitudes rows = row_bounds(grid);
   return {.width_px = pixels_over(grid.bounds.east.deg() + 180.0, pixel_deg),
-          .height_px = pixels_over(180.0 - grid.bounds.south.deg(), pixel_deg),
+          .height_px = pixels_over(180.0 - rows.south_deg, pixel_deg),
           .block_width_px = grid.tile_px,
           .block_height_px = grid.tile_px,
-          .to_crs = {.x0 = info.square->west,
+          .to_crs = {.x0 = square.west,
                      .x_per_column = pixel,
                      .x_per_row = 0.0,
-                     .y0 = info.square->north,
+                     .y0 = square.north,
                      .y_per_column = 0.0,
                      .y_per_row = -pixel}};
 }
 
-RasterInfo info_of(const TileSetInfo& tiles) {
+}  // namespace
+
+RasterInfo raster_info_of(const TileSetInfo& tiles) {
+  const CrsSquare square = square_of(tiles);
   RasterInfo info{.name = tiles.name,
                   .attribution = tiles.attribution,
-                  .crs = tiles.square->crs,
+                  .crs = square.crs,
                   .levels = {},
                   .opaque = false,
                   .elevation = tiles.elevation};
   for (int level = tiles.grid.min_level; level <= tiles.grid.max_level; ++level) {
-    info.levels.push_back(level_of(tiles, level));
+    info.levels.push_back(level_of(tiles.grid, square, level));
   }
   return info;
 }
 
+namespace {
+
 class TileRaster : public RasterSource, public RemoteTiles {
  public:
   explicit TileRaster(std::unique_ptr<TileSource> stored)
-      : stored_(std::move(stored)), info_(info_of(stored_->info())) {}
+      : stored_(std::move(stored)), info_(raster_info_of(stored_->info())) {}
 
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
-    return stored_->read(tile_of(block));
+    const TileId id = tile_of(block);
+    if (!exists(stored_->info().grid, id)) return TileFailure{MissingKind::blank, "outside the tile set"};
+    return stored_->read(id);
   }
   [[nodiscard]] RemoteTiles* remote() override { return stored_->remote() != nullptr ? this : nullptr; }
 
@@ -75,7 +93,6 @@ class TileRaster : public RasterSource, public RemoteTiles {
 }  // namespace
 
 std::unique_ptr<RasterSource> raster_of_tiles(std::unique_ptr<TileSource> stored) {
-  assert(stored->info().square);
   return std::make_unique<TileRaster>(std::move(stored));
 }
 

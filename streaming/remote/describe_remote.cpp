@@ -9,6 +9,8 @@
 #include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
+#include "streaming/other_formats.h"
+#include "streaming/remote/gdal_wms/gdal_wms.h"
 #include "streaming/remote/remote_tms.h"
 #include "streaming/remote/source_json.h"
 #include "streaming/remote/url_template.h"
@@ -22,7 +24,7 @@
 namespace terrella {
 namespace {
 
-enum class Kind { url_template, json, wmts, wms, tms, unknown };
+enum class Kind { url_template, json, wmts, wms, gdal_wms, tms, unknown };
 
 std::string_view file_name(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
 
@@ -46,6 +48,7 @@ Kind kind_of_document(std::string_view text) {
   if (text.size() > kMaxCapabilitiesBytes || !document.load_buffer(text.data(), text.size())) return Kind::unknown;
   const std::string_view root = local_name(document.document_element().name());
   if (root == "TileMap") return Kind::tms;
+  if (same_letters(root, "GDAL_WMS")) return Kind::gdal_wms;
   if (root == "WMS_Capabilities" || root == "WMT_MS_Capabilities" || root == "ServiceExceptionReport") return Kind::wms;
   return root == "Capabilities" || root == "ExceptionReport" ? Kind::wmts : Kind::unknown;
 }
@@ -134,14 +137,17 @@ class Describing {
         return checked(parse_wmts_capabilities(text, options, where), address);
       case Kind::wms:
         return checked(parse_wms_capabilities(text, read_wms_address(address), options, where), address);
+      case Kind::gdal_wms:
+        return checked(parse_gdal_wms(text, options, where), address);
       case Kind::tms:
         return parse_remote_tms(text, with_scheme(address), options, where);
       case Kind::json:
         return follow(text, address, options);
       default:
+        if (const std::string hint = local_hint(address, text); !hint.empty()) return Error{where + ": " + hint};
         return Error{where +
                      ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS or WMS "
-                     "capabilities, tilemapresource.xml or JSON"};
+                     "capabilities, tilemapresource.xml, <GDAL_WMS> or JSON"};
     }
   }
 
@@ -179,6 +185,12 @@ class Describing {
     return interpret(kind, *document, source.address, merged);
   }
 
+  /// Advice for a label of a planetary archive (PDS4) on disk, which is XML too.
+  static std::string local_hint(const Url& address, std::string_view text) {
+    if (has_scheme(address.with_secrets())) return {};
+    return convert_hint(address.with_secrets(), text.substr(0, kFormatHeadBytes));
+  }
+
   static Url with_scheme(const Url& address) {
     if (has_scheme(address.with_secrets())) return address;
     std::error_code ignored;
@@ -194,7 +206,8 @@ bool is_remote(const Url& tile_set) {
   const std::string_view text = tile_set.with_secrets();
   if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;
   const std::string name = lower_case(file_name(text));
-  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile);
+  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile) ||
+         name.ends_with(".wms");
 }
 
 Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options, const FetchDocument& fetch) {

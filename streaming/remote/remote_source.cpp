@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <ctime>
 #include <mutex>
 #include <system_error>
@@ -12,7 +11,8 @@
 #include <vector>
 
 #include "streaming/http/reply_queue.h"
-#include "streaming/sets/tile_check.h"
+#include "streaming/remote/reply_rules.h"
+#include "streaming/remote/tile_fetcher.h"
 
 namespace terrella {
 namespace {
@@ -35,25 +35,10 @@ Encoded tile_of(CacheRecord&& record) {
   return EncodedTile{std::move(record.bytes)};
 }
 
-/// A stored raster ends inside its last tiles, and a server may send only the part that there is.
-TileSides sides_of(const TileSetInfo& info, const TileId& id) {
-  const TileGrid& grid = info.grid;
-  TileSides sides{.least_width_px = grid.tile_px, .least_height_px = grid.tile_px, .most_px = grid.tile_px};
-  if (!info.square) return sides;
-  const TileBounds tile = tile_bounds(grid, id);
-  if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;
-  if (tile.south_deg < grid.bounds.south.deg()) sides.least_height_px = 1;
-  return sides;
-}
-
-bool is_exception(const std::vector<std::byte>& body) {
-  return !server_exception({reinterpret_cast<const char*>(body.data()), body.size()}).empty();
-}
-
 class RemoteSource : public TileSource, public RemoteTiles {
  public:
   RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
-      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(options, replies_) {
+      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(set_, options, replies_) {
     start_answering();
   }
   ~RemoteSource() override { replies_.close(); }
@@ -73,8 +58,6 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   void fetch(const TileId& id, double priority, Done done) override {
     HttpRequest request;
-    request.url = tile_url(set_, id);
-    request.headers = set_.headers;
     request.priority = priority;
     if (cache_ != nullptr) {
       if (const auto known = cache_->peek(id); known && *known) {
@@ -88,7 +71,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
       numbers_.insert_or_assign(id, request.id);
       asked_.emplace(request.id, Asked{id, std::move(done)});
     }
-    fetcher_.submit(std::move(request));
+    fetcher_.fetch(id, std::move(request));
   }
 
   void set_priority(const TileId& id, double priority) override {
@@ -171,9 +154,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
-    if (std::ranges::find(set_.missing_statuses, reply.status) != set_.missing_statuses.end()) {
-      return missing(id, MissingKind::absent, std::move(reply), missing_life());
-    }
+    apply_reply_rules(set_, reply);
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -196,11 +177,8 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_tile(reply.body, sides_of(set_.info, id)); !good) {
+    if (const Status good = check_answer(set_.info, id, reply.body); !good) {
       reply.why = good.error().message;
-      if (set_.exception_is_missing && is_exception(reply.body)) {
-        return missing(id, MissingKind::absent, std::move(reply), missing_life());
-      }
       reply.expires_unix_s.reset();
       return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
     }
@@ -248,7 +226,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   std::unordered_map<std::uint64_t, Asked> asked_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< number of the latest request for each tile
   ReplyQueue replies_;
-  HttpFetcher fetcher_;
+  TileFetcher fetcher_;
   std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
 };
 

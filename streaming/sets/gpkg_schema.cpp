@@ -129,6 +129,9 @@ SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
 
 namespace {
 
+/// The extension knows no two's complement numbers. Other programs see gray pictures of them.
+bool is_coverage(const TileSetInfo& info) { return info.elevation && !info.elevation->is_signed; }
+
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
   const bool crosses = bounds.east < bounds.west;
@@ -140,7 +143,7 @@ SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
           "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
           "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
           "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, CAST(?9 AS INTEGER))",
-      .texts = {info.elevation ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
+      .texts = {is_coverage(info) ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
                 info.attribution, last_change},
       .numbers = {units.x(crosses ? -180.0 : tidy_degrees(bounds.west)),
                   units.y(mercator ? rows.south_deg : tidy_degrees(bounds.south)),
@@ -167,7 +170,8 @@ void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>&
   // GDAL rounds to the precision. The schema's default is one metre.
   if (elevation.nodata) numbers.push_back(*elevation.nodata);
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
-                             "offset, precision, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, abs(?1), ") +
+                             "offset, precision, data_null, uom) VALUES ('tiles', " +
+                             std::string(elevation.floats ? "'float'" : "'integer'") + ", ?1, ?2, abs(?1), ") +
                      (elevation.nodata ? "?3" : "NULL") + ", 'm')",
                  {},
                  std::move(numbers)});
@@ -202,7 +206,7 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   const bool webp = info.format == ImageFormat::webp;
   if (info.elevation || webp) all.push_back({kExtensionsTable, {}});
   if (webp) all.push_back({kWebpExtension, {}});
-  if (info.elevation) describe_heights(*info.elevation, all);
+  if (is_coverage(info)) describe_heights(*info.elevation, all);
   if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;
 }

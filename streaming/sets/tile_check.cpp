@@ -89,6 +89,11 @@ Status check_tile(std::span<const std::byte> bytes, int tile_px) {
 
 Status check_tile(std::span<const std::byte> bytes, const TileSides& sides) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (sides.floats && (text.starts_with("II*\0"sv) || text.starts_with("MM\0*"sv))) return Done{};
+  if (sides.floats)
+    return Error{text.starts_with("CntZImage") || text.starts_with("Lerc2 ")
+                     ? "LERC, which is not read; a TIFF of floats is needed"
+                     : "no TIFF of floats"};
   const ImageFormat format = sniff_format(bytes);
   if (format == ImageFormat::unknown) return not_a_picture(text);
   const Result<PictureSize> size = picture_size(bytes);

@@ -17,6 +17,7 @@ namespace terrella {
 struct TileSides {
   int least_width_px = 0, least_height_px = 0;
   int most_px = 0;
+  bool floats = false;  ///< the tile is a TIFF of heights; only its first bytes are checked
 };
 
 /// Quick check of a tile's bytes from a server: begins as a JPEG, PNG or WebP, has `tile_px` pixels a side in its

@@ -103,8 +103,12 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   object["format"] = extension_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
-    if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
-    if (info.elevation->is_signed) object["elevation"]["numbers"] = "signed";
+    auto& elevation = object["elevation"];
+    if (info.elevation->nodata && info.elevation->floats) elevation["nodata"] = *info.elevation->nodata;
+    if (info.elevation->nodata && !info.elevation->floats)
+      elevation["nodata"] = static_cast<int>(*info.elevation->nodata);
+    if (info.elevation->is_signed) elevation["numbers"] = "signed";
+    if (info.elevation->floats) elevation["numbers"] = "float";
   }
   if (const auto& square = info.square) {
     object["square"] = {

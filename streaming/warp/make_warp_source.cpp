@@ -48,18 +48,19 @@ class WarpSource : public TileSource, public RemoteTiles {
 
 }  // namespace
 
-TilePlanner::TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid)
+TilePlanner::TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
+                         Overviews overviews)
     : raster_(raster),
       figure_(figure),
-      frame_{.grid = grid, .levels = warp_levels(raster, map.turn_px(), grid.tile_px)} {
+      frame_{.grid = grid, .levels = warp_levels(raster, map.turn_px(), grid.tile_px, overviews)} {
   idle_.push_back(std::move(map));
 }
 
 Result<std::shared_ptr<TilePlanner>> TilePlanner::open(const RasterInfo& raster, const WarpFigure& figure,
-                                                       const TileGrid& grid) {
+                                                       const TileGrid& grid, Overviews overviews) {
   auto map = GroundMap::open(raster, figure);
   if (!map) return map.error();
-  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid));
+  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews));
 }
 
 WarpPlan TilePlanner::plan(const TileId& id) {

@@ -15,12 +15,13 @@ class TilePlanner {
  public:
   /// Fails as GroundMap::open() does.
   [[nodiscard]] static Result<std::shared_ptr<TilePlanner>> open(const RasterInfo& raster, const WarpFigure& figure,
-                                                                 const TileGrid& grid);
+                                                                 const TileGrid& grid, Overviews overviews);
   [[nodiscard]] const WarpFrame& frame() const { return frame_; }
   [[nodiscard]] WarpPlan plan(const TileId& id);
 
  private:
-  TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid);
+  TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
+              Overviews overviews);
 
   const RasterInfo raster_;
   const WarpFigure figure_;

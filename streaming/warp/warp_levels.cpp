@@ -60,11 +60,14 @@ std::int64_t WarpLevel::columns() const {
 }
 std::int64_t WarpLevel::rows() const { return static_cast<std::int64_t>(std::ceil(area.height_px)); }
 
-std::vector<WarpLevel> warp_levels(const RasterInfo& raster, const std::optional<CrsPoint>& turn_px, int tile_px) {
+std::vector<WarpLevel> warp_levels(const RasterInfo& raster, const std::optional<CrsPoint>& turn_px, int tile_px,
+                                   Overviews overviews) {
   std::vector<WarpLevel> levels;
   const RasterLevel& coarsest = raster.levels.front();
   const double side = static_cast<double>(std::max(coarsest.width_px, coarsest.height_px));
-  for (int halvings = 1; halvings < 30 && divides(coarsest, halvings) && std::ldexp(side, 1 - halvings) > 2 * tile_px;
+  const bool made = overviews == Overviews::made;
+  for (int halvings = 1;
+       made && halvings < 30 && divides(coarsest, halvings) && std::ldexp(side, 1 - halvings) > 2 * tile_px;
        ++halvings) {
     levels.insert(levels.begin(), level_of(raster, 0, halvings, turn_px));
   }

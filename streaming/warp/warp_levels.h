@@ -25,10 +25,11 @@ struct WarpLevel {
   [[nodiscard]] std::int64_t rows() const;
 };
 
-/// The levels of a raster, the coarsest first. A raster without overviews gets reduced levels, down to about a tile.
-/// thread: any
+/// Levels coarser than those of a raster: none, or reduced ones down to about a tile.
+enum class Overviews { stored, made };
+/// The levels of a raster, the coarsest first. thread: any
 [[nodiscard]] std::vector<WarpLevel> warp_levels(const RasterInfo& raster, const std::optional<CrsPoint>& turn_px,
-                                                 int tile_px);
+                                                 int tile_px, Overviews overviews);
 
 /// A rectangle of whole pixels of a level, which may go beyond its edges.
 struct PixelRect64 {

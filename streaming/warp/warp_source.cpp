@@ -106,7 +106,7 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   const RasterInfo& from = raster->info();
   const auto grid = warp_grid(from, options, where);
   if (!grid) return grid.error();
-  auto planner = TilePlanner::open(from, options.figure, *grid);
+  auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made);
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
   info.format = ImageFormat::png;

@@ -145,8 +145,8 @@ class BadPictures(ProgramTest):
 
     def test_what_is_neither_names_pictures_first(self):
         letter = self.write("letter.txt", b"Dear Sir or Madam,\n" * 100)
-        done = self.assert_fails(FAILED, "render", letter, "-o", "out.png", says=["JPEG, PNG, TIFF", "GeoPackage"])
-        self.assertLess(done.stderr.index("JPEG, PNG, TIFF"), done.stderr.index("GeoPackage"))
+        done = self.assert_fails(FAILED, "render", letter, "-o", "out.png", says=["JPEG, PNG, WebP, TIFF", "GeoPackage"])
+        self.assertLess(done.stderr.index("JPEG, PNG, WebP, TIFF"), done.stderr.index("GeoPackage"))
 
     def test_gdals_command_makes_a_picture_that_is_read(self):
         self.write("plain.png", png(64, 32))

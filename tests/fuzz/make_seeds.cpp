@@ -194,6 +194,31 @@ void write_geo_keys(const fs::path& folder) {
              {3396190.0, 3396190.0, 0.0}, ""));
 }
 
+/// One tile, in a leaf directory, nothing compressed.
+void write_pmtiles(const fs::path& path) {
+  const auto tile = *encode_png(picture(255));
+  std::string bytes = "PMTiles\3";
+  const auto number = [&bytes](std::uint64_t value, int length) {
+    for (int i = 0; i < length; ++i, value >>= 8) bytes += static_cast<char>(value & 255);
+  };
+  constexpr std::uint64_t kRoot = 127, kDirectory = 6, kMetadata = 2;
+  number(kRoot, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory, 8), number(kMetadata, 8);
+  number(kRoot + kDirectory + kMetadata, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory + kMetadata + kDirectory, 8), number(tile.size(), 8);
+  number(1, 8), number(1, 8), number(1, 8);
+  for (const int flag : {1, 1, 1, 2, 0, 0}) number(static_cast<std::uint64_t>(flag), 1);
+  number(0, 25);
+  const auto directory = [&](std::uint64_t length, char run) {
+    bytes += {1, 0, run, static_cast<char>((length & 127) | 128), static_cast<char>(length >> 7), 1};
+  };
+  directory(kDirectory, 0);
+  bytes += "{}";
+  directory(tile.size(), 1);
+  bytes.append(reinterpret_cast<const char*>(tile.data()), tile.size());
+  write(path, bytes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -206,6 +231,9 @@ int main(int argc, char** argv) {
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));
+  write(folder / "image/a.webp", *encode_webp(picture(255), 80));
+  write(folder / "image/b.webp", *encode_webp(picture(100), 80));
+  write_pmtiles(folder / "pmtiles/a.pmtiles");
   std::vector<std::uint16_t> heights;
   for (int i = 0; i < 256; ++i) heights.push_back(static_cast<std::uint16_t>(i * 257));
   write(folder / "heights/a.png", *encode_gray16_png(heights, 16));

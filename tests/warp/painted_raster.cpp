@@ -23,7 +23,7 @@ Places::Place Places::of(double x, double y) const {
   return {to.lp.phi * kToDeg, to.lp.lam * kToDeg};
 }
 
-PaintedRaster::PaintedRaster(const PaintedOptions& options, Planet red, Planet green)
+PaintedRaster::PaintedRaster(const PaintedOptions& options, Ground red, Ground green)
     : options_(options), red_(std::move(red)), green_(std::move(green)) {
   info_.crs = options.crs + " +type=crs";
   for (int k = options.overviews; k >= 0; --k) {

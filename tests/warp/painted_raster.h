@@ -13,8 +13,8 @@ struct PJconsts;
 
 namespace terrella::test {
 
-/// The value of the planet at a place, degrees, in [0, 255].
-using Planet = std::function<double(double lat_deg, double lon_deg)>;
+/// The value of the ground at a place, degrees, in [0, 255].
+using Ground = std::function<double(double lat_deg, double lon_deg)>;
 
 /// Place of a point of a coordinate system, degrees, by PROJ itself. Not a place: infinite.
 class Places {
@@ -47,7 +47,7 @@ struct PaintedOptions {
 /// planet, green by the second; numbers by the first. Pixels without a place are transparent or NaN.
 class PaintedRaster : public RasterSource {
  public:
-  PaintedRaster(const PaintedOptions& options, Planet red, Planet green);
+  PaintedRaster(const PaintedOptions& options, Ground red, Ground green);
 
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override;
@@ -60,7 +60,7 @@ class PaintedRaster : public RasterSource {
   [[nodiscard]] Image paint(const TileId& block) const;
 
   const PaintedOptions options_;
-  const Planet red_, green_;
+  const Ground red_, green_;
   RasterInfo info_;
   std::map<TileId, MissingKind> missing_;
   std::mutex mutex_;  ///< guards reads_

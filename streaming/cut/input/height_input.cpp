@@ -180,6 +180,17 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
   return plan;
 }
 
+RasterOptions raster_of(const HeightPlan& plan) {
+  RasterOptions options;
+  options.heights = true;
+  options.nodata = plan.coding.nodata;
+  const bool is_float = plan.coding.kind == HeightKind::float32;
+  const int shift = plan.coding.kind == HeightKind::int16 ? kInt16Shift : 0;
+  options.scale = is_float ? plan.coding.sample_scale : plan.elevation.scale;
+  options.offset = is_float ? plan.coding.sample_offset : plan.elevation.offset + shift * plan.elevation.scale;
+  return options;
+}
+
 bool is_node_planet(std::int64_t width, std::int64_t height) { return width % 2 == 0 && height == width / 2 + 1; }
 
 std::unique_ptr<RowReader> between_nodes(std::unique_ptr<RowReader> nodes) {
