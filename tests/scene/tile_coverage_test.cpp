@@ -201,7 +201,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
     EXPECT_EQ(coverage.uncovered, 0);
     for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell & 0xFFFFU)), level);
     EXPECT_EQ(coverage.wanted.empty(), level == 8);
-    EXPECT_EQ(coverage.missing == 0, level == 8);
+    EXPECT_EQ(coverage.pending == 0, level == 8);
   }
 }
 
@@ -260,7 +260,7 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
         serve(coverage, residency, k % 3 == 0 ? 3 : 0, draw, slot);
         ASSERT_LT(frame, 40U) << "something is wanted for ever";
       } while (!coverage.wanted.empty());
-      EXPECT_EQ(coverage.missing, 0);
+      EXPECT_EQ(coverage.pending, 0);
       EXPECT_EQ(coverage.draws.size(), patches.size());
     }
   }
