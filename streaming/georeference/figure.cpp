@@ -19,7 +19,12 @@ bool is_other_body(const CrsFacts& crs, const Body& body) {
   return differ(crs.a_m, own.a_m()) || (crs.a_m != crs.b_m && differ(crs.b_m, own.a_m() * (1.0 - own.f())));
 }
 
+bool is_earth(const Body& body) { return !differ(body.ellipsoid.a_m(), earth().ellipsoid.a_m()); }
+
+}  // namespace
+
 std::string body_name(const CrsFacts& crs) {
+  if (!is_other_body(crs, earth())) return earth().name;
   const Body* nearest = nullptr;
   for (const Body& body : body_presets()) {
     const auto off = [&crs](const Body& b) { return std::abs(b.ellipsoid.a_m() - crs.a_m); };
@@ -29,16 +34,12 @@ std::string body_name(const CrsFacts& crs) {
   return fmt::format("{:.10g},{:.10g}", crs.a_m, std::max(0.0, 1.0 - crs.b_m / crs.a_m));
 }
 
-bool is_earth(const Body& body) { return !differ(body.ellipsoid.a_m(), earth().ellipsoid.a_m()); }
-
-/// True if the latitudes are planetocentric: those on a sphere that stands for an ellipsoid, as in USGS's maps. On
-/// Earth such latitudes count as geodetic, by common practice.
-bool counts_centric(const CrsFacts& crs, const Body& body) {
+// A sphere stands for an ellipsoid in USGS's maps. On Earth such latitudes count as geodetic, by common practice.
+LatitudeKind latitude_of(const CrsFacts& crs, const Body& body) {
   const bool stands_in = crs.a_m == crs.b_m && !is_earth(body);
-  return body.ellipsoid.f() > 0.0 && (crs.centric || stands_in);
+  const bool centric = body.ellipsoid.f() > 0.0 && (crs.centric || stands_in);
+  return centric ? LatitudeKind::centric : LatitudeKind::graphic;
 }
-
-}  // namespace
 
 std::string body_option(const CrsFacts& crs) {
   return is_other_body(crs, earth()) ? " --body " + body_name(crs) : std::string();
@@ -56,7 +57,7 @@ Result<LatitudeKind> check_figure(PlacedPicture& placed, const Body& body, std::
                     body.ellipsoid.a_m() * (1.0 - body.ellipsoid.f()),
                     option.empty() ? std::string("--body earth") : option.substr(1))};
   }
-  const LatitudeKind stated = counts_centric(crs, body) ? LatitudeKind::centric : LatitudeKind::graphic;
+  const LatitudeKind stated = latitude_of(crs, body);
   // A sphere does not tell which latitudes it means on the Earth.
   const bool tells = crs.a_m != crs.b_m || stated == LatitudeKind::centric;
   if (asked && *asked != stated && tells && body.ellipsoid.f() > 0.0) {

@@ -16,6 +16,13 @@ namespace terrella {
 [[nodiscard]] Result<LatitudeKind> check_figure(PlacedPicture& placed, const Body& body,
                                                 std::optional<LatitudeKind> asked);
 
+/// Value of --body for a coordinate system: the name of a preset within 1 %, or "A,F". thread: any
+[[nodiscard]] std::string body_name(const CrsFacts& crs);
+
+/// Latitude that a coordinate system counts on a body: planetocentric if its name says so, or on a sphere that stands
+/// for a flattened body other than the Earth. thread: any
+[[nodiscard]] LatitudeKind latitude_of(const CrsFacts& crs, const Body& body);
+
 /// Option for the body of a picture in a coordinate system: " --body moon"; empty for the Earth, the default.
 [[nodiscard]] std::string body_option(const CrsFacts& crs);
 
