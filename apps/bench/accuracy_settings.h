@@ -7,7 +7,7 @@
 #include "apps/bench/truth/ray_caster.h"
 #include "geo/cube_sphere.h"
 #include "globe/globe.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
 // cartographic systems", 2023.
@@ -26,7 +26,7 @@ inline constexpr const char* kDefaults = "default";
 inline constexpr const char* kTessellation = "tessellation";
 inline constexpr const char* kThreshold = "threshold";
 inline constexpr const char* kPlainThreshold =
-    "threshold, plain mapping";  ///< Zuev's formula (1) (baseline/paper_sphere.h) in place of the tangent
+    "threshold, plain mapping";                           ///< paper 1's formula (1) in place of the tangent
 inline constexpr const char* kDetail = "detail";          ///< requested texels per pixel
 inline constexpr const char* kColumns = "polar columns";  ///< on the full grid
 inline constexpr const char* kGutter = "gutter";

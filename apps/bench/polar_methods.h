@@ -16,7 +16,7 @@
 
 namespace terrella::bench {
 
-/// A texturing method with its parameters, for Zuev's sphere (baseline/paper_sphere.h) or the engine's globe.
+/// A texturing method with its parameters, for paper 1's sphere or the engine's globe.
 struct PolarMethod {
   std::string name;                 ///< "sphere: plain", "globe: auto" …
   std::optional<PaperLook> sphere;  ///< none: the globe

@@ -17,7 +17,7 @@ struct TestPlanet {
   std::filesystem::path tiles;
 };
 
-/// The noise planet (truth/noise_planet.h): 8192×4096 as the picture of Zuev's paper (baseline/paper_sphere.h), or
+/// The noise planet (truth/noise_planet.h): 8192×4096 as paper 1's picture, or
 /// 1024×512 for a quick run. Created and cut on first use.
 [[nodiscard]] Result<TestPlanet> noise_test_planet(const BenchOptions& options);
 

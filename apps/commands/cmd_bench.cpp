@@ -15,9 +15,6 @@
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 
-// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
-// cartographic systems", 2023.
-
 namespace terrella {
 namespace {
 

@@ -159,10 +159,10 @@ void Viewer::draw_panels(Viewport framebuffer) {
   job_text_ = job();
   ui_.begin_frame();
   if (help_.is_open()) {
-    help_.draw();
+    help_.draw(0.0F);
   } else {
     const float foot = draw_status(status(view), window_.pixels_per_unit().x);
-    for (Part* part : parts_ | std::views::reverse) part->draw();
+    for (Part* part : parts_ | std::views::reverse) part->draw(foot);
     if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
   }
   ui_.end_frame();

@@ -53,6 +53,7 @@ class Viewer {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static const Action kActions[];
   static constexpr int kPanelFrames = 3;  // a panel shows an event one frame later
 
   template <NavigationKey kKey>

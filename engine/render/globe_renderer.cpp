@@ -1,6 +1,7 @@
 #include "render/globe_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "render/gl/stencil_bits.h"
@@ -52,12 +53,8 @@ Status GlobeRenderer::set_relief(bool on) {
 }
 
 Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
-  if (!objects_) {
-    Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
-    if (!made) return made.error();
-    objects_ = std::move(*made);
-    objects_->set_label_font(std::move(label_font_));
-  }
+  if (Status s = make_once(objects_, options_.depth); !s) return s;
+  if (!label_font_.empty()) objects_->set_label_font(std::exchange(label_font_, {}));
   objects_->set_objects(make_batches(scenes, ellipsoid_));
   std::vector<MeshObject> meshes;
   std::vector<LabelObject> labels;
@@ -189,22 +186,27 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
 }
 
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
-  const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
   const View& view = pass.eye.view;
-  const LimbPicture picture{
-      .texture = targets_.color(), .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1};
-  int& calls = pass.counts.draw_calls;
-  if (mountains_on_limb(pass)) {
-    const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
-    const OutlineDepth depth{targets_.depth(), no_depth};
-    calls += in_place ? outline_->draw_in_place(view.viewport, picture, depth, state, targets_.beside(),
-                                                targets_.framebuffer())
-                      : outline_->draw(view.viewport, picture, depth, state);
-  } else {
-    calls += in_place
-                 ? limb_->draw_in_place(view, ellipsoid_, picture, state, targets_.beside(), targets_.framebuffer())
-                 : limb_->draw(view, ellipsoid_, picture, state);
-  }
+  const bool mountains = mountains_on_limb(pass);
+  if (!mountains && !limb_->fit(view, ellipsoid_)) return;
+  const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
+  const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
+  const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
+    const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
+    mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
+              : limb_->draw(view.viewport, picture, state);
+    ++pass.counts.draw_calls;
+  };
+  const int rows_apart = pass.eye.interlaced ? 2 : 1;
+  if (!in_place) return draw(targets_.color(), targets_.depth(), rows_apart);
+  // A pass must not read the texture that it writes, so the limb is first drawn beside the picture.
+  const FrameTargets::Beside beside = targets_.beside();
+  glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
+  apply(state);
+  if (mountains) glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{}.data());
+  draw(targets_.color(), targets_.depth(), rows_apart);
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
+  draw(beside.texture, 0, 0);
 }
 
 std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {

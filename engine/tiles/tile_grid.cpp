@@ -60,6 +60,11 @@ double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
   return grid.latitude == LatitudeKind::centric ? ellipsoid.one_minus_e2() : 1.0;
 }
 
+/// True for grids of a square of 360 degrees each way, which are stored and never drawn.
+bool is_stored_square(Projection projection) {
+  return projection == Projection::web_mercator || projection == Projection::projected;
+}
+
 double mercator_row_of(double tangent) {
   return std::clamp(std::asinh(tangent) * (180.0 / std::numbers::pi), -180.0, 180.0);
 }
@@ -87,11 +92,9 @@ std::int64_t rows(const TileGrid& grid, int level) {
   return tiles_over(top_row_deg(grid) - bottom_row_deg(grid), grid, level);
 }
 
-double top_row_deg(const TileGrid& grid) {
-  return grid.projection == Projection::web_mercator ? 180.0 : grid.north_deg;
-}
+double top_row_deg(const TileGrid& grid) { return is_stored_square(grid.projection) ? 180.0 : grid.north_deg; }
 
-double bottom_row_deg(const TileGrid& grid) { return grid.projection == Projection::web_mercator ? -180.0 : -90.0; }
+double bottom_row_deg(const TileGrid& grid) { return is_stored_square(grid.projection) ? -180.0 : -90.0; }
 
 bool begins_at_planet(const TileGrid& grid) { return grid.west_deg == -180.0 && grid.north_deg == 90.0; }
 

@@ -16,8 +16,9 @@ namespace terrella {
 /// The relation between rows of the imagery and latitude. `equirectangular` is paper 1's formula (3), rows linear in
 /// latitude. `equal_area` is its formula (4), Lambert's cylinder, rows linear in the sine. The paper swaps the two
 /// names. `web_mercator` is EPSG:3857's square, rows linear in asinh(tan(latitude)). It describes tiles as stored:
-/// streaming/mercator converts them to equirectangular ones, and web_mercator itself is never drawn.
-enum class Projection { equirectangular, equal_area, web_mercator };
+/// streaming/warp converts them to equirectangular ones, and web_mercator itself is never drawn. `projected` also
+/// describes tiles as stored, and is never drawn: a square of any coordinate reference system (TileSetInfo::square).
+enum class Projection { equirectangular, equal_area, web_mercator, projected };
 
 /// Northern end of the square of Web Mercator: atan(sinh(π)), degrees.
 inline constexpr double kMercatorEndDeg = 85.05112877980659;
@@ -48,8 +49,9 @@ inline constexpr int kMaxTileLevel = 24;
 /// corner of tile (0, 0) of every level, is the planet's corner (-180°, +90°), or a place up to one root tile
 /// north-west of it. Such an origin lets the pixels of a region be texels without resampling. Rows are measured in
 /// degrees of "row latitude". In an equal_area grid one degree is 1/180 of the picture's height. In a web_mercator grid
-/// it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180). The functions of this header are pure.
-/// thread: any
+/// it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180). In a projected grid columns and rows both
+/// run over the stored square, from -180 to 180 and from 180 to -180: a "degree" is 1/360 of its side. The functions of
+/// this header are pure. thread: any
 struct TileGrid {
   double root_span_deg = 180.0;  ///< span of a level-0 tile, degrees, in both directions; (0, 1e4]
   int tile_px = 256;             ///< pixels per side, [16, 4096]
@@ -71,9 +73,9 @@ struct TileXY {
 };
 
 [[nodiscard]] double tile_span_deg(const TileGrid& grid, int level);  ///< root_span / 2^level
-/// Row latitude of the grid's origin: north_deg, for web_mercator 180.
+/// Row latitude of the grid's origin: north_deg, for web_mercator and projected 180.
 [[nodiscard]] double top_row_deg(const TileGrid& grid);
-/// Row latitude of the planet's southern end: -90, for web_mercator -180.
+/// Row latitude of the planet's southern end: -90, for web_mercator and projected -180.
 [[nodiscard]] double bottom_row_deg(const TileGrid& grid);
 /// True if the grid's origin is the planet's corner.
 [[nodiscard]] bool begins_at_planet(const TileGrid& grid);

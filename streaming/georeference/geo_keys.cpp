@@ -180,8 +180,11 @@ Result<GeoKeys> interpret(GTIF* keys) {
   GTIFDefn defn{};
   if (GTIFGetDefn(keys, &defn) != 1) return said;
   const auto model = short_key(keys, GTModelTypeGeoKey);
+  // GDAL writes a projection that GeoTIFF does not have as a text in the citation, and calls the model user-defined.
+  const bool own_model = model != ModelTypeGeographic && (!text_key(keys, PCSCitationGeoKey).empty() ||
+                                                          short_key(keys, ProjLinearUnitsGeoKey).has_value());
   const bool names_projected = short_key(keys, ProjectedCSTypeGeoKey) || short_key(keys, ProjCoordTransGeoKey) ||
-                               short_key(keys, ProjectionGeoKey);
+                               short_key(keys, ProjectionGeoKey) || own_model;
   const bool names_geographic = short_key(keys, GeographicTypeGeoKey) || defn.SemiMajor > 0.0;
   if (!model && !names_projected && !names_geographic) return said;
   if (model == ModelTypeGeographic && names_projected) {

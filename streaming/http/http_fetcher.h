@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/byte_range.h"
 #include "streaming/url.h"
 
 namespace terrella {
@@ -41,14 +42,17 @@ struct HttpRequest {
   std::string etag;                  ///< validators of the caller's copy, for a conditional request
   std::string last_modified;
   double priority = 0.0;  ///< larger first
+  /// Requests these bytes alone, at least one. The answer may end earlier if the file does. http and https only.
+  std::optional<ByteRange> range = {};
+  std::string if_match = {};  ///< strong entity tag of the file that the range belongs to; empty: any
 };
 
 enum class HttpOutcome {
-  content,       ///< 200 with a whole body
+  content,       ///< 200 with a whole body; 206 with the bytes of `range`
   not_modified,  ///< 304
   nothing,       ///< 204, 404 or 410: the server does not have it
   refused,       ///< a retry cannot help: 401, 403 and other 4xx, redirect loops, bad certificates, forbidden schemes,
-                 ///< bodies over the limit
+                 ///< bodies over the limit, ranges that the server ignores, a file that changed (412)
   failed,        ///< all attempts failed for now: time-outs, resets, 5xx, 429
 };
 
@@ -62,6 +66,7 @@ struct HttpReply {
   std::string last_modified;
   std::optional<std::int64_t> expires_unix_s;  ///< Cache-Control max-age less Age, else Expires; or none
   bool no_store = false;
+  std::optional<std::uint64_t> file_bytes;  ///< length of the whole file, by Content-Range
   int attempts = 0;
   std::string why;  ///< message: host and path without query, and what is wrong; empty for content
 };

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "streaming/http/reply_queue.h"
-#include "streaming/sets/tile_check.h"
+#include "streaming/remote/reply_rules.h"
+#include "streaming/remote/tile_fetcher.h"
 
 namespace terrella {
 namespace {
@@ -37,7 +38,7 @@ Encoded tile_of(CacheRecord&& record) {
 class RemoteSource : public TileSource, public RemoteTiles {
  public:
   RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
-      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(options, replies_) {
+      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(set_, options, replies_) {
     start_answering();
   }
   ~RemoteSource() override { replies_.close(); }
@@ -57,8 +58,6 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   void fetch(const TileId& id, double priority, Done done) override {
     HttpRequest request;
-    request.url = tile_url(set_, id);
-    request.headers = set_.headers;
     request.priority = priority;
     if (cache_ != nullptr) {
       if (const auto known = cache_->peek(id); known && *known) {
@@ -72,7 +71,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
       numbers_.insert_or_assign(id, request.id);
       asked_.emplace(request.id, Asked{id, std::move(done)});
     }
-    fetcher_.submit(std::move(request));
+    fetcher_.fetch(id, std::move(request));
   }
 
   void set_priority(const TileId& id, double priority) override {
@@ -155,6 +154,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
+    apply_reply_rules(set_, reply);
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -177,7 +177,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
+    if (const Status good = check_answer(set_.info, id, reply.body); !good) {
       reply.why = good.error().message;
       reply.expires_unix_s.reset();
       return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
@@ -226,7 +226,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   std::unordered_map<std::uint64_t, Asked> asked_;
   std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< number of the latest request for each tile
   ReplyQueue replies_;
-  HttpFetcher fetcher_;
+  TileFetcher fetcher_;
   std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
 };
 

@@ -18,15 +18,21 @@ bool within(double value, double low, double high) {
   return value >= low - kAngleSlackDeg && value <= high + kAngleSlackDeg;
 }
 
-Status check_bounds(const GeoRect& bounds, const std::string& where) {
+Status check_bounds(const TileGrid& grid, const std::string& where) {
+  const GeoRect& bounds = grid.bounds;
+  const double top = grid.projection == Projection::projected ? 180.0 : 90.0;
   for (const double lon : {bounds.west.deg(), bounds.east.deg()}) {
     if (!within(lon, -180.0, 180.0)) return field_error(where, "bounds: a longitude", lon, "in [-180, 180]");
   }
   for (const double lat : {bounds.south.deg(), bounds.north.deg()}) {
-    if (!within(lat, -90.0, 90.0)) return field_error(where, "bounds: a latitude", lat, "in [-90, 90]");
+    if (!within(lat, -top, top))
+      return field_error(where, "bounds: a latitude", lat, fmt::format("in [-{0}, {0}]", top));
   }
   if (!(bounds.south < bounds.north)) {
     return field_error(where, "bounds: south", bounds.south.deg(), fmt::format("under north, {}", bounds.north.deg()));
+  }
+  if (grid.projection == Projection::projected && !(bounds.west < bounds.east)) {
+    return field_error(where, "bounds: west", bounds.west.deg(), "under east");
   }
   if (bounds.west == bounds.east) return field_error(where, "bounds: west", bounds.west.deg(), "other than east");
   return Done{};
@@ -81,7 +87,7 @@ Status check_grid(const TileGrid& grid, const std::string& where) {
   }
   if (Status square = check_mercator(grid, where); !square) return square.error();
   if (Status origin = check_origin(grid, where); !origin) return origin.error();
-  return check_bounds(grid.bounds, where);
+  return check_bounds(grid, where);
 }
 
 }  // namespace terrella

@@ -41,7 +41,7 @@ TEST(BadInputTest, NoFileAndNoPicture) {
   expect_picture_refused(folder, folder / "empty.jpg", {"empty"});
   const std::string letter(1000, 'a');
   write_bytes(folder / "letter.jpg", std::as_bytes(std::span(letter)));
-  expect_picture_refused(folder, folder / "letter.jpg", {"JPEG, PNG, TIFF"});
+  expect_picture_refused(folder, folder / "letter.jpg", {"JPEG, PNG, WebP, TIFF"});
   fs::create_directory(folder / "folder");
   expect_picture_refused(folder, folder / "folder", {"folder"});
 }

@@ -109,6 +109,20 @@ constexpr const char* kCoverage =
     "INSERT INTO gpkg_2d_gridded_tile_ancillary VALUES ('t', 1, 2.0, 1.0);"
     "ALTER TABLE t ADD COLUMN id; UPDATE t SET id = rowid;";
 
+constexpr const char* kGdalWms =
+    "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://a/${z}/${x}/${y}.png</ServerUrl></Service><DataWindow><UpperLeftX>"
+    "-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX><LowerRightY>-90</LowerRightY><TileLevel>3"
+    "</TileLevel><TileCountX>2</TileCountX><TileCountY>1</TileCountY><YOrigin>top</YOrigin></DataWindow><Projection>"
+    "EPSG:4326</Projection><BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>1</BandsCount><DataType>"
+    "Int16</DataType><DataValues NoData=\"-1\"/><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>";
+
+constexpr const char* kWms =
+    "<WMS_Capabilities version=\"1.3.0\"><Service><MaxWidth>2048</MaxWidth></Service><Capability><Request><GetMap><Format>"
+    "image/png</Format><DCPType><HTTP><Get><OnlineResource xlink:href=\"http://a/?\"/></Get></HTTP></DCPType></GetMap>"
+    "</Request><Layer><Name>l</Name><CRS>EPSG:4326</CRS><CRS>EPSG:3413</CRS><BoundingBox CRS=\"EPSG:3413\" minx=\"-1\" "
+    "miny=\"-1\" maxx=\"1\" maxy=\"1\"/><MinScaleDenominator>9</MinScaleDenominator><Dimension name=\"time\" default=\"2004"
+    "\">2003,2004</Dimension></Layer></Capability></WMS_Capabilities>";
+
 constexpr const char* kCapabilities =
     "<Capabilities><Contents><Layer><Title>t</Title><Identifier>l</Identifier><Style isDefault=\"true\"><Identifier>d"
     "</Identifier></Style><Format>image/png</Format><WGS84BoundingBox><LowerCorner>-180 -90</LowerCorner><UpperCorner>"
@@ -258,6 +272,31 @@ void write_geo_keys(const fs::path& folder) {
              {3396190.0, 3396190.0, 0.0}, ""));
 }
 
+/// One tile, in a leaf directory, nothing compressed.
+void write_pmtiles(const fs::path& path) {
+  const auto tile = *encode_png(picture(255));
+  std::string bytes = "PMTiles\3";
+  const auto number = [&bytes](std::uint64_t value, int length) {
+    for (int i = 0; i < length; ++i, value >>= 8) bytes += static_cast<char>(value & 255);
+  };
+  constexpr std::uint64_t kRoot = 127, kDirectory = 6, kMetadata = 2;
+  number(kRoot, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory, 8), number(kMetadata, 8);
+  number(kRoot + kDirectory + kMetadata, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory + kMetadata + kDirectory, 8), number(tile.size(), 8);
+  number(1, 8), number(1, 8), number(1, 8);
+  for (const int flag : {1, 1, 1, 2, 0, 0}) number(static_cast<std::uint64_t>(flag), 1);
+  number(0, 25);
+  const auto directory = [&](std::uint64_t length, char run) {
+    bytes += {1, 0, run, static_cast<char>((length & 127) | 128), static_cast<char>(length >> 7), 1};
+  };
+  directory(kDirectory, 0);
+  bytes += "{}";
+  directory(tile.size(), 1);
+  bytes.append(reinterpret_cast<const char*>(tile.data()), tile.size());
+  write(path, bytes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -270,6 +309,9 @@ int main(int argc, char** argv) {
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));
+  write(folder / "image/a.webp", *encode_webp(picture(255), 80));
+  write(folder / "image/b.webp", *encode_webp(picture(100), 80));
+  write_pmtiles(folder / "pmtiles/a.pmtiles");
   std::vector<std::uint16_t> heights;
   for (int i = 0; i < 256; ++i) heights.push_back(static_cast<std::uint16_t>(i * 257));
   write(folder / "heights/a.png", *encode_gray16_png(heights, 16));
@@ -282,6 +324,8 @@ int main(int argc, char** argv) {
   write(folder / "tileset_json/a.json", to_tileset_json(info()));
   write(folder / "tms_xml/a.xml", kTms);
   write(folder / "capabilities/a.xml", kCapabilities);
+  write(folder / "gdal_wms" / "a.xml", kGdalWms);
+  write(folder / "gdal_wms" / "b.xml", kWms);
   write(folder / "source_json/a.json", kSource);
   const std::string mbtiles =
       std::string(kMbtiles) + "INSERT INTO tiles VALUES (1, 3, 1, " + blob_of(*encode_jpeg(picture(255), 50)) + ");";

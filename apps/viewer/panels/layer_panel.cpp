@@ -81,13 +81,13 @@ LayerAsk draw_row(LayerRow& row) {
 }  // namespace
 
 LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std::vector<LayerSwitch>& switches,
-                      bool just_opened) {
+                      float foot, bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x - 0.8F * unit, 3.6F * unit}, ImGuiCond_Always, {1.0F, 0.0F});
   const float width = std::min(kLayersWidth * unit, size.x - 1.6F * unit);
   ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - 9.0F * unit});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - 5.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   ImGui::Begin(title, nullptr, kPanelWindow);

@@ -37,10 +37,10 @@ struct LayerSwitch {
 };
 
 /// Draws the panel at the right edge, between Ui::begin_frame() and Ui::end_frame(). The switches come first, then the
-/// highest layer, which is the last row. `just_opened` gives the panel the keyboard. Stores the user's changes to looks
-/// and switches. thread: main
+/// highest layer, which is the last row. `foot` units at the lower edge stay free. `just_opened` gives the panel the
+/// keyboard. Stores the user's changes to looks and switches. thread: main
 [[nodiscard]] LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows,
-                                    const std::vector<LayerSwitch>& switches, bool just_opened);
+                                    const std::vector<LayerSwitch>& switches, float foot, bool just_opened);
 
 /// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
 /// the planet. thread: any

@@ -130,13 +130,13 @@ std::string time_field(std::optional<UtcTime> time) {
   return fmt::format("{:%Y-%m-%dT%H:%MZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(*time)));
 }
 
-const Action* draw_view_settings(const char* title, ViewSettings& settings, std::span<const Action> actions,
+const Action* draw_view_settings(const char* title, ViewSettings& settings, std::span<const Action> actions, float foot,
                                  bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.8F * unit, 0.8F * unit});
   ImGui::SetNextWindowSize({kWidth * unit, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - 5.0F * unit});
+  ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - foot - 1.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   ImGui::Begin(title, nullptr, kPanelWindow);

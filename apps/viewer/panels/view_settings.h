@@ -28,10 +28,10 @@ struct ViewSettings {
 /// Text of a time for its field; empty without a time. thread: any
 [[nodiscard]] std::string time_field(std::optional<UtcTime> time);
 
-/// Draws the panel with its tips at the left edge, between Ui::begin_frame() and Ui::end_frame(). `just_opened` gives
-/// the panel the keyboard. Stores the user's changes in `settings`. Returns the action whose button was clicked; null
-/// if none was. thread: main
+/// Draws the panel with its tips at the left edge, between Ui::begin_frame() and Ui::end_frame(). `foot` units at
+/// the lower edge stay free. `just_opened` gives the panel the keyboard. Stores the user's changes in `settings`.
+/// Returns the action whose button was clicked; null if none was. thread: main
 [[nodiscard]] const Action* draw_view_settings(const char* title, ViewSettings& settings,
-                                               std::span<const Action> actions, bool just_opened);
+                                               std::span<const Action> actions, float foot, bool just_opened);
 
 }  // namespace terrella

@@ -13,7 +13,7 @@
 namespace terrella {
 namespace {
 
-const ImU32 kShade = IM_COL32(0, 0, 0, 150);
+const ImU32 kShade = IM_COL32(0, 0, 0, 210);  // around labels, which also stand on snow
 
 ImU32 tinted(glm::vec3 color, const glm::vec3& tint, int alpha) {
   color *= tint;
@@ -21,7 +21,8 @@ ImU32 tinted(glm::vec3 color, const glm::vec3& tint, int alpha) {
 }
 
 void shaded_text(ImDrawList* list, ImVec2 at, const char* text, ImU32 ink) {
-  for (const ImVec2 off : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1)}) {
+  for (const ImVec2 off : {ImVec2(1, 0), ImVec2(-1, 0), ImVec2(0, 1), ImVec2(0, -1), ImVec2(1, 1), ImVec2(-1, -1),
+                           ImVec2(1, -1), ImVec2(-1, 1)}) {
     list->AddText({at.x + off.x, at.y + off.y}, kShade, text);
   }
   list->AddText(at, ink, text);

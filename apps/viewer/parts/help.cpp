@@ -17,7 +17,7 @@ constexpr float kRoom = 0.94F;  // largest part of the window
 }  // namespace
 
 // A small window shows the whole list in small letters.
-void Help::draw_open() {
+void Help::draw_open(float) {
   std::vector<const Action*> rows;
   float keys = 0.0F, whats = 0.0F;
   for (const Action& action : actions_) {

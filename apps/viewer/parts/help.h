@@ -13,7 +13,7 @@ class Help : public Panel {
   Help(const ViewerContext& context, std::span<const Action> actions) : Panel(context, nullptr), actions_(actions) {}
 
  private:
-  void draw_open() override;
+  void draw_open(float foot) override;
 
   std::span<const Action> actions_;
 };

@@ -37,9 +37,9 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
       files_(files),
       switches_(std::move(switches)) {}
 
-void Layers::draw_open() {
+void Layers::draw_open(float foot) {
   std::vector<LayerRow> rows = rows_;
-  const LayerWish wish = draw_layers(panel(), rows, switches_, take_just_opened());
+  const LayerWish wish = draw_layers(panel(), rows, switches_, foot, take_just_opened());
   for (std::size_t i = 0; i < rows.size(); ++i) take_look(rows_[i], rows[i].look);
   switch (wish.ask) {
     case LayerAsk::none:

@@ -28,7 +28,7 @@ class Layers : public Panel {
   bool cancel() override;
 
  private:
-  void draw_open() override;
+  void draw_open(float foot) override;
   void take_look(LayerRow& row, const ImageLook& look);
   Status use_heights(const std::optional<ElevationSource>& heights);
   void move(std::size_t row, bool up);

@@ -35,8 +35,9 @@ class Part {
   Part(const Part&) = delete;
   Part& operator=(const Part&) = delete;
 
-  /// Draws the part's panel, if open, between Ui::begin_frame() and Ui::end_frame().
-  virtual void draw() {}
+  /// Draws the part's panel, if open, between Ui::begin_frame() and Ui::end_frame(). The status line uses `foot` units
+  /// of the window at the lower edge.
+  virtual void draw(float foot) { (void)foot; }
   /// Title of the open panel; null if no panel is open that takes mouse and keyboard.
   [[nodiscard]] virtual const char* panel() const { return nullptr; }
   /// Gives the keyboard to the open panel in the next frame.
@@ -75,12 +76,12 @@ class Panel : public Part {
     toggle();
     return true;
   }
-  void draw() override {
-    if (open_) draw_open();
+  void draw(float foot) override {
+    if (open_) draw_open(foot);
   }
 
  protected:
-  virtual void draw_open() = 0;
+  virtual void draw_open(float foot) = 0;
   virtual bool can_open() { return true; }
   virtual void toggled() {}
   /// True once after the panel was opened or got the keyboard.

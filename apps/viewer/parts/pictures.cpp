@@ -19,7 +19,7 @@ std::filesystem::path next_file() {
 
 }  // namespace
 
-void Pictures::draw_open() {
+void Pictures::draw_open(float) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});

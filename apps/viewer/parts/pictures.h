@@ -27,7 +27,7 @@ class Pictures : public Panel {
   bool cancel() override;
 
  private:
-  void draw_open() override;
+  void draw_open(float foot) override;
   void draw_fields(int most_px);
   void start();
   void end(std::string message);

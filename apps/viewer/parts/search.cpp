@@ -48,7 +48,7 @@ void Search::take_keyboard() {
   context_.ui.expect_text(true);
 }
 
-void Search::draw_open() {
+void Search::draw_open(float) {
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({0.5F * ImGui::GetIO().DisplaySize.x, kTop * unit}, ImGuiCond_Always, {0.5F, 0.0F});
   ImGui::SetNextWindowSize({kSearchWidth * unit, 0.0F});

@@ -18,7 +18,7 @@ class Search : public Panel {
  private:
   bool can_open() override;
   void toggled() override;
-  void draw_open() override;
+  void draw_open(float foot) override;
   [[nodiscard]] std::optional<NamedPlace> draw_field();
   void fly_to(const NamedPlace& place);
 

@@ -48,13 +48,13 @@ void ViewModes::apply(const ViewSettings& settings) {
 }
 
 // Reads the globe's modes first, because keys may have changed them.
-void ViewModes::draw_open() {
+void ViewModes::draw_open(float foot) {
   ViewSettings now = modes();
   now.time_text = std::move(settings_.time_text);
   now.time_problem = std::move(settings_.time_problem);
   now.written = settings_.written;
   settings_ = std::move(now);
-  const Action* clicked = draw_view_settings(panel(), settings_, actions_, take_just_opened());
+  const Action* clicked = draw_view_settings(panel(), settings_, actions_, foot, take_just_opened());
   apply(settings_);
   if (settings_.under_ground != underground_.is_below()) underground_.toggle();
   if (clicked != nullptr) run_(*clicked);

@@ -25,7 +25,7 @@ class ViewModes : public Panel {
   void reset();
 
  private:
-  void draw_open() override;
+  void draw_open(float foot) override;
   void apply(const ViewSettings& settings);
   [[nodiscard]] ViewSettings modes() const;
 

@@ -19,32 +19,27 @@ namespace {
 using Json = nlohmann::json;
 constexpr std::size_t kMostSettingsBytes = 1UL << 20;
 
-/// Reads fields one by one and keeps the first fault.
-class FieldReader {
- public:
-  explicit FieldReader(const Json& json) : json_(json) {}
-  void read(const char* name, bool& value) {
-    if (const Json* field = find(name)) field->is_boolean() ? void(value = field->get<bool>()) : complain(name);
-  }
-  void read(const char* name, int& value) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const std::int64_t number = field->is_number_integer() ? field->get<std::int64_t>() : -1;
-    number >= 0 && number <= kMaxSide_px ? void(value = int(number)) : complain(name);
-  }
-  [[nodiscard]] const std::string& wrong() const { return wrong_; }
+/// Calls `visit` with the name and the member of each setting.
+template <class Visit>
+void for_each_setting(Visit visit) {
+  visit("width", &KeptSettings::width_px);
+  visit("height", &KeptSettings::height_px);
+  visit("panel", &KeptSettings::panel);
+  visit("layers", &KeptSettings::layers);
+  visit("graticule", &KeptSettings::graticule);
+}
 
- private:
-  [[nodiscard]] const Json* find(const char* name) const {
-    const auto found = json_.find(name);
-    return found == json_.end() ? nullptr : &*found;
-  }
-  void complain(const char* name) {
-    if (wrong_.empty()) wrong_ = name;
-  }
-  const Json& json_;
-  std::string wrong_;
-};
+bool read_field(const Json& field, bool& value) {
+  if (field.is_boolean()) value = field.get<bool>();
+  return field.is_boolean();
+}
+
+bool read_field(const Json& field, int& value) {
+  const std::int64_t number = field.is_number_integer() ? field.get<std::int64_t>() : -1;
+  if (number < 0 || number > kMaxSide_px) return false;
+  value = int(number);
+  return true;
+}
 
 Json parsed(const std::vector<std::byte>& bytes) {
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -73,14 +68,12 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
     loaded.complaint = set_aside(file, "no file of settings");
     return loaded;
   }
-  FieldReader reader(json);
-  KeptSettings& settings = loaded.settings;
-  reader.read("width", settings.width_px);
-  reader.read("height", settings.height_px);
-  reader.read("panel", settings.panel);
-  reader.read("layers", settings.layers);
-  reader.read("graticule", settings.graticule);
-  if (!reader.wrong().empty()) loaded.complaint = set_aside(file, "\"" + reader.wrong() + "\" is out of its range");
+  std::string wrong;
+  for_each_setting([&](const char* name, auto member) {
+    const auto field = json.find(name);
+    if (field != json.end() && !read_field(*field, loaded.settings.*member) && wrong.empty()) wrong = name;
+  });
+  if (!wrong.empty()) loaded.complaint = set_aside(file, "\"" + wrong + "\" is out of its range");
   return loaded;
 }
 
@@ -93,24 +86,15 @@ Status save_settings(const std::filesystem::path& file, const KeptSettings& sett
     Json before = parsed(*bytes);
     if (before.is_object()) json = std::move(before);
   }
-  json["width"] = settings.width_px;
-  json["height"] = settings.height_px;
-  json["panel"] = settings.panel;
-  json["layers"] = settings.layers;
-  json["graticule"] = settings.graticule;
+  for_each_setting([&](const char* name, auto member) { json[name] = settings.*member; });
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   return write_file(file, std::as_bytes(std::span(text)));
 }
 
 KeptSettings changed_since(KeptSettings kept, const KeptSettings& start, const KeptSettings& now) {
-  const auto take = [&](auto field) {
-    if (start.*field != now.*field) kept.*field = now.*field;
-  };
-  take(&KeptSettings::width_px);
-  take(&KeptSettings::height_px);
-  take(&KeptSettings::panel);
-  take(&KeptSettings::layers);
-  take(&KeptSettings::graticule);
+  for_each_setting([&](const char*, auto member) {
+    if (start.*member != now.*member) kept.*member = now.*member;
+  });
   return kept;
 }
 

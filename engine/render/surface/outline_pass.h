@@ -5,7 +5,6 @@
 #include "base/result.h"
 #include "geo/camera.h"
 #include "render/gl/draw_state.h"
-#include "render/gl/frame_targets.h"
 #include "render/gl/gl_handle.h"
 #include "render/surface/limb_pass.h"
 
@@ -23,11 +22,8 @@ class OutlinePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<OutlinePass>> create();
 
-  /// Blends the outline into the bound framebuffer, without a depth test. Returns the draw calls made.
-  int draw(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, DrawState state) const;
-  /// The same if the bound framebuffer is the one that holds the picture, as in LimbPass::draw_in_place().
-  int draw_in_place(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, const DrawState& state,
-                    const FrameTargets::Beside& beside, GLuint framebuffer) const;
+  /// Blends the outline into the bound framebuffer, without a depth test.
+  void draw(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, DrawState state) const;
 
  private:
   OutlinePass() = default;

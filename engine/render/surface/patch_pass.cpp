@@ -61,47 +61,37 @@ Status PatchPass::prepare_upper(bool special) {
   }
   if (flat_program_) return Done{};
   if (Status built = build_programs(upper_, "UPPER_LAYER"); !built) return built;
-  Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kBaseLayer);
-  if (!flat) return flat.error();
-  flat_program_ = std::move(*flat);
-  return Done{};
+  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
 }
 
 Status PatchPass::prepare_depth() {
-  if (depth_program_) return Done{};
-  Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kBaseLayer);
-  if (!program) return program.error();
-  depth_program_ = std::move(*program);
-  return Done{};
+  return depth_program_ ? Done{} : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, kBaseLayer);
 }
 
-Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment,
-                                             std::string_view layer) const {
-  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
-                        functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
+Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment,
+                        std::string_view layer) const {
+  return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                    {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                     functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 
 Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
   using enum PatchLayer::Program;
-  const auto build = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) -> Status {
-    Result<gl::Program> program = patch_program(files, layer);
-    if (!program) return program.error();
-    programs[which] = std::move(*program);
-    return Done{};
+  const auto make = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) {
+    return build(programs[which], files, layer);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = build(
+    Status s = make(
         polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (Status s = make(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
+  if (Status s = make(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
+  if (Status s = make(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
   if (options_.texturing == Texturing::paper) {
-    return build(paper,
-                 {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+    return make(paper,
+                {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
   }
   return Done{};
 }

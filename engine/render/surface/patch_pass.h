@@ -14,8 +14,8 @@
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "view/render_modes.h"
 
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
@@ -72,8 +72,7 @@ class PatchPass {
 
   PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
   Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
-  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment,
-                                                  std::string_view layer) const;
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;

@@ -80,7 +80,6 @@ void TileTextures::shrink() {
   const gl::Texture larger = std::exchange(texture_, gl::make_texture(GL_TEXTURE_2D_ARRAY));
   slots_ = most_slots_;
   used_ = 1;
-  free_.clear();
   glTextureStorage3D(texture_.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots_);
   paint_empty();
   for (const auto& [id, entry] : tiles) {
@@ -123,11 +122,6 @@ bool TileTextures::grow() {
 }
 
 int TileTextures::take_slot(std::uint64_t frame) {
-  if (!free_.empty()) {
-    const int slot = free_.back();
-    free_.pop_back();
-    return slot;
-  }
   if (used_ < slots_ || grow()) return used_++;
   const std::optional<TileId> oldest = residency_.to_evict(frame, grid_.min_level);
   if (!oldest) return -1;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_handle.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_residency.h"
 
@@ -66,7 +66,6 @@ class TileTextures {
   int slots_ = 0;
   int used_ = 1;
   Empty empty_ = Empty::plain_colour;
-  std::vector<int> free_;
   gl::Texture texture_;
   gl::Framebuffer stretch_from_, stretch_into_;  ///< made when rows of different squeeze first meet
   TileResidency residency_;
