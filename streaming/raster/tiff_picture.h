@@ -8,8 +8,8 @@
 
 namespace terrella {
 
-/// Most memory for a decoded tile, bytes. A file with larger tiles is refused with advice.
-inline constexpr std::uint64_t kMaxTiffTileBytes = 256ULL << 20;
+/// Most memory for a decoded tile or row, bytes. A file with larger ones is refused with advice.
+inline constexpr std::uint64_t kMaxTiffTileBytes = 64ULL << 20;
 
 /// One directory of a TIFF: size, blocks and samples, with all values checked against each other.
 struct TiffPicture {

@@ -89,6 +89,8 @@ bool TiffSamples::may_be_clear() const {
 }
 
 ColourConverter::ColourConverter(TiffSamples samples) : samples_(std::move(samples)) {
+  is_plain_rgb_ = samples_.colour == TiffColour::rgb && samples_.per_pixel == 3 && samples_.stored_bits == 8 &&
+                  samples_.type == SampleType::uint8 && !samples_.nodata && !samples_.stretch;
   if (samples_.colour == TiffColour::palette) return;
   const auto fill = [this](auto zero) {
     using T = decltype(zero);
@@ -147,6 +149,13 @@ void ColourConverter::convert(const std::uint8_t* from, std::size_t pixels, std:
 }
 
 void ColourConverter::to_rgba(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const {
+  if (is_plain_rgb_) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      std::memcpy(rgba + 4 * i, from + 3 * i, 3);
+      rgba[4 * i + 3] = 255;
+    }
+    return;
+  }
   with_sample_type(samples_.type, [&](auto zero) { convert<decltype(zero)>(from, pixels, rgba); });
 }
 

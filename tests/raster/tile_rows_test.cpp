@@ -174,7 +174,7 @@ TEST(TileRowsTest, OtherGridsAreRefused) {
 }
 
 /// One row of tiles is all that is held, also for 86400 columns.
-TEST(TileRowsTest, WidePicturesFitIntoTheirPart) {
+TEST(WidePictureTest, RowsOfTilesFitIntoTheirPart) {
   constexpr std::int64_t kPlanetWidth = 86400;
   constexpr long kMost_KiB = 64L << 10;
   TileSetInfo info = half_degree(rect(-180.0, 88.0, 180.0, 90.0));
