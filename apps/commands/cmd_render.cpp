@@ -168,6 +168,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  set_paper_texturing(**globe, command.scene);
   if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);

@@ -7,8 +7,8 @@
 
 #include "apps/commands/flight_tiles.h"
 #include "geo/body.h"
-#include "streaming/mercator/mercator_grid.h"
 #include "streaming/preload/geojson_region.h"
+#include "streaming/warp/web_mercator.h"
 
 namespace terrella {
 namespace {
@@ -35,14 +35,13 @@ Result<Region> region_of(const PreloadCommand& command) {
 }
 
 /// For Web Mercator, returns the source tiles of the drawn tiles.
-std::vector<TileId> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body, Viewport size,
-                                     const TileGrid& grid) {
+Result<std::vector<TileId>> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body,
+                                             Viewport size, const TileGrid& grid) {
   if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});
-  std::set<TileId> stored;
-  for (const TileId& id : tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size})) {
-    for (const MercatorPiece& piece : plan_tile(grid, id).pieces) stored.insert(piece.id);
-  }
-  return {stored.begin(), stored.end()};
+  const auto stored =
+      stored_tiles_of(grid, tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size}));
+  if (!stored) return stored.error();
+  return std::vector<TileId>(stored->begin(), stored->end());
 }
 
 Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command, const TileSetInfo& info) {
@@ -50,12 +49,19 @@ Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command
   if (!body) return body.error();
   const auto levels = levels_of(command, info.grid);
   if (!levels) return levels.error();
+  if (info.square && (!command.flight.empty() || !command.boxes.empty() || !command.polygons.empty())) {
+    return Error{
+        fmt::format("{}: its tiles are in {}, and areas and flights choose tiles in EPSG:4326 or EPSG:3857 alone; "
+                    "preload all of it, or --levels of it",
+                    command.source.redacted(), info.square->crs.substr(0, 100))};
+  }
   if (!command.flight.empty()) {
     auto path = read_flight(command.flight);
     if (!path) return path.error();
-    std::vector<TileId> tiles = tiles_flown_over(*path, *body, command.size, info.grid);
-    std::erase_if(tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
-    return std::shared_ptr<const TilePlan>(plan_list(std::move(tiles)));
+    auto tiles = tiles_flown_over(*path, *body, command.size, info.grid);
+    if (!tiles) return tiles.error();
+    std::erase_if(*tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
+    return std::shared_ptr<const TilePlan>(plan_list(*std::move(tiles)));
   }
   auto region = region_of(command);
   if (!region) return region.error();

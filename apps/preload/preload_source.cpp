@@ -18,7 +18,7 @@ Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote
   auto set = fetch_description(source, remote, http);
   if (!set) return set.error();
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
-  opened.make_origin = [set = *std::move(set), http](ReplyQueue& answers) {
+  opened.make_origin = [http = within_limits(http, *set), set = *std::move(set)](ReplyQueue& answers) {
     return network_origin(set, http, answers);
   };
   return opened;
@@ -55,6 +55,12 @@ Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& 
   return describe_remote(source, remote, [&](const Url& url, const std::vector<std::string>& headers) {
     return fetch_document(http, url, headers);
   });
+}
+
+HttpOptions within_limits(HttpOptions http, const RemoteTileSet& set) {
+  if (set.timeout) http.total_timeout = std::min<std::chrono::milliseconds>(http.total_timeout, *set.timeout);
+  if (set.connections > 0) http.connections_per_host = std::min(http.connections_per_host, set.connections);
+  return http;
 }
 
 Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,

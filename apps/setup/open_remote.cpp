@@ -14,10 +14,10 @@
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/tile_cache.h"
-#include "streaming/mercator/mercator_source.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/web_mercator.h"
 
 namespace terrella {
 namespace {
@@ -123,12 +123,13 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
 
 Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (options.offline) return open_offline(options);
-  const HttpOptions http = network_options();
+  HttpOptions http = network_options();
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
   auto set = fetch_description(options.tile_set, remote, http);
   if (!set) return set.error();
+  http = within_limits(http, *set);
   auto cache = cache_of(options, *set);
   if (!cache) return cache.error();
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {

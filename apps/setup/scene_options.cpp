@@ -7,6 +7,7 @@
 #include "apps/commands/option_checks.h"
 #include "apps/commands/remote_set_options.h"
 #include "apps/setup/scene_overlays.h"
+#include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "view/view_limits.h"
 
@@ -270,8 +271,6 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   GlobeOptions globe;
   globe.body = body;
   globe.texturing = options.texturing;
-  globe.paper_a = options.paper_a;
-  globe.paper_band = options.band;
   globe.squeezed_rows = options.squeezed_rows;
   globe.polar_columns = options.polar_columns;
   globe.texels_per_pixel = options.texels_per_pixel;
@@ -284,6 +283,12 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   globe.stereo = options.stereo;
   globe.gpu_bytes = options.memory_mb << 20;
   return globe;
+}
+
+void set_paper_texturing(Globe& globe, const SceneOptions& options) {
+  Experiments& experiments = Experiments::of(globe);
+  experiments.paper_a = options.paper_a;
+  experiments.paper_band = options.band;
 }
 
 }  // namespace terrella

@@ -70,5 +70,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Converts the options for the globe. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
+/// Sets --paper-a and --band, which GlobeOptions does not have. thread: main
+void set_paper_texturing(Globe& globe, const SceneOptions& options);
 
 }  // namespace terrella

@@ -23,16 +23,23 @@ struct UploadAllowance {
   std::chrono::steady_clock::time_point deadline;
 };
 
+/// The parts of a globe with which its layers are made.
+struct LayerSetup {
+  const GlobeOptions& options;
+  CubeMapping mapping;
+  Relief* relief = nullptr;           ///< null: the ellipsoid
+  std::shared_ptr<ArrivalBell> bell;  ///< rings when a tile has arrived
+};
+
 /// One image layer of a globe: its tiles from the source to the GPU, and the patches that a frame draws with them.
 /// thread: main
 class ImageLayer {
  public:
-  /// `gpu_bytes` is this layer's share of the budget. `relief` is the globe's; null: the ellipsoid. `bell` rings when a
-  /// tile has arrived.
-  ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
-             std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
-  /// Makes the layer of plain colour that is drawn if no layer is opaque.
-  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
+  /// `gpu_bytes` is this layer's share of the budget.
+  ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<TileSource> source, const ImageLook& look,
+             std::size_t gpu_bytes);
+  /// Makes the layer of plain colour that is the base layer if the lowest image layer is not opaque.
+  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const LayerSetup& setup);
 
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
@@ -60,14 +67,14 @@ class ImageLayer {
   [[nodiscard]] LayerSnapshot snapshot();
   /// Takes a plan over: its patches, its tiles and their use, and what the tree misses.
   void execute(LayerPlan plan, std::uint64_t frame);
-  void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
+  void copy_relief();  ///< from the patches of the base layer, on which this upper layer lies
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `missing`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<MissingTile>& missing);
   void ask();
   void end_frame(std::uint64_t frame);  ///< evicts and forgets what frames have not used for long
   void stop_asking();
-  [[nodiscard]] LayerFrame frame(bool first, bool has_night);
+  [[nodiscard]] LayerFrame frame(bool is_base, bool has_night);
 
   [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
@@ -93,7 +100,7 @@ class ImageLayer {
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
   double detail_ = 1.0;            ///< part of texels_per_pixel_ that views have room for
-  bool has_transparency_ = false;  ///< a tile came that has some
+  bool has_transparency_ = false;  ///< a loaded tile has transparent pixels
 };
 
 }  // namespace terrella

@@ -42,10 +42,10 @@ HeightField::HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid) : ell
   for (int level = 0; level <= grid.max_level; ++level) {
     LevelSize& size = sizes_[static_cast<std::size_t>(level)];
     size.span_deg = tile_span_deg(grid, level);
-    size.turn_px = 360.0 * grid.tile_px / size.span_deg;
+    size.turn_px = (180.0 - grid.west_deg) * grid.tile_px / size.span_deg;
     size.columns = columns(grid, level);
     size.rows = rows(grid, level);
-    size.last_pixel_row = pixels_over(0.5 * size.turn_px) - 1;
+    size.last_pixel_row = pixels_over((top_row_deg(grid) + 90.0) * grid.tile_px / size.span_deg) - 1;
   }
 }
 
@@ -101,9 +101,10 @@ const HeightField::Held* HeightField::finest_at(double row_latitude_deg, double 
 /// The south pole, and what rounding lets stand on the last border, belong to the last row and column.
 TileId HeightField::tile_at(int level, double row_latitude_deg, double lon_deg) const {
   const LevelSize& size = size_of(level);
-  return {.level = level,
-          .x = std::clamp<std::int64_t>(whole((lon_deg + 180.0) / size.span_deg), 0, size.columns - 1),
-          .y = std::clamp<std::int64_t>(whole((90.0 - row_latitude_deg) / size.span_deg), 0, size.rows - 1)};
+  return {
+      .level = level,
+      .x = std::clamp<std::int64_t>(whole((lon_deg - grid_.west_deg) / size.span_deg), 0, size.columns - 1),
+      .y = std::clamp<std::int64_t>(whole((top_row_deg(grid_) - row_latitude_deg) / size.span_deg), 0, size.rows - 1)};
 }
 
 // ---- heights
@@ -138,8 +139,8 @@ double HeightField::Cursor::height_at_row_m(double row_latitude_deg, double lon_
   const TileId& id = own_->tile.id;
   const std::int64_t side = own_->tile.side_px;
   const double span_deg = field_.size_of(id.level).span_deg;
-  const double x = (lon + 180.0) / span_deg * static_cast<double>(side) - 0.5;
-  const double y = (90.0 - row_latitude_deg) / span_deg * static_cast<double>(side) - 0.5;
+  const double x = (lon - field_.grid_.west_deg) / span_deg * static_cast<double>(side) - 0.5;
+  const double y = (top_row_deg(field_.grid_) - row_latitude_deg) / span_deg * static_cast<double>(side) - 0.5;
   const std::int64_t x0 = whole(x), y0 = whole(y);
   const double east = x - static_cast<double>(x0), south = y - static_cast<double>(y0);
   const std::int64_t column = x0 - id.x * side, row = y0 - id.y * side;
@@ -163,10 +164,12 @@ double HeightField::pixel(const Held& own, std::int64_t x, std::int64_t y) const
   return pixel_round_planet(own, x, std::clamp<std::int64_t>(y, 0, size_of(own.tile.id.level).last_pixel_row));
 }
 
-/// Where 360° are no whole number of pixels, a column beyond ±180° lies between two that are there.
+/// Where 360° are no whole number of pixels, a column beyond ±180° lies between two that are there. A grid with an
+/// origin of its own does not go round the planet.
 double HeightField::pixel_round_planet(const Held& own, std::int64_t x, std::int64_t y) const {
   const double turn = turn_px(own.tile.id.level);
   if (x >= 0 && x < pixels_over(turn)) return pixel_in_tiles(own, x, y);
+  if (grid_.west_deg != -180.0) return pixel_in_tiles(own, x < 0 ? 0 : pixels_over(turn) - 1, y);
   const double column = static_cast<double>(x) + (x < 0 ? turn : -turn);
   const std::int64_t first = whole(column + kPixelNoise);
   const double share = std::max(0.0, column - static_cast<double>(first));

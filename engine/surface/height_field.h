@@ -65,7 +65,7 @@ class HeightField {
   /// Values of a level, computed once.
   struct LevelSize {
     double span_deg = 0.0;  ///< of a tile
-    double turn_px = 0.0;   ///< 360°, no whole number in some grids
+    double turn_px = 0.0;   ///< from the origin to 180°: 360° or more, no whole number in some grids
     std::int64_t columns = 0, rows = 0;
     std::int64_t last_pixel_row = 0;
   };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,13 +19,6 @@ namespace {
 
 TileFailure broken(const std::string& why) { return {MissingKind::broken, why}; }
 
-/// metres = number · scale + offset, with the factors of tile and set combined.
-struct Metres {
-  double scale;
-  double offset;
-  std::optional<double> nodata;
-};
-
 /// The nodata of float tiles may be written with more digits than a float holds. A value beyond the range of floats
 /// means nothing.
 std::optional<double> nodata_of(const ElevationInfo& info) {
@@ -33,21 +27,39 @@ std::optional<double> nodata_of(const ElevationInfo& info) {
   return static_cast<double>(static_cast<float>(*info.nodata));
 }
 
-Metres metres_of(const EncodedTile& tile, const ElevationInfo& info) {
-  return {.scale = tile.number_scale * info.scale,
-          .offset = tile.number_offset * info.scale + info.offset,
-          .nodata = nodata_of(info)};
+Result<Numbers, TileFailure> from_png(const EncodedTile& encoded, int side_px, bool is_signed) {
+  if (const ImageFormat format = sniff_format(encoded.bytes); format != ImageFormat::png) {
+    return broken(
+        fmt::format("{}, heights are PNG pictures, gray of 16 bits", format == ImageFormat::jpeg   ? "a JPEG picture"
+                                                                     : format == ImageFormat::webp ? "a WebP picture"
+                                                                                                   : "no PNG picture"));
+  }
+  DecodeLimits limits;
+  limits.max_side_px = std::max(side_px, 1024);
+  const Result<Gray16> gray = decode_gray16_png(encoded.bytes, limits);
+  if (!gray) return broken(gray.error().message);
+  Numbers numbers{gray->width_px, gray->height_px, {}};
+  const auto number = [is_signed](std::uint16_t bits) {
+    return is_signed ? static_cast<float>(static_cast<std::int16_t>(bits)) : static_cast<float>(bits);
+  };
+  std::ranges::transform(gray->values, std::back_inserter(numbers.values), number);
+  return numbers;
 }
 
-template <class Number>
-Result<HeightTile, TileFailure> to_heights(HeightTile tile, const std::vector<Number>& numbers, const Metres& metres) {
-  tile.heights_m.reserve(numbers.size());
+Result<Numbers, TileFailure> from_tiff(const EncodedTile& encoded, int side_px) {
+  auto values = decode_float_tiff(encoded.bytes, side_px);
+  if (!values) return broken(values.error().message);
+  return Numbers{side_px, side_px, *std::move(values)};
+}
+
+/// metres = number · scale + offset, with the factors of tile and set combined.
+Result<HeightTile, TileFailure> to_heights(HeightTile tile, const Numbers& numbers, double scale, double offset) {
+  tile.heights_m.reserve(numbers.values.size());
   std::vector<std::uint8_t> is_known;
-  is_known.reserve(numbers.size());
-  for (const Number number : numbers) {
-    const auto value = static_cast<double>(number);
-    const double height_m = value * metres.scale + metres.offset;
-    const bool known = value != metres.nodata && std::isfinite(height_m);
+  is_known.reserve(numbers.values.size());
+  for (const float number : numbers.values) {
+    const double height_m = static_cast<double>(number) * scale + offset;
+    const bool known = std::isfinite(height_m);
     if (!known) ++tile.unknown;
     if (known && std::abs(height_m) > kMaxHeight_m) {
       return broken(
@@ -63,36 +75,32 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const std::vector<Nu
   return tile;
 }
 
-Result<HeightTile, TileFailure> from_png(HeightTile tile, const EncodedTile& encoded, const Metres& metres) {
-  DecodeLimits limits;
-  limits.max_side_px = std::max(tile.side_px, 1024);
-  const Result<Gray16> gray = decode_gray16_png(encoded.bytes, limits);
-  if (!gray) return broken(gray.error().message);
-  if (gray->width_px != tile.side_px || gray->height_px != tile.side_px) {
-    return broken(fmt::format("PNG: {}×{} pixels, the tile set says {}×{}", gray->width_px, gray->height_px,
-                              tile.side_px, tile.side_px));
-  }
-  return to_heights(std::move(tile), gray->values, metres);
-}
-
 }  // namespace
+
+Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const ElevationInfo& info, int side_px) {
+  auto numbers = tile.make_numbers ? tile.make_numbers()
+                 : info.floats     ? from_tiff(tile, side_px)
+                                   : from_png(tile, side_px, info.is_signed);
+  if (!numbers) return numbers;
+  if (numbers->width_px != side_px || numbers->height_px != side_px) {
+    return broken(fmt::format("PNG: {}×{} pixels, the tile set says {}×{}", numbers->width_px, numbers->height_px,
+                              side_px, side_px));
+  }
+  const std::optional<double> nodata = nodata_of(info);
+  for (float& number : numbers->values) {
+    if (static_cast<double>(number) == nodata || !std::isfinite(number)) {
+      number = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return numbers;
+}
 
 Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile, const ElevationInfo& info,
                                                int side_px) {
-  HeightTile made{.id = id, .side_px = side_px, .heights_m = {}};
-  const Metres metres = metres_of(tile, info);
-  if (info.floats) {
-    const auto numbers = decode_float_tiff(tile.bytes, side_px);
-    if (!numbers) return broken(numbers.error().message);
-    return to_heights(std::move(made), *numbers, metres);
-  }
-  if (const ImageFormat format = sniff_format(tile.bytes); format != ImageFormat::png) {
-    return broken(
-        fmt::format("{}, heights are PNG pictures, gray of 16 bits", format == ImageFormat::jpeg   ? "a JPEG picture"
-                                                                     : format == ImageFormat::webp ? "a WebP picture"
-                                                                                                   : "no PNG picture"));
-  }
-  return from_png(std::move(made), tile, metres);
+  const auto numbers = decode_numbers(tile, info, side_px);
+  if (!numbers) return numbers.error();
+  return to_heights({.id = id, .side_px = side_px, .heights_m = {}}, *numbers, tile.number_scale * info.scale,
+                    tile.number_offset * info.scale + info.offset);
 }
 
 }  // namespace terrella

@@ -73,17 +73,6 @@ Status read_figure(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
   return Error{"its coordinate system names no body"};
 }
 
-/// Conversion from a system's own longitudes and latitudes to degrees.
-struct OwnDegrees {
-  double unit_deg = 1.0;
-  double prime_meridian_deg = 0.0;
-  bool west_positive = false;
-
-  [[nodiscard]] CrsPoint of(CrsPoint own) const {
-    return {(west_positive ? -own.x : own.x) * unit_deg + prime_meridian_deg, own.y * unit_deg};
-  }
-};
-
 OwnDegrees own_degrees(PJ_CONTEXT* context, const PJconsts* geodetic) {
   OwnDegrees own;
   const ProjHandle axes = wrap(proj_crs_get_coordinate_system(context, geodetic));
@@ -107,6 +96,13 @@ ProjHandle path_between(PJ_CONTEXT* context, const PJconsts* from, const PJconst
   const ProjHandle path = wrap(proj_create_crs_to_crs_from_pj(context, const_cast<PJconsts*>(from),
                                                               const_cast<PJconsts*>(to), nullptr, nullptr));
   return path ? wrap(proj_normalize_for_visualization(context, path.get())) : nullptr;
+}
+
+/// Infinite if there is no result.
+CrsPoint moved(PJconsts* path, PJ_DIRECTION direction, CrsPoint from) {
+  const PJ_COORD to = proj_trans(path, direction, proj_coord(from.x, from.y, 0.0, HUGE_VAL));
+  if (std::isfinite(to.xy.x) && std::isfinite(to.xy.y)) return {to.xy.x, to.xy.y};
+  return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -173,26 +169,29 @@ std::string Crs::degrees_text() const {
   return fmt::format("+proj=longlat +a={:.17g} +b={:.17g} +no_defs", facts_.a_m, facts_.b_m);
 }
 
-Result<std::vector<CrsPoint>> Crs::places(std::vector<CrsPoint> points) const {
+Status Crs::find_path() const {
+  if (path_) return Done{};
   PJ_CONTEXT* context = context_.get();
-  ProjHandle path;
-  OwnDegrees own;
-  if (is_earth()) path = path_between(context, crs_.get(), wrap(proj_create(context, "EPSG:4326")).get());
-  if (!path) {
+  if (is_earth()) path_ = path_between(context, crs_.get(), wrap(proj_create(context, "EPSG:4326")).get());
+  if (!path_) {
     const ProjHandle geodetic = wrap(proj_crs_get_geodetic_crs(context, crs_.get()));
-    path = path_between(context, crs_.get(), geodetic.get());
-    if (path) own = own_degrees(context, geodetic.get());
+    path_ = path_between(context, crs_.get(), geodetic.get());
+    if (path_) own_ = own_degrees(context, geodetic.get());
   }
-  if (!path) return Error{fmt::format("there is no way from {} to longitudes and latitudes", facts_.name)};
-  for (CrsPoint& point : points) {
-    PJ_COORD at = proj_coord(point.x, point.y, 0.0, HUGE_VAL);
-    at = proj_trans(path.get(), PJ_FWD, at);
-    point = own.of({at.xy.x, at.xy.y});
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      point = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    }
-  }
+  if (!path_) return Error{fmt::format("there is no way from {} to longitudes and latitudes", facts_.name)};
+  return Done{};
+}
+
+Result<std::vector<CrsPoint>> Crs::places(std::vector<CrsPoint> points) const {
+  if (Status found = find_path(); !found) return found.error();
+  for (CrsPoint& point : points) point = own_.of(moved(path_.get(), PJ_FWD, point));
   return points;
+}
+
+Result<std::vector<CrsPoint>> Crs::points(std::vector<CrsPoint> places) const {
+  if (Status found = find_path(); !found) return found.error();
+  for (CrsPoint& place : places) place = moved(path_.get(), PJ_INV, own_.from(place));
+  return places;
 }
 
 }  // namespace terrella

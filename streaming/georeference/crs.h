@@ -42,6 +42,21 @@ struct CrsFacts {
 /// files on this machine.
 [[nodiscard]] std::string wkt_only(std::string text);
 
+/// Conversion between a system's own longitudes and latitudes and degrees.
+struct OwnDegrees {
+  double unit_deg = 1.0;
+  double prime_meridian_deg = 0.0;
+  bool west_positive = false;
+
+  [[nodiscard]] CrsPoint of(CrsPoint own) const {
+    return {(west_positive ? -own.x : own.x) * unit_deg + prime_meridian_deg, own.y * unit_deg};
+  }
+  [[nodiscard]] CrsPoint from(CrsPoint degrees) const {
+    const double east = (degrees.x - prime_meridian_deg) / unit_deg;
+    return {west_positive ? -east : east, degrees.y / unit_deg};
+  }
+};
+
 /// A horizontal coordinate reference system, as known to PROJ. Move-only. thread: one at a time
 class Crs {
  public:
@@ -55,12 +70,18 @@ class Crs {
   /// Converts points of the system to longitudes (x, in any turn) and geodetic latitudes (y), in degrees. These are on
   /// WGS 84 for Earth, else on the system's own ellipsoid. Points without a place become infinite.
   [[nodiscard]] Result<std::vector<CrsPoint>> places(std::vector<CrsPoint> points) const;
+  /// The inverse of places(): converts longitudes and latitudes in degrees to points of the system. Places without a
+  /// point become infinite.
+  [[nodiscard]] Result<std::vector<CrsPoint>> points(std::vector<CrsPoint> places) const;
 
  private:
   Crs() = default;
+  [[nodiscard]] Status find_path() const;
   ProjContext context_;
   ProjHandle crs_;
   CrsFacts facts_;
+  mutable ProjHandle path_;  ///< to degrees; found when first needed
+  mutable OwnDegrees own_;
 };
 
 }  // namespace terrella

@@ -7,17 +7,12 @@
 #include <array>
 #include <charconv>
 
+#include "base/number.h"
+
 namespace terrella::http {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 8192;  // most servers accept no more
-constexpr std::string_view kBlank = " \t\r\n";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 // std::tolower would use the locale.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "streaming/file_bytes.h"
-#include "streaming/mercator/mercator_source.h"
 #include "streaming/other_formats.h"
 #include "streaming/pmtiles/pmtiles_set.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sets/geopackage_source.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/web_mercator.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

@@ -63,7 +63,7 @@ TEST(SourceJson, RefusesByFileAndField) {
   expect_json_refused(R"({"url": "u", "format": "jpg", "elevation": {"scale": 1, "offset": 0}})", "\"png\"");
   expect_json_refused("[]", "one JSON object");
   expect_json_refused("{}", "\"url\" is missing");
-  expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the three");
+  expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the four");
   expect_json_refused(R"({"url": "a", "layer": "b"})", "\"layer\"");
   expect_json_refused(R"({"url": "a", "attributions": "b"})", "\"attributions\" is not known");
   expect_json_refused(R"({"url": 5})", "\"url\" must be a text");

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "streaming/warp/stored_blocks.h"
+#include "streaming/warp/warp_plan.h"
+#include "streaming/warp/warp_source.h"
+
+namespace terrella {
+
+/// Plans tiles for several threads at a time: each uses its own map, because PROJ's objects belong to one thread.
+/// thread: any
+class TilePlanner {
+ public:
+  /// Fails as GroundMap::open() does.
+  [[nodiscard]] static Result<std::shared_ptr<TilePlanner>> open(const RasterInfo& raster, const WarpFigure& figure,
+                                                                 const TileGrid& grid, Overviews overviews);
+  [[nodiscard]] const WarpFrame& frame() const { return frame_; }
+  [[nodiscard]] WarpPlan plan(const TileId& id);
+
+ private:
+  TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
+              Overviews overviews);
+
+  const RasterInfo raster_;
+  const WarpFigure figure_;
+  const WarpFrame frame_;
+  std::mutex mutex_;             ///< guards idle_
+  std::vector<GroundMap> idle_;  ///< maps that no thread uses
+};
+
+/// Makes a source of tiles in a given grid; `info` describes it.
+[[nodiscard]] std::unique_ptr<TileSource> make_warp_source(std::unique_ptr<RasterSource> raster,
+                                                           std::shared_ptr<TilePlanner> planner, TileSetInfo info,
+                                                           BlockNames names, std::size_t decoded_bytes);
+
+}  // namespace terrella

@@ -1,0 +1,41 @@
+#include "streaming/warp/resample.h"
+
+#include "streaming/warp/resample_lines.h"
+#include "streaming/warp/resample_patch.h"
+#include "streaming/warp/tile_pixels.h"
+
+namespace terrella {
+namespace {
+
+template <class Tile>
+Result<typename Tile::Pixels, TileFailure> warped(const WarpPlan& plan, const WarpLevel& level,
+                                                  const BlockAt& block_at) {
+  auto pixels = Tile::make(plan.tile_px);
+  if (plan.lines && are_copies(*plan.lines)) {
+    if (auto failed = copy_lines<Tile>(plan, level, block_at, pixels)) return *failed;
+    return pixels;
+  }
+  if (plan.lines) {
+    const auto canvas = read_canvas<Tile::kChannels>(level, plan.level, plan.lines->canvas, block_at);
+    if (!canvas) return canvas.error();
+    resample_lines<Tile>(*plan.lines, *canvas, pixels);
+  }
+  for (const WarpChunk& chunk : plan.chunks) {
+    const auto canvas = read_canvas<Tile::kChannels>(level, plan.level, chunk.canvas, block_at);
+    if (!canvas) return canvas.error();
+    for (const Patch& patch : chunk.patches) resample_patch<Tile>(patch, level.area, *canvas, pixels);
+  }
+  return pixels;
+}
+
+}  // namespace
+
+Result<Image, TileFailure> warp_picture(const WarpPlan& plan, const WarpLevel& level, const BlockAt& block_at) {
+  return warped<ColourTile>(plan, level, block_at);
+}
+
+Result<Numbers, TileFailure> warp_numbers(const WarpPlan& plan, const WarpLevel& level, const BlockAt& block_at) {
+  return warped<NumberTile>(plan, level, block_at);
+}
+
+}  // namespace terrella

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "streaming/warp/taps.h"
+#include "streaming/warp/warp_levels.h"
+
+namespace terrella {
+
+/// A raster and the grid of the tiles that are made of it.
+struct WarpFrame {
+  TileGrid grid;
+  std::vector<WarpLevel> levels;
+};
+
+/// A block that contributes to a tile.
+struct WarpPiece {
+  TileId id;          ///< level: index in WarpFrame::levels
+  bool core = false;  ///< lies under the tile itself; false: only under the filter's reach beyond
+};
+
+/// Patches that are made from one canvas of source pixels.
+struct WarpChunk {
+  PixelRect64 canvas;
+  std::vector<Patch> patches;  ///< in pixels of the level
+};
+
+/// Recipe of a tile whose columns are columns of the source, and rows rows.
+struct WarpLines {
+  PixelRect64 canvas;
+  std::vector<LineTaps> columns, rows;  ///< taps count from the canvas' corner
+};
+
+/// Recipe of a tile: blocks, source pixels and weights.
+struct WarpPlan {
+  int tile_px = 0;
+  int level = 0;  ///< index in WarpFrame::levels
+  std::vector<WarpPiece> pieces;
+  std::optional<WarpLines> lines;  ///< none: chunks
+  std::vector<WarpChunk> chunks;
+};
+
+/// Plans a tile.
+/// The level is the coarsest whose pixels are no larger than the tile's, both measured along the meridian, in three
+/// quarters of the tile. Tiles near the poles have more columns than a view needs, so that columns do not count.
+/// thread: one at a time for a map
+[[nodiscard]] WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id);
+
+}  // namespace terrella

@@ -1,0 +1,77 @@
+#include "streaming/warp/web_mercator.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "geo/body.h"
+#include "streaming/raster/tile_raster.h"
+#include "streaming/sets/tileset_check.h"
+#include "streaming/warp/make_warp_source.h"
+#include "streaming/warp/projected_tiles.h"
+
+namespace terrella {
+namespace {
+
+/// A finer level is not used for a shortfall below this fraction of a level.
+constexpr double kLevelSlack = 0.02;
+
+/// Rows of the tiles count the same latitude as the stored tiles'.
+WarpFigure figure_of(const TileGrid& grid) {
+  return {.ellipsoid = earth().ellipsoid, .latitude = grid.latitude, .crs_latitude = grid.latitude};
+}
+
+}  // namespace
+
+TileGrid geodetic_grid_of(const TileGrid& mercator) {
+  assert(mercator.projection == Projection::web_mercator);
+  TileGrid grid = mercator;
+  grid.projection = Projection::equirectangular;
+  const auto within = [](Angle side) {
+    return Angle::degrees(std::clamp(side.deg(), -kMercatorEndDeg, kMercatorEndDeg));
+  };
+  grid.bounds.south = within(mercator.bounds.south);
+  grid.bounds.north = within(mercator.bounds.north);
+  const double farthest = std::max(std::abs(grid.bounds.south.deg()), std::abs(grid.bounds.north.deg()));
+  const double cosine = std::cos(Angle::degrees(farthest).rad());
+  const int further = static_cast<int>(std::floor(-std::log2(cosine) + kLevelSlack));
+  grid.max_level = std::min(mercator.max_level + std::max(further, 0), kMaxTileLevel);
+  return grid;
+}
+
+Result<std::set<TileId>> stored_tiles_of(const TileGrid& mercator, std::span<const TileId> geodetic) {
+  TileSetInfo set;
+  set.grid = mercator;
+  const RasterInfo raster = raster_info_of(set);
+  auto planner = TilePlanner::open(raster, figure_of(mercator), geodetic_grid_of(mercator), Overviews::stored);
+  if (!planner) return planner.error();
+  std::set<TileId> stored;
+  for (const TileId& id : geodetic) {
+    for (const WarpPiece& piece : (*planner)->plan(id).pieces) {
+      const TileId tile{.level = piece.id.level + mercator.min_level, .x = piece.id.x, .y = piece.id.y};
+      if (exists(mercator, tile)) stored.insert(tile);
+    }
+  }
+  return stored;
+}
+
+Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored, const std::string& where) {
+  TileSetInfo info = stored->info();
+  if (info.grid.projection == Projection::projected) return geodetic_of_projected(std::move(stored), where);
+  if (info.grid.projection != Projection::web_mercator) return stored;
+  const TileGrid mercator = info.grid;
+  info.made_of = mercator;
+  info.grid = geodetic_grid_of(mercator);
+  if (Status good = check_grid(info.grid, where + ": between the ends of Web Mercator"); !good) return good.error();
+  if (info.elevation) {
+    info.elevation = ElevationInfo{.scale = info.elevation->scale, .offset = info.elevation->offset, .floats = true};
+  }
+  auto raster = raster_of_tiles(std::move(stored));
+  auto planner = TilePlanner::open(raster->info(), figure_of(mercator), info.grid, Overviews::stored);
+  if (!planner) return Error{where + ": " + planner.error().message};
+  return make_warp_source(std::move(raster), *std::move(planner), std::move(info),
+                          {.noun = "Web Mercator tile", .first_level = mercator.min_level}, kWarpDecodedBytes);
+}
+
+}  // namespace terrella
