@@ -74,7 +74,7 @@ TEST(SourceJson, RefusesByFileAndField) {
   expect_json_refused(R"({"url": "a", "root_span_deg": 0})", "\"root_span_deg\"");
   expect_json_refused(R"({"url": "a", "tile_life_s": -1})", "\"tile_life_s\"");
   expect_json_refused(R"({"url": "a", "bounds": [0, 0, 0, 1000]})", "bounds");
-  expect_json_refused(R"({"url": "a", "format": "webp"})", "\"format\"");
+  expect_json_refused(R"({"url": "a", "format": "gif"})", "\"format\"");
   expect_json_refused(R"({"url": "a", "headers": "A: b"})", "\"headers\"");
   expect_json_refused(R"({"url": "a", "headers": ["no colon"]})", "header 1");
   expect_json_refused(R"({"url": "a", "subdomains": ["a b"]})", "sub-domain");
