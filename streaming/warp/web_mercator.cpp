@@ -15,7 +15,7 @@ namespace terrella {
 namespace {
 
 /// A finer level is not used for a shortfall below this fraction of a level.
-constexpr double kLevelSlack = 0.02;
+constexpr double kMercatorLevelSlack = 0.02;
 
 /// Rows of the tiles count the same latitude as the stored tiles'.
 WarpFigure figure_of(const TileGrid& grid) {
@@ -35,7 +35,7 @@ TileGrid geodetic_grid_of(const TileGrid& mercator) {
   grid.bounds.north = within(mercator.bounds.north);
   const double farthest = std::max(std::abs(grid.bounds.south.deg()), std::abs(grid.bounds.north.deg()));
   const double cosine = std::cos(Angle::degrees(farthest).rad());
-  const int further = static_cast<int>(std::floor(-std::log2(cosine) + kLevelSlack));
+  const int further = static_cast<int>(std::floor(-std::log2(cosine) + kMercatorLevelSlack));
   grid.max_level = std::min(mercator.max_level + std::max(further, 0), kMaxTileLevel);
   return grid;
 }
