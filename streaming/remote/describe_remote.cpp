@@ -45,7 +45,9 @@ Kind kind_of_name(std::string_view tile_set) {
 Kind kind_of_document(std::string_view text) {
   if (trimmed(text).starts_with('{')) return Kind::json;
   pugi::xml_document document;
-  if (text.size() > kMaxCapabilitiesBytes || !document.load_buffer(text.data(), text.size())) return Kind::unknown;
+  if (text.size() > kMaxCapabilitiesBytes) return Kind::unknown;
+  // A damaged document keeps its root, and its reader names the damage.
+  static_cast<void>(document.load_buffer(text.data(), text.size()));
   const std::string_view root = local_name(document.document_element().name());
   if (root == "TileMap") return Kind::tms;
   if (same_letters(root, "GDAL_WMS")) return Kind::gdal_wms;

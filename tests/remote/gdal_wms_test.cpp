@@ -39,7 +39,7 @@ const std::vector<Window> kWindows = {
     {"beside the grid", "EPSG:4326", -31, 71, 14, 48.5, 2, 1, "earth", true},
     {"polar", "EPSG:3413", -4194304, 4194304, 4194304, -4194304, 1, 1, "earth", true},
     {"UTM", "EPSG:32633", 300000, 5400000, 404857.6, 5295142.4, 1, 1, "earth", true},
-    {"standard parallel", "+proj=eqc +lat_ts=40 +R=3396190", -8173000, 5334722.5, 8173000, -5334722.5, 1, 1, "mars",
+    {"standard parallel", "+proj=eqc +lat_ts=40 +R=3396190", -4000000, 4000000, 4000000, -4000000, 1, 1, "mars",
      true},
 };
 
@@ -68,7 +68,7 @@ TileId tile_at(const TileSetInfo& info, int level, const Window& window, double 
     lon = x / 2439400.0 * 180.0 / M_PI;
     row = y / 2439400.0 * 180.0 / M_PI;
   }
-  if (!info.square && lon > 180.0) lon -= 360.0;
+  if (!info.square && window.west >= 0.0 && lon > 180.0) lon -= 360.0;
   const double span = info.grid.root_span_deg / std::ldexp(1.0, level);
   const double top = info.grid.projection == Projection::equirectangular ? 90.0 : 180.0;
   return {level, static_cast<std::int64_t>(std::floor((lon + 180.0) / span)),

@@ -100,6 +100,29 @@ Status limit(const RemoteOptions& options, TileGrid& grid) {
   return Done{};
 }
 
+RemoteTileSet make_set(const GdalWmsDocument& said, GdalWmsGrid placed, const std::string& url) {
+  RemoteTileSet set;
+  set.info.format = format_of(said, url);
+  set.info.elevation = said.elevation;
+  set.url = with_user(url, said.user_and_password);
+  set.northing_first = said.northing_first;
+  set.info.grid = placed.grid;
+  set.info.square = placed.square;
+  set.info.body = placed.body;
+  set.info.name = Url(url).without_query();
+  set.subdomains = said.service == GdalWmsDocument::Service::virtual_earth && url.find("{s}") != std::string::npos
+                       ? std::vector<std::string>{"0", "1", "2", "3"}
+                       : std::vector<std::string>();
+  set.shifts = std::move(placed.shifts);
+  set.level_names = std::move(placed.level_names);
+  set.missing_statuses = said.missing_statuses;
+  set.exception_is_missing = said.exception_is_missing;
+  set.timeout = said.timeout;
+  set.tile_life = said.tile_life;
+  set.connections = said.connections;
+  return set;
+}
+
 Result<RemoteTileSet> describe_gdal_wms(std::string_view xml, const RemoteOptions& options) {
   const Result<GdalWmsDocument> said = read_gdal_wms(xml);
   if (!said) return said.error();
@@ -115,27 +138,7 @@ Result<RemoteTileSet> describe_gdal_wms(std::string_view xml, const RemoteOption
     return Error{"its tiles lie on a grid of their own; leave projection and bounds out"};
   }
   if (Status same = check_projection(placed->grid, options); !same) return same.error();
-  RemoteTileSet set;
-  set.info.format = format_of(*said, *url);
-  set.info.elevation = said->elevation;
-  set.url = with_user(*url, said->user_and_password);
-  set.northing_first = said->northing_first;
-  set.info.grid = placed->grid;
-  set.info.square = placed->square;
-  set.info.body = placed->body;
-  set.info.name = Url(*url).without_query();
-  set.subdomains = said->service == GdalWmsDocument::Service::virtual_earth && url->find("{s}") != std::string::npos
-                       ? std::vector<std::string>{"0", "1", "2", "3"}
-                       : std::vector<std::string>();
-  if (!is_wms) {
-    set.shifts = std::move(placed->shifts);
-    set.level_names = std::move(placed->level_names);
-  }
-  set.missing_statuses = said->missing_statuses;
-  set.exception_is_missing = said->exception_is_missing;
-  set.timeout = said->timeout;
-  set.tile_life = said->tile_life;
-  set.connections = said->connections;
+  RemoteTileSet set = make_set(*said, *std::move(placed), *url);
   if (Status limited = limit(options, set.info.grid); !limited) return limited.error();
   RemoteOptions all = options;
   if (!said->referer.empty()) all.headers.push_back("Referer: " + said->referer);

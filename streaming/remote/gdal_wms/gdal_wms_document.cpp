@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
+#include <utility>
 
 #include "base/number.h"
 #include "streaming/georeference/crs_text.h"
@@ -20,48 +22,59 @@ constexpr double kMostPixels = 2147483647.0;  // GDAL's limit
 constexpr int kMaxGdalBlockPx = 1024;         // GDAL's default
 constexpr double kWebMercatorEnd_m = 20037508.34;
 
+Status read_service_name(const std::string& name, GdalWmsDocument& said) {
+  using Service = GdalWmsDocument::Service;
+  constexpr std::array kServices = {std::pair("TMS", Service::tms), std::pair("VirtualEarth", Service::virtual_earth),
+                                    std::pair("WMS", Service::wms)};
+  for (const auto& [known, service] : kServices) {
+    if (!same_letters(name, known)) continue;
+    said.service = service;
+    return Done{};
+  }
+  return Error{fmt::format("its service is {}, and TMS, VirtualEarth and WMS are read; {}",
+                           name.empty() ? "not named" : in_quotes(name),
+                           same_letters(name, "TiledWMS") ? "give the address of the server's WMTS capabilities"
+                                                          : "give a URL template of the tiles, if the server has one")};
+}
+
+Status read_wms_service(const XmlValues& service, GdalWmsDocument& said) {
+  said.version = service.text("Version", "1.1.1");
+  said.layers = percent_decode(service.text("Layers"));
+  said.styles = percent_decode(service.text("Styles"));
+  said.image_format = service.text("ImageFormat", "image/jpeg");
+  const std::string order = service.text("BBoxOrder", "xyXY");
+  if (order != "xyXY" && order != "yxYX") {
+    return Error{fmt::format("its BBoxOrder {} is neither xyXY nor yxYX", in_quotes(order))};
+  }
+  said.northing_first = order == "yxYX";
+  said.request_crs = service.text(said.version.starts_with("1.3") ? "CRS" : "SRS", "EPSG:4326");
+  if (!said.version.starts_with("1.1") && !said.version.starts_with("1.3")) {
+    return Error{fmt::format("its WMS is of version {}, and 1.1.1 and 1.3.0 are read", in_quotes(said.version))};
+  }
+  if (said.layers.empty()) return Error{"its <Service> has no <Layers>"};
+  return Done{};
+}
+
 Status read_service(const pugi::xml_node& root, XmlValues& values, GdalWmsDocument& said) {
   const pugi::xml_node node = any_child(root, "Service");
   if (!node) return Error{"it has no <Service>"};
   XmlValues service(node);
-  const std::string name = service.text("name");
-  if (same_letters(name, "TMS")) {
-    said.service = GdalWmsDocument::Service::tms;
-  } else if (same_letters(name, "VirtualEarth")) {
-    said.service = GdalWmsDocument::Service::virtual_earth;
-  } else if (same_letters(name, "WMS")) {
-    said.service = GdalWmsDocument::Service::wms;
-  } else {
-    const bool tiled = same_letters(name, "TiledWMS");
-    return Error{fmt::format("its service is {}, and TMS, VirtualEarth and WMS are read; {}",
-                             name.empty() ? "not named" : in_quotes(name),
-                             tiled ? "give the address of the server's WMTS capabilities"
-                                   : "give a URL template of the tiles, if the server has one")};
-  }
+  if (Status named = read_service_name(service.text("name"), said); !named) return named;
   said.server_url = service.text("ServerUrl");
   if (said.server_url.empty()) return Error{"its <Service> has no <ServerUrl>"};
-  const bool is_wms = said.service == GdalWmsDocument::Service::wms;
-  said.version = service.text("Version", is_wms ? "1.1.1" : "1.0.0");
+  said.version = service.text("Version", "1.0.0");
   said.layer = service.text("Layer");
   said.format = service.text("Format", "jpg");
-  said.layers = percent_decode(service.text("Layers"));
-  said.styles = percent_decode(service.text("Styles"));
-  said.image_format = service.text("ImageFormat", "image/jpeg");
   said.transparent = service.flag("Transparent", false);
-  const std::string order = service.text("BBoxOrder", "xyXY");
-  if (order != "xyXY" && order != "yxYX")
-    return Error{fmt::format("its BBoxOrder {} is neither xyXY nor yxYX", in_quotes(order))};
-  said.northing_first = order == "yxYX";
-  said.request_crs = service.text(is_wms && said.version.starts_with("1.3") ? "CRS" : "SRS", "EPSG:4326");
   if (service.fault()) return Error{*service.fault()};
-  if (is_wms && !said.version.starts_with("1.1") && !said.version.starts_with("1.3")) {
-    return Error{fmt::format("its WMS is of version {}, and 1.1.1 and 1.3.0 are read", in_quotes(said.version))};
+  if (said.service == GdalWmsDocument::Service::wms) {
+    if (Status read = read_wms_service(service, said); !read) return read;
   }
-  if (is_wms && said.layers.empty()) return Error{"its <Service> has no <Layers>"};
   if (values.flag("UnsafeSSL", false)) {
     return Error{
-        "it asks not to check the server's certificate (UnsafeSSL); take that out, and give --ca-file to preload "
-        "if the certificate is your own"};
+        "it asks not to check the server's certificate (UnsafeSSL); take that out, and give --ca-file to preload if "
+        "the "
+        "certificate is your own"};
   }
   if (values.flag("OfflineMode", false)) return Error{"it says OfflineMode; take that out and say --offline"};
   return Done{};
