@@ -14,7 +14,7 @@ namespace terrella {
 namespace {
 
 /// A finer level is not used for a shortfall below this fraction of a level.
-constexpr double kLevelSlack = 0.02;
+constexpr double kOctaveSlack = 0.02;
 constexpr double kHalf_m = std::numbers::pi * 6378137.0;
 
 RasterInfo raster_of(const TileSetInfo& set) {
@@ -84,7 +84,7 @@ TileGrid geodetic_grid_of(const TileGrid& mercator) {
   grid.bounds.north = within(mercator.bounds.north);
   const double farthest = std::max(std::abs(grid.bounds.south.deg()), std::abs(grid.bounds.north.deg()));
   const double cosine = std::cos(Angle::degrees(farthest).rad());
-  const int further = static_cast<int>(std::floor(-std::log2(cosine) + kLevelSlack));
+  const int further = static_cast<int>(std::floor(-std::log2(cosine) + kOctaveSlack));
   grid.max_level = std::min(mercator.max_level + std::max(further, 0), kMaxTileLevel);
   return grid;
 }
