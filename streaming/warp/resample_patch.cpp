@@ -59,14 +59,21 @@ class PhaseTable {
 
 /// All channels of a pixel, summed at once.
 template <std::size_t kChannels>
-struct Lanes {
-  using Vector = float __attribute__((vector_size(kChannels * sizeof(float))));
-  static Vector load(const float* from) {
-    Vector lanes;
-    std::memcpy(&lanes, from, sizeof(lanes));
-    return lanes;
-  }
+struct Lanes;
+template <>
+struct Lanes<4> {
+  using Vector = float __attribute__((vector_size(16)));
 };
+template <>
+struct Lanes<2> {
+  using Vector = float __attribute__((vector_size(8)));
+};
+template <std::size_t kChannels>
+typename Lanes<kChannels>::Vector load(const float* from) {
+  typename Lanes<kChannels>::Vector lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
+}
 
 template <std::size_t kChannels>
 class Sampler {
@@ -98,7 +105,7 @@ class Sampler {
       const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
       for (int i = 0; i < by_u_->taps(); ++i) {
         const float weight = std::max(rows.weights[j], 0.0F) * std::max(columns.weights[i], 0.0F);
-        all += weight * Lanes<kChannels>::load(canvas_.at(columns.first + i, rows.first + j));
+        all += weight * load<kChannels>(canvas_.at(columns.first + i, rows.first + j));
         weights += weight;
       }
     }
@@ -118,7 +125,7 @@ class Sampler {
     Vector all{};
     for (int j = 0; j < 4; ++j, from += stride) {
       Vector row{};
-      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * Lanes<kChannels>::load(from + i * kChannels);
+      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * load<kChannels>(from + i * kChannels);
       all += rows.weights[j] * row;
     }
     return all;
@@ -132,7 +139,7 @@ class Sampler {
       const float* from = canvas_.at(columns.first, rows.first + j);
       Vector row{};
       for (int i = 0; i < by_u_->taps(); ++i, from += kChannels) {
-        row += columns.weights[i] * Lanes<kChannels>::load(from);
+        row += columns.weights[i] * load<kChannels>(from);
       }
       all += rows.weights[j] * row;
     }
