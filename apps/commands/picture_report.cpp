@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/picture_facts.h"
+#include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
