@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/picture_facts.h"
+#include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
@@ -66,6 +67,9 @@ std::string said_text(const PictureFacts& facts) {
   return text;
 }
 
+/// Rounding errors near 0 become 0.
+double without_dust(double degrees) { return std::abs(degrees) < 1e-9 ? 0.0 : degrees; }
+
 std::string place_lines(const PictureFacts& facts) {
   std::string text;
   if (facts.transform) {
@@ -75,8 +79,8 @@ std::string place_lines(const PictureFacts& facts) {
         fmt::format("corners      {:.12g} to {:.12g}, {:.12g} to {:.12g} {}\n", b.west, b.east, b.south, b.north, unit);
   }
   if (const auto& b = facts.bounds_deg) {
-    text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", b->west, b->south,
-                        b->east, b->north);
+    text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n",
+                        without_dust(b->west), without_dust(b->south), without_dust(b->east), without_dust(b->north));
   }
   if (const auto& p = facts.pixel) {
     text += fmt::format("pixel size   {:.6g}° by {:.6g}°, {:.6g} m by {:.6g} m in the middle\n", p->width_deg,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "streaming/georeference/crs_text.h"
 #include "streaming/georeference/gdal_advice.h"
 #include "streaming/georeference/warp_extent.h"
 
@@ -238,21 +239,14 @@ Status read_said(Case& of) {
   of.placed.said = *std::move(said);
   of.said = of.placed.said.value_or(Georeference{});
   if (of.words.crs.empty()) return Done{};
-  of.said.crs = of.words.crs;
+  // PROJ strings need "+type=crs". Texts that name files of shifts are the user's own affair.
+  const auto text = stated_crs(of.words.crs);
+  of.said.crs = text ? *text : of.words.crs;
   of.said.gdal_reads_crs = true;
   return Done{};
 }
 
 }  // namespace
-
-std::string crs_text(const CrsFacts& crs, const std::string& title) {
-  const bool named = !crs.name.empty() && crs.name != "unknown";
-  std::string text = named ? crs.name : (title.empty() ? std::string("a system without a name") : title);
-  if (!crs.code.empty()) text += ", " + crs.code;
-  if (!crs.geographic) text += ", " + crs.method;
-  if (crs.central_meridian_deg) text += fmt::format(" with central meridian {:.9g} degrees", *crs.central_meridian_deg);
-  return text;
-}
 
 Result<Placement> place_of_words(const PictureFile& picture, const PlaceWords& words) {
   const auto width = static_cast<double>(picture.width_px), height = static_cast<double>(picture.height_px);

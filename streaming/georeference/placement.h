@@ -38,7 +38,4 @@ struct PlacedPicture {
 /// 2:1. thread: any
 [[nodiscard]] Result<Placement> place_of_words(const PictureFile& picture, const PlaceWords& words);
 
-/// Name, code, method and central meridian of a system. `title` is used if the system has no name.
-[[nodiscard]] std::string crs_text(const CrsFacts& crs, const std::string& title);
-
 }  // namespace terrella

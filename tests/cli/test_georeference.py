@@ -244,7 +244,7 @@ class Refused(GeoreferenceTest):
 
     def test_another_body_in_a_projection(self):
         self.picture("in.tif", "-a_srs", "+proj=sinu +R=1560800 +units=m +no_defs", "-a_ullr", 0, 320000, 640000, 0)
-        self.assert_refused("in.tif", "1560800", "earth has 6378137", "--body 1560800,0")
+        self.assert_refused("in.tif", "1560800", "earth has 6378137", "--body europa")
         self.assert_refused("in.tif", "1560800", "moon has 1737400", options=["--body", "moon"])
 
     def test_a_body_without_a_name(self):

@@ -16,6 +16,11 @@ double width_deg(const GeoRect& bounds) {
   return width > 0.0 ? width : width + 360.0;
 }
 
+bool is_planet(const GeoRect& bounds) {
+  constexpr double kRounding_deg = 1e-9;
+  return width_deg(bounds) > 360.0 - kRounding_deg && bounds.north.deg() - bounds.south.deg() > 180.0 - kRounding_deg;
+}
+
 /// Rows without transparency, so that tiles become JPEG.
 class OpaqueRows : public RowReader {
  public:
@@ -71,7 +76,7 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   if (!rows) return rows.error();
   WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds};
   // Parallels and meridians as edges leave no gap on a whole planet.
-  if (opaque && !heights && warped.bounds == GeoRect{}) {
+  if (opaque && !heights && is_planet(warped.bounds)) {
     warped.rows = std::make_unique<OpaqueRows>(std::move(warped.rows));
   }
   roll_if_needed(options, warped, heights.has_value());
