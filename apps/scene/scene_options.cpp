@@ -1,4 +1,4 @@
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "apps/commands/option_checks.h"
 #include "apps/commands/remote_set_options.h"
-#include "apps/setup/place_options.h"
-#include "apps/setup/scene_overlays.h"
+#include "apps/scene/place_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "view/view_limits.h"
