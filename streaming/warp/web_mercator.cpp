@@ -19,11 +19,8 @@ constexpr double kHalf_m = std::numbers::pi * 6378137.0;
 
 RasterInfo raster_of(const TileSetInfo& set) {
   const TileGrid& grid = set.grid;
-  RasterInfo raster{.name = set.name,
-                    .attribution = set.attribution,
-                    .crs = "EPSG:3857",
-                    .levels = {},
-                    .elevation = set.elevation};
+  RasterInfo raster{
+      .name = set.name, .attribution = set.attribution, .crs = "EPSG:3857", .levels = {}, .elevation = set.elevation};
   for (int level = grid.min_level; level <= grid.max_level; ++level) {
     const std::int64_t side_px = columns(grid, level) * grid.tile_px;
     const double pixel_m = 2.0 * kHalf_m / static_cast<double>(side_px);
