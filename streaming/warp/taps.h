@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/patch.h"
 
 namespace terrella {
 
