@@ -3,10 +3,18 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
 #include <new>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "apps/commands/commands.h"
 #include "apps/setup/console.h"
@@ -29,27 +37,80 @@ const CLI::App& innermost(const CLI::App& app) {
   return parsed.empty() ? app : *parsed.front();
 }
 
-/// Returns "--option" of "--option=value".
-std::string name_part(const std::string& argument) {
-  return argument.starts_with('-') ? argument.substr(0, argument.find('=')) : argument;
+/// Number of single-character changes that turn one word into the other.
+std::size_t changes_between(std::string_view one, std::string_view other) {
+  std::vector<std::size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const std::size_t replaced = diagonal + (one[i] == other[k] ? 0 : 1);
+      diagonal = std::exchange(row[k + 1], std::min({replaced, row[k] + 1, row[k + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+/// Returns "; did you mean WORD?" with the known word that a typing error turns into `typed`; empty if there is none.
+std::string suggestion(const std::string& typed, const std::vector<std::string>& known) {
+  constexpr std::size_t kMostChanges = 2;
+  const auto changes = [&typed](const std::string& word) { return changes_between(typed, word); };
+  const auto nearest = std::ranges::min_element(known, {}, changes);
+  if (nearest == known.end() || changes(*nearest) > kMostChanges) return {};
+  return "; did you mean " + *nearest + "?";
+}
+
+bool can_be_shown(const std::string& argument) {
+  constexpr const char* kExtensions[] = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".gpkg", ".mbtiles", ".json"};
+  std::error_code unknown;
+  const std::filesystem::path path(argument);
+  return argument.find("://") != argument.npos || std::filesystem::exists(path, unknown) ||
+         std::ranges::find(kExtensions, path.extension().string()) != std::end(kExtensions);
+}
+
+/// Message for the first argument that neither the program nor the subcommand knows.
+std::string about_unknown(const CLI::App& where, const std::string& argument) {
+  std::vector<std::string> known;
+  if (argument.starts_with('-')) {
+    const std::string name = argument.substr(0, argument.find('='));  // the value may be a secret
+    for (const CLI::Option* option : where.get_options()) known.push_back(option->get_name());
+    return "there is no option " + name + suggestion(name, known);
+  }
+  const auto commands = where.get_subcommands([](const CLI::App*) { return true; });
+  if (commands.empty()) return "unexpected argument " + argument;
+  if (can_be_shown(argument)) return "no command given; to show it: terrella view " + argument;
+  for (const CLI::App* command : commands) known.push_back(command->get_name());
+  return "there is no command " + argument + suggestion(argument, known);
 }
 
 /// Maps CLI11's many exit codes for mistakes to the contract's single code, 2.
 int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const CLI::App& where = innermost(app);
-  const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
   // CLI11 reports missing arguments before unknown ones, so a mistyped name would be reported as a missing one. CLI11
   // also prints all unknown arguments, including the value of a mistyped --header.
   const auto unknown = where.remaining();
-  const bool mistyped = (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
-                         dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) &&
-                        !unknown.empty();
-  const std::string message =
-      mistyped ? "there is no option or subcommand " + name_part(unknown.front()) : std::string(error.what());
-  print_message("{}: {}\n", command, message);
+  const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (missing && &where == &app && unknown.empty()) {
+    app.exit(CLI::CallForHelp(), std::cerr);
+    return kWrongUsage;
+  }
+  const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
+  const bool mistyped = (missing || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) && !unknown.empty();
+  print_message("{}: {}\n", command, mistyped ? about_unknown(where, unknown.front()) : std::string(error.what()));
   print_message("See {} --help.\n", command);
   return kWrongUsage;
+}
+
+/// The program's arguments, last one first, as CLI11 takes them. `help COMMAND` becomes `COMMAND --help`.
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  std::ranges::reverse(arguments);
+  return arguments;
 }
 
 }  // namespace
@@ -75,7 +136,7 @@ int run_program(int argc, char** argv) {
   add_merge_command(app, exit_code);
   add_bench_command(app, exit_code);
   try {
-    app.parse(argc, argv);
+    app.parse(reversed_arguments(argc, argv));
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return report_parse(app, error);

@@ -1,4 +1,6 @@
 // The frame's data for every program. FrameBlock in engine/render/gl/frame_block.h has the same layout.
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 layout(std140, binding = 0) uniform Frame {
   mat4 view_from_ecef;     // rotation only
   vec4 eye_high_ecef;      // metres, high and low floats of the double position
@@ -6,7 +8,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 clip_scale;         // x, y: focal lengths; z: near plane, metres; w: far plane, metres (standard and logarithmic depth)
   vec4 sun_ecef;           // unit; w: 1 lit, 0 imagery only
   vec4 texels;             // tile_px over slot_px; slot_px; number of mip levels; polar scale of the row direction (TileGrid's latitude)
-  // Parameters a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of a layer over the first.
+  // Parameters a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of an upper layer.
   vec4 paper;
   // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.
   vec4 layer_look;

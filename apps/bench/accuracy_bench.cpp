@@ -16,6 +16,7 @@
 #include "apps/bench/truth/masked_error.h"
 #include "apps/bench/work_folder.h"
 #include "geo/body.h"
+#include "globe/experiments.h"
 #include "streaming/sets/open_tile_set.h"
 
 namespace terrella::bench {
@@ -70,8 +71,8 @@ class AccuracyLab {
     options_.progress(fmt::format("{}: drawing", view.name));
     for (const AccuracySetting& setting : accuracy_settings(options_.effort)) {
       AccuracyFigures figures;
-      select(setting.globe, view.camera, figures);
-      draw(setting.globe, view, truth, figures);
+      select(setting, view.camera, figures);
+      draw(setting, view, truth, figures);
       add_row(report, view, setting, figures);
     }
   }
@@ -83,17 +84,17 @@ class AccuracyLab {
     return source.value()->info().grid;
   }
 
-  void select(const GlobeOptions& options, const truth::TruthCamera& camera, AccuracyFigures& figures) const {
+  void select(const AccuracySetting& setting, const truth::TruthCamera& camera, AccuracyFigures& figures) const {
     TileGrid grid = grid_;
-    grid.reduced = grid.reduced && options.squeezed_rows;
-    PatchTree tree(earth().ellipsoid, grid, options.segments, options.mapping);
+    grid.reduced = grid.reduced && setting.globe.squeezed_rows;
+    PatchTree tree(earth().ellipsoid, grid, setting.globe.segments, setting.mapping);
     const Camera eye = as_globe_camera(camera);
     const View view = make_view(eye, earth().ellipsoid, viewport_);
     std::vector<SelectedPatch> patches;
     std::vector<double> times_ms;
     for (int round = -1; round < rounds_; ++round) {  // the first round builds the tree
       const auto start = std::chrono::steady_clock::now();
-      select_patches(tree, view, selection_of(options), patches);
+      select_patches(tree, view, selection_of(setting.globe), patches);
       const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
       if (round >= 0) times_ms.push_back(took.count());
     }
@@ -104,18 +105,20 @@ class AccuracyLab {
   }
 
   /// Draws with a new globe, so that the requests are those of this view.
-  void draw(const GlobeOptions& options, const AccuracyView& view, const truth::TruthImage& truth,
+  void draw(const AccuracySetting& setting, const AccuracyView& view, const truth::TruthImage& truth,
             AccuracyFigures& figures) {
     auto opened = open_tile_set(planet_.tiles);
     if (!opened) throw std::runtime_error(opened.error().message);
     const auto source = std::make_shared<CountingSource>(*std::move(opened));
-    const auto globe = Globe::create(options, source);
+    const auto globe = Globe::create(setting.globe);
     if (!globe) throw std::runtime_error(globe.error().message);
+    Experiments::of(**globe).mapping = setting.mapping;
+    if (const auto added = (*globe)->add_imagery(source); !added) throw std::runtime_error(added.error().message);
     const FrameStats stats = settle(**globe, view.camera, target_, viewport_);
     judge(shot(target_, viewport_), view, truth, figures);
     figures.tiles = stats.tiles_wanted;
     figures.tile_mb = 1e-6 * static_cast<double>(source->bytes());
-    figures.gpu_mb = slots_mb(grid_, options.gutter_px, figures.tiles);
+    figures.gpu_mb = slots_mb(grid_, setting.globe.gutter_px, figures.tiles);
     std::vector<Subject> subjects{{"frame", [&] { (*globe)->render(target_.framebuffer(), viewport_); }}};
     time_frames(subjects, rounds_);
     figures.frame_ms = median(subjects.front().ms);
@@ -222,7 +225,7 @@ std::vector<Plot> accuracy_plots(const std::vector<AccuracyView>& views) {
   if (pairs.empty()) pairs = {pole, middle};
   const Plot log{.title = {}, .x = "tiles", .y = "rms", .series = "view", .log_x = true, .log_y = true};
   Plot detail = log, tiles = log, columns = log, triangles = log;
-  detail.title = "detail: texels a pixel that are asked for";
+  detail.title = "detail: texels per pixel";
   detail.x = "value";
   detail.only = tiles.only = {{"sweep", {kDetail}}, {"view", pairs}};
   tiles.title = "tiles that they take";

@@ -18,14 +18,14 @@ class Settings {
  public:
   explicit Settings(Effort effort) : effort_(effort) { settings_.push_back({kDefaults, kNoFigure, drawn()}); }
 
-  /// Adds a setting for each value of the effort; `set` stores a value in the options.
+  /// Adds a setting for each value of the effort; `set` stores a value in the setting.
   template <class Set>
   void sweep(const char* name, const std::vector<double>& quick, const std::vector<double>& normal,
              const std::vector<double>& full, Set set) {
     const std::vector<double>& values = effort_ == Effort::quick ? quick : effort_ == Effort::full ? full : normal;
     for (const double value : values) {
       settings_.push_back({name, value, drawn()});
-      set(settings_.back().globe, value);
+      set(settings_.back(), value);
     }
   }
   [[nodiscard]] std::vector<AccuracySetting> all() const { return settings_; }
@@ -49,24 +49,24 @@ void add_pair(std::vector<AccuracyView>& views, const std::string& name, double 
 std::vector<AccuracySetting> accuracy_settings(Effort effort) {
   Settings settings(effort);
   settings.sweep(kTessellation, {4, 24}, {4, 8, 16, 24, 32, 48, 64, 96, 128}, {4, 8, 16, 24, 32, 48, 64, 96, 128},
-                 [](GlobeOptions& o, double n) { o.segments = static_cast<int>(n); });
+                 [](AccuracySetting& s, double n) { s.globe.segments = static_cast<int>(n); });
   const std::vector<double> thresholds_px{0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2};
   settings.sweep(kThreshold, {0.2, 1.0}, thresholds_px, thresholds_px,
-                 [](GlobeOptions& o, double px) { o.max_error_px = px; });
-  settings.sweep(kPlainThreshold, {0.2}, thresholds_px, thresholds_px, [](GlobeOptions& o, double px) {
-    o.max_error_px = px;
-    o.mapping = CubeMapping::plain;
+                 [](AccuracySetting& s, double px) { s.globe.max_error_px = px; });
+  settings.sweep(kPlainThreshold, {0.2}, thresholds_px, thresholds_px, [](AccuracySetting& s, double px) {
+    s.globe.max_error_px = px;
+    s.mapping = CubeMapping::plain;
   });
   settings.sweep(kDetail, {0.5, 2.0}, {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8},
                  {0.25, 0.3, 0.35, 0.42, 0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.4, 1.7, 2.0, 2.4, 2.8, 3.4, 4.0},
-                 [](GlobeOptions& o, double texels) { o.texels_per_pixel = texels; });
+                 [](AccuracySetting& s, double texels) { s.globe.texels_per_pixel = texels; });
   settings.sweep(kColumns, {32}, {2, 4, 8, 16, 32, 64, 128}, {1, 2, 4, 8, 16, 32, 64, 128},
-                 [](GlobeOptions& o, double columns) {
-                   o.squeezed_rows = false;
-                   o.polar_columns = static_cast<int>(columns);
+                 [](AccuracySetting& s, double columns) {
+                   s.globe.squeezed_rows = false;
+                   s.globe.polar_columns = static_cast<int>(columns);
                  });
   settings.sweep(kGutter, {0}, {0, 1, 2, 4, 8, 16}, {0, 1, 2, 4, 8, 16},
-                 [](GlobeOptions& o, double px) { o.gutter_px = static_cast<int>(px); });
+                 [](AccuracySetting& s, double px) { s.globe.gutter_px = static_cast<int>(px); });
   return settings.all();
 }
 

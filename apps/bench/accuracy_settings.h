@@ -5,16 +5,21 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/truth/ray_caster.h"
+#include "geo/cube_sphere.h"
 #include "globe/globe.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
+
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 
 namespace terrella::bench {
 
-/// One value of one globe option; all other options have their defaults.
+/// One value of one option of a globe; all other options have their defaults.
 struct AccuracySetting {
   const char* sweep;  ///< name of the option, or kDefaults
   double value;       ///< NaN with kDefaults
   GlobeOptions globe;
+  CubeMapping mapping = CubeMapping::tangent;
 };
 
 inline constexpr const char* kDefaults = "default";

@@ -1,13 +1,14 @@
 #include "apps/bench/frame_timing.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
+#include <string_view>
 
 #include <epoxy/gl.h>
 
-#include "render/gl/gl_driver.h"
 #include "streaming/sets/open_tile_set.h"
 
 namespace terrella::bench {
@@ -25,6 +26,14 @@ double processor_ms() {
 std::string gl_text(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text == nullptr ? std::string() : text;
+}
+
+// True if the current context renders on the processor, where timer queries measure nothing.
+bool is_software_gl() {
+  constexpr std::array<std::string_view, 5> kSoftware{"llvmpipe", "softpipe", "swrast", "SWR", "SwiftShader"};
+  return std::ranges::any_of(kSoftware, [renderer = gl_text(GL_RENDERER)](std::string_view name) {
+    return renderer.find(name) != std::string::npos;
+  });
 }
 
 }  // namespace

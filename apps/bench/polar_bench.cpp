@@ -15,8 +15,12 @@
 #include "apps/bench/truth/masked_error.h"
 #include "apps/bench/work_folder.h"
 #include "geo/body.h"
+#include "globe/experiments.h"
 
 #include <epoxy/gl.h>
+
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 
 namespace terrella::bench {
 namespace {
@@ -81,11 +85,13 @@ class PolarLab {
     globe.body = *parse_body("sphere");
     globe.unlit = true;
     globe.texturing = method.texturing;
-    globe.paper_a = method.a;
-    globe.paper_band = method.band;
     globe.squeezed_rows = method.squeezed;
     globe.gpu_bytes = kGlobeBytes;
-    return open_globe(planet_.tiles.string(), globe);
+    std::unique_ptr<Globe> made = open_globe(planet_.tiles.string(), globe);
+    Experiments& experiments = Experiments::of(*made);
+    experiments.paper_a = method.a;
+    experiments.paper_band = method.band;
+    return made;
   }
 
   [[nodiscard]] truth::TruthImage truth_of(const truth::TruthCamera& camera) const {
@@ -214,14 +220,14 @@ void add_findings(const std::vector<PolarView>& views, Report& report) {
 
 Report measure_polar(const BenchOptions& options, TestPlanet planet) {
   Report report{.name = "polar",
-                .title = "Polar texturing: paper 1's sphere and the globe, time beside error",
+                .title = "Polar texturing: Zuev's sphere (2023) and the globe, time beside error",
                 .facts = {{"renderer", renderer_name()}, {"time", timing_method()}},
                 .columns = polar_columns()};
   report.facts.emplace_back(
       "picture", fmt::format("noise planet, {}x{}", planet.source.picture.width, planet.source.picture.height));
   PolarLab lab(options, std::move(planet));
-  report.facts.emplace_back("paper 1's sphere", fmt::format("n = 48, {} triangles, {} vertices",
-                                                            lab.sphere().triangles(), lab.sphere().vertices()));
+  report.facts.emplace_back("Zuev's sphere", fmt::format("n = 48, {} triangles, {} vertices", lab.sphere().triangles(),
+                                                         lab.sphere().vertices()));
   std::vector<PolarView> views = polar_views(options.effort);
   std::erase_if(views, [&](const PolarView& view) { return !options.wants(view.name); });
   for (const PolarView& view : views) lab.measure(view, report);

@@ -11,6 +11,9 @@
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
 /// A texturing method with its parameters, for paper 1's sphere or the engine's globe.

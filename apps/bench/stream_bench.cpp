@@ -144,7 +144,7 @@ std::vector<Column> stream_columns() {
   return {{"view", ""},
           {"visit", ""},
           {"moment", ""},
-          {"time", "ms since the view was asked for", 0},
+          {"time", "ms since the view was requested", 0},
           {"frames", ""},
           {"requests", "tiles read"},
           {"bytes", "MB"},

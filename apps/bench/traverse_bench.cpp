@@ -214,7 +214,7 @@ Report measure_traverse(const BenchOptions& options) {
                 .title = "Flights: what selection, drawing and uploads cost on the way, and how far the picture lags",
                 .facts = {{"renderer", renderer_name()},
                           {"time", timing_method()},
-                          {"imagery", "waves, levels 0 to 18, made as they are asked for"}},
+                          {"imagery", "waves, levels 0 to 18, made on request"}},
                 .columns = traverse_columns()};
   Flyer flyer(options);
   for (const char* flight : kFlights) {

@@ -29,7 +29,9 @@ constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBenc
                               NamedBench{"stability", bench::bench_stability}};
 
 constexpr const char* kBenchExamples =
-    "polar      time and error of texturing at the poles: paper 1's sphere against the globe\n"
+    "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
+    "           (Method of synthesis of a seamless textured sphere for visualization in geoinformation and\n"
+    "           cartographic systems, 2023)\n"
     "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
     "traverse   selection, draws, uploads and wasted drawing on flights\n"
     "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"

@@ -55,7 +55,7 @@ std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
 
 PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
   PreloadOptions options;
-  options.tile_px = source.set.info.grid.tile_px;
+  options.set = source.set;
   options.refresh_older_than = refresh_age(command);
   options.tile_life = source.set.tile_life.value_or(options.tile_life);
   options.missing_life = source.set.missing_life.value_or(options.missing_life);

@@ -9,14 +9,14 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_objects.h"
+#include "apps/scene/scene_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/process.h"
-#include "apps/setup/scene_layers.h"
-#include "apps/setup/scene_objects.h"
-#include "apps/setup/scene_options.h"
-#include "apps/setup/scene_overlays.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/write_file.h"
 #include "codecs/image.h"
@@ -168,6 +168,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
+  set_paper_texturing(**globe, command.scene);
   if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);

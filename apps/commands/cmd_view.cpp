@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "apps/commands/commands.h"
+#include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_objects.h"
+#include "apps/scene/scene_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/scene_layers.h"
-#include "apps/setup/scene_objects.h"
-#include "apps/setup/scene_options.h"
-#include "apps/setup/scene_overlays.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/remote/describe_remote.h"
@@ -29,9 +29,9 @@ constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower
 constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window to add layers.\n"
-    "Keys: arrows, + and - move; N north up, Home whole globe, G graticule, F full screen, / search, M measure,\n"
-    "U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save pictures,\n"
-    "1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
+    "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, F full screen, / search,\n"
+    "M measure, U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save\n"
+    "pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -42,7 +42,7 @@ struct ViewOptions {
   SceneOptions scene;
   bool print_camera = false;
   bool full_screen = false;
-  KeptSettings kept, start;
+  KeptSettings kept;
   bool first_run = false;
   std::string message;
 };
@@ -54,17 +54,12 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   LoadedSettings loaded = load_settings(*file);
   options.first_run = loaded.first_run;
   options.message = std::move(loaded.complaint);
-  const KeptSettings& kept = options.kept = options.start = loaded.settings;
+  const KeptSettings& kept = options.kept = loaded.settings;
   SceneOptions& scene = options.scene;
-  const auto said = [&command](const char* option) { return command.count(option) > 0; };
-  if (!said("--size") && kept.width_px > 0 && kept.height_px > 0) {
+  if (command.count("--size") == 0 && kept.width_px > 0 && kept.height_px > 0) {
     scene.size = {std::max(kept.width_px, kSmallestWindow.width_px),
                   std::max(kept.height_px, kSmallestWindow.height_px)};
   }
-  if (said("--sky")) options.start.sky = scene.sky;
-  if (!said("--surface-alpha")) scene.surface.alpha = kept.opacity;
-  if (!said("--exaggeration")) scene.exaggeration = kept.exaggeration;
-  if (!said("--stereo")) scene.stereo.mode = kept.stereo;
 }
 
 /// Name of a local file, or the whole address of a remote set. The last part of most addresses is just "{y}.jpg".
@@ -129,6 +124,7 @@ int view(const ViewOptions& options) {
   layers.body = *body;
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
   if (!globe) return fail("view", globe.error().message);
+  set_paper_texturing(**globe, options.scene);
   if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return fail("view", overlaid.error().message);
   if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
@@ -147,7 +143,6 @@ int view(const ViewOptions& options) {
                                      .heights = *elevation,
                                      .files = layers,
                                      .kept = options.kept,
-                                     .start = options.start,
                                      .first_run = options.first_run,
                                      .message = options.message};
   Viewer(**window, **globe, viewer_options).run();

@@ -20,14 +20,15 @@ CLI::Validator sendable_header() {
 }  // namespace
 
 void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
-  app.add_option("--layer", remote.layer, "Choose the WMTS layer");
+  app.add_option("--layer", remote.layer, "Choose the WMTS or WMS layer");
   app.add_option("--matrix-set", remote.matrix_set, "Choose the tile matrix set if the WMTS layer has several");
-  app.add_option("--style", remote.style, "Choose the style of the WMTS layer");
-  app.add_option("--layer-time", remote.time, "Choose the time (ISO 8601) if the WMTS layer has several");
+  app.add_option("--style", remote.style, "Choose the style of the WMTS or WMS layer");
+  app.add_option("--layer-time", remote.time, "Choose the time (ISO 8601) if the WMTS or WMS layer has several");
   app.add_option("--root-span", remote.root_span_deg,
-                 "Set the degrees that a level-0 tile of a URL template spans (default: 180)")
+                 "Set the degrees that a level-0 tile of a URL template or WMS spans (default: 180)")
       ->check(number_in(0.001, 1e4));
-  app.add_option("--tile-size", remote.tile_px, "Set the side of a URL template's tiles in pixels (default: 256)")
+  app.add_option("--tile-size", remote.tile_px,
+                 "Set the side of the tiles of a URL template or WMS in pixels (default: 256; WMS: 512)")
       ->check(whole_number_in(16, 4096));
   app.add_option("--max-level", remote.max_level,
                  "Set the finest level of a URL template's server (default: the last of --levels)")

@@ -25,6 +25,8 @@ const char* format_name(ImageFormat format) {
       return "JPEG";
     case ImageFormat::png:
       return "PNG";
+    case ImageFormat::webp:
+      return "WebP";
     case ImageFormat::unknown:
       break;
   }
@@ -43,7 +45,13 @@ std::string elevation_text(const ElevationInfo& elevation) {
   return fmt::format("elevation    metres = number * {:.9g} + {:.9g}{}\n", elevation.scale, elevation.offset, nodata);
 }
 
-std::string made_of_text(const TileGrid& grid) {
+std::string made_of_text(const TileGrid& grid, const std::optional<CrsSquare>& square) {
+  if (square) {
+    return fmt::format(
+        "made of      tiles in {}: {} px a tile, levels {} to {}, from ({:.12g}, {:.12g}), {:.6g} units a pixel\n",
+        one_line(square->crs).substr(0, 200), grid.tile_px, grid.min_level, grid.max_level, square->west, square->north,
+        tile_span_deg(grid, grid.max_level) / grid.tile_px * square->unit_per_deg);
+  }
   return fmt::format("made of      tiles in Web Mercator (EPSG:3857): {} px a tile, levels {} to {}, {} tiles around\n",
                      grid.tile_px, grid.min_level, grid.max_level, columns(grid, grid.max_level));
 }
@@ -116,7 +124,7 @@ std::string to_text(const TileSetReport& report) {
   text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", grid.bounds.west.deg(),
                       grid.bounds.south.deg(), grid.bounds.east.deg(), grid.bounds.north.deg());
   text += fmt::format("format       {}\n", format_name(report.info.format));
-  if (report.info.made_of) text += made_of_text(*report.info.made_of);
+  if (report.info.made_of) text += made_of_text(*report.info.made_of, report.info.square);
   if (report.info.elevation) text += elevation_text(*report.info.elevation);
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {

@@ -120,7 +120,7 @@ void add_network_options(CLI::App& app, PreloadCommand& command) {
 void add_preload_options(CLI::App& app, PreloadCommand& command) {
   app.add_option(
          "SOURCE", command.source,
-         "A URL template, the address of a WMTS capabilities document, a source description, or a tile set on disk")
+         "A URL template, the address of a WMTS or WMS, a source description (JSON, <GDAL_WMS>), or a tile set on disk")
       ->required();
   app.add_option("-o,--output", command.output, "Write tiles to this cache; an existing cache is extended")
       ->required()

@@ -49,6 +49,12 @@ Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command
   if (!body) return body.error();
   const auto levels = levels_of(command, info.grid);
   if (!levels) return levels.error();
+  if (info.square && (!command.flight.empty() || !command.boxes.empty() || !command.polygons.empty())) {
+    return Error{
+        fmt::format("{}: its tiles are in {}, and areas and flights choose tiles in EPSG:4326 or EPSG:3857 alone; "
+                    "preload all of it, or --levels of it",
+                    command.source.redacted(), info.square->crs.substr(0, 100))};
+  }
   if (!command.flight.empty()) {
     auto path = read_flight(command.flight);
     if (!path) return path.error();

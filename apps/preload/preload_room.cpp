@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "apps/preload/preload_progress.h"
+#include "apps/setup/open_cache.h"
 #include "streaming/cache/cache_limit.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_schema.h"
@@ -13,15 +14,13 @@
 namespace terrella {
 namespace {
 
-constexpr double kMegabyte = 1e6;
 /// Size of an incompressible picture, in bytes per pixel.
 constexpr double kMostBytesAPixel = 4.0;
 /// A sample of twenty has an error of ten to twenty per cent.
 constexpr double kAdvisedSpare = 1.25;
 
 double room_bytes(const PreloadCommand& command) {
-  const CacheBudget budget =
-      cache_budget(static_cast<std::uint64_t>(command.cache_size_mb) * 1'000'000, kCachePageBytes);
+  const CacheBudget budget = cache_budget(megabytes(command.cache_size_mb), kCachePageBytes);
   return static_cast<double>(budget.file_pages * kCachePageBytes);
 }
 
@@ -67,7 +66,8 @@ std::optional<Error> find_no_room(const PreloadCommand& command, const TilePlan&
       "{}: the plan needs about {}, by a sample of {} tiles, and --cache-size {} allows {}; give --cache-size {} or "
       "more, or fewer levels or a smaller area{}",
       command.output, bytes_text(bytes), sample.answered, command.cache_size_mb,
-      bytes_text(static_cast<double>(command.cache_size_mb) * kMegabyte), std::ceil(bytes * kAdvisedSpare / kMegabyte),
+      bytes_text(static_cast<double>(megabytes(command.cache_size_mb))),
+      std::ceil(bytes * kAdvisedSpare / static_cast<double>(megabytes(1))),
       levels_that_fit(command, plan, need, sample.bytes_per_tile))};
 }
 

@@ -8,19 +8,17 @@
 #include "apps/setup/stop_signals.h"
 #include "streaming/http/reply_queue.h"
 #include "streaming/remote/describe_remote.h"
+#include "streaming/remote/remote_pmtiles.h"
 #include "streaming/sets/open_tile_set.h"
 
 namespace terrella {
 namespace {
 
 Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
-  const auto fetch = [&](const Url& url, const std::vector<std::string>& headers) {
-    return fetch_document(http, url, headers);
-  };
-  auto set = describe_remote(source, remote, fetch);
+  auto set = fetch_description(source, remote, http);
   if (!set) return set.error();
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
-  opened.make_origin = [set = *std::move(set), http](ReplyQueue& answers) {
+  opened.make_origin = [http = within_limits(http, *set), set = *std::move(set)](ReplyQueue& answers) {
     return network_origin(set, http, answers);
   };
   return opened;
@@ -47,6 +45,22 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
 
 Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
+}
+
+Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
+  if (is_pmtiles_address(source)) {
+    RangeReader reader(source, remote.headers, http, [] { return !StopSignals::came(); });
+    return describe_remote_pmtiles(source, remote, reader);
+  }
+  return describe_remote(source, remote, [&](const Url& url, const std::vector<std::string>& headers) {
+    return fetch_document(http, url, headers);
+  });
+}
+
+HttpOptions within_limits(HttpOptions http, const RemoteTileSet& set) {
+  if (set.timeout) http.total_timeout = std::min<std::chrono::milliseconds>(http.total_timeout, *set.timeout);
+  if (set.connections > 0) http.connections_per_host = std::min(http.connections_per_host, set.connections);
+  return http;
 }
 
 Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <system_error>
 
@@ -14,13 +13,13 @@ namespace terrella {
 Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who, const std::filesystem::path& file,
                                                               const TileSetInfo& info, const std::string& source_key,
                                                               std::size_t max_mb) {
-  CacheOptions options{.max_bytes = std::uint64_t{max_mb} * 1'000'000};
+  CacheOptions options{.max_bytes = megabytes(max_mb)};
   options.on_locked = [who, name = file.string()] {
     print_message("{}: {} is locked by another program; waiting for it, a minute at most\n", who, name);
   };
   auto cache = TileCache::open(file, info, source_key, options);
   if (cache && !(*cache)->set_aside().empty()) {
-    print_message("{}: {} was damaged; it is now {}, and a new one was begun\n", who, file.string(),
+    print_message("{}: {} was damaged; it was renamed to {}, and a new file was started\n", who, file.string(),
                   (*cache)->set_aside().string());
   }
   return cache;
@@ -29,7 +28,7 @@ Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string&
 void say_without_cache(const Error& why) {
   static std::atomic_flag said;
   if (said.test_and_set()) return;
-  print_message("terrella: {}; going on without a cache: nothing is kept for the next time\n", why.message);
+  print_message("terrella: {}; continuing without a cache, so the next run requests the tiles again\n", why.message);
 }
 
 bool can_write_into(const std::filesystem::path& folder) {

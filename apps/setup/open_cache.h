@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,7 +11,10 @@
 
 namespace terrella {
 
-/// Opens a cache of at most `max_mb` megabytes (10^6 bytes, 0: no limit), as TileCache::open() does. Reports a lock
+/// Bytes of a size that the user states in megabytes (10^6 bytes). thread: any
+[[nodiscard]] constexpr std::uint64_t megabytes(std::size_t mb) { return std::uint64_t{mb} * 1'000'000; }
+
+/// Opens a cache of at most `max_mb` megabytes (0: no limit), as TileCache::open() does. Reports a lock
 /// that it waits for, and a damaged file that was set aside, on standard error; `who` begins these messages. thread:
 /// any
 [[nodiscard]] Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who,

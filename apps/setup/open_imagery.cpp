@@ -7,19 +7,24 @@
 #include <array>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 
+#include "apps/scene/place_options.h"
+#include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_remote.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/user_folder.h"
+#include "codecs/image.h"
 #include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -81,12 +86,14 @@ class ScratchSource : public TileSource {
   std::unique_ptr<TileSource> tiles_;
 };
 
-/// Cuts a picture. The cut receives the given body and latitude kind and compares them with the picture's own.
+/// Cuts a picture. The cut compares the given body, latitudes and place with the picture's own.
 Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
                                                  const SceneOptions& options, const CutProgress& told) {
   CutOptions cut;
   if (options.body && options.body->name != earth().name) cut.body = options.body->name;
-  cut.latitude = options.latitude.value_or(cut.latitude);
+  cut.latitude = options.latitude;
+  set_place(cut, options.place);
+  cut.remark = [](const std::string& remark) { print_message("terrella: {}\n", remark); };
   cut.images = {picture};
   cut.name = picture.stem().string();
   Progress progress("cutting " + picture.filename().string());
@@ -120,7 +127,14 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
-  auto tiles = is_picture(path) ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
+  const bool picture = is_picture(path);
+  if (!picture && options.place != PlaceWords{}) {
+    return Error{
+        fmt::format("{}: --crs, --bounds and --west place a picture, and this is a tile set, which says itself "
+                    "where it lies; leave them out",
+                    path.string())};
+  }
+  auto tiles = picture ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -132,6 +146,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.tile_set = options.elevation;
   heights.projection.reset();
   heights.latitude.reset();
+  heights.place = {};
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
@@ -153,14 +168,11 @@ Error no_meaning(const Url& address, const char* field) {
 }  // namespace
 
 bool begins_as_picture(const fs::path& path) {
-  std::array<char, 8> head{};
+  std::array<char, 12> head{};
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());
   const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
-  using namespace std::string_view_literals;
-  // First bytes of JPEG, PNG, TIFF and BigTIFF in either byte order.
-  constexpr std::array kStarts = {"\xff\xd8\xff"sv, "\x89PNG\r\n\x1a\n"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
-  return std::ranges::any_of(kStarts, [bytes](std::string_view start) { return bytes.starts_with(start); });
+  return begins_as_tiff(bytes) || sniff_format(std::as_bytes(std::span(bytes))) != ImageFormat::unknown;
 }
 
 bool is_picture(const fs::path& path) {
@@ -169,7 +181,7 @@ bool is_picture(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"};
   return std::ranges::find(kExtensions, extension) != kExtensions.end() || begins_as_picture(path);
 }
 

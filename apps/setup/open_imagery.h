@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "base/result.h"
 #include "tiles/elevation_source.h"
 #include "tiles/tile_source.h"
@@ -34,10 +34,10 @@ using CutProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 /// Checks quickly that TILESET exists, before slow work starts. Throws BrokenInstallation. thread: any
 [[nodiscard]] Status find_imagery(const SceneOptions& options);
 
-/// True for a file with the first bytes or the name of a JPEG, PNG or TIFF. thread: any
+/// True for a file with the first bytes or the name of a JPEG, PNG, WebP or TIFF. thread: any
 [[nodiscard]] bool is_picture(const std::filesystem::path& path);
 
-/// True for a file with the first bytes of a JPEG, PNG or TIFF. thread: any
+/// True for a file with the first bytes of a JPEG, PNG, WebP or TIFF. thread: any
 [[nodiscard]] bool begins_as_picture(const std::filesystem::path& path);
 
 /// Folder for tile sets cut from pictures, from the value of --cache (not "off"). An empty value gives

@@ -14,7 +14,6 @@
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/tile_cache.h"
-#include "streaming/remote/describe_remote.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
 #include "streaming/sets/open_tile_set.h"
@@ -124,14 +123,13 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
 
 Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (options.offline) return open_offline(options);
-  const HttpOptions http = network_options();
+  HttpOptions http = network_options();
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
-  auto set = describe_remote(
-      options.tile_set, remote,
-      [&http](const Url& url, const std::vector<std::string>& headers) { return fetch_document(http, url, headers); });
+  auto set = fetch_description(options.tile_set, remote, http);
   if (!set) return set.error();
+  http = within_limits(http, *set);
   auto cache = cache_of(options, *set);
   if (!cache) return cache.error();
   if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {

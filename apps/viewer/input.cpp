@@ -4,6 +4,7 @@
 // epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -11,58 +12,12 @@ namespace terrella {
 namespace {
 
 constexpr Seconds kDoubleClick(0.4);
-constexpr double kTurnStep_px = 24.0;   // at 96 dots per inch: drag distance that an arrow with Shift stands for
 constexpr double kClickSlack_px = 6.0;  // at 96 dots per inch
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
-std::optional<NavigationKey> navigation_key(int key) {
-  switch (key) {
-    case GLFW_KEY_LEFT:
-      return NavigationKey::pan_left;
-    case GLFW_KEY_RIGHT:
-      return NavigationKey::pan_right;
-    case GLFW_KEY_UP:
-      return NavigationKey::pan_up;
-    case GLFW_KEY_DOWN:
-      return NavigationKey::pan_down;
-    case GLFW_KEY_PAGE_UP:
-      return NavigationKey::zoom_in;
-    case GLFW_KEY_PAGE_DOWN:
-      return NavigationKey::zoom_out;
-    case GLFW_KEY_HOME:
-      return NavigationKey::whole_globe;
-    default:
-      return {};
-  }
-}
-
-std::optional<ViewerAction> function_key(int key) {
-  switch (key) {
-    case GLFW_KEY_F1:
-      return ViewerAction::toggle_help;
-    case GLFW_KEY_F6:
-      return ViewerAction::panel_focus;
-    case GLFW_KEY_F12:
-      return ViewerAction::save_screenshot;
-    case GLFW_KEY_ESCAPE:
-      return ViewerAction::leave;
-    default:
-      return {};
-  }
-}
-
-std::optional<ViewerAction> measuring_key(int key) {
-  switch (key) {
-    case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER:
-      return ViewerAction::measure_middle;
-    case GLFW_KEY_BACKSPACE:
-      return ViewerAction::take_back;
-    default:
-      return {};
-  }
-}
+/// True for keys that act on the viewer even while a panel has the keyboard.
+bool is_function_key(int key) { return key == GLFW_KEY_ESCAPE || key >= GLFW_KEY_F1; }
 
 }  // namespace
 
@@ -77,8 +32,13 @@ bool ClickPair::press(glm::dvec2 at_px, Seconds now, double slack_px) {
   return second;
 }
 
-Input::Input(Window& window, Ui& ui, Navigator& navigator)
-    : window_(window), ui_(ui), navigator_(navigator), pointer_px_(window.cursor_px()), heard_until_(now()) {
+Input::Input(Window& window, Ui& ui, Navigator& navigator, std::span<const Action> actions)
+    : window_(window),
+      ui_(ui),
+      navigator_(navigator),
+      actions_(actions),
+      pointer_px_(window.cursor_px()),
+      heard_until_(now()) {
   glfwSetWindowUserPointer(window_.handle(), this);
   listen_to_pointer();
   listen_to_keys();
@@ -98,7 +58,7 @@ void Input::listen(std::optional<double> wait_s) {
   heard_until_ = now();
 }
 
-std::vector<ViewerAction> Input::take_actions() { return std::exchange(actions_, {}); }
+std::vector<const Action*> Input::take_actions() { return std::exchange(queued_, {}); }
 
 std::vector<glm::dvec2> Input::take_clicks() { return std::exchange(clicks_px_, {}); }
 
@@ -190,84 +150,30 @@ void Input::on_button(int button, int action, int modifiers) {
 void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
-  if (action == GLFW_RELEASE || (taken && !function_key(key))) return;
-  const auto moves = navigation_key(key);
-  if (moves && (modifiers & GLFW_MOD_SHIFT) != 0) {
-    tilt_by_key(*moves);
-  } else if (moves) {
-    navigator_.key(*moves, now());
-  } else if (const auto asked = function_key(key); asked && !repeating_) {
-    actions_.push_back(*asked);
-  } else if (const auto measures = measuring_key(key); measures && !repeating_) {
-    actions_.push_back(*measures);
-  } else if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
+  if (action == GLFW_RELEASE || (taken && !is_function_key(key))) return;
+  const auto runs = [&](const Action& one) {
+    const bool shift_fits = (one.flags & Action::shifted) == 0 || (modifiers & GLFW_MOD_SHIFT) != 0;
+    return key > 0 && (key == one.key || key == one.other_key) && shift_fits;
+  };
+  if (const auto found = std::ranges::find_if(actions_, runs); found != actions_.end()) return queue(*found);
+  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
     bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = (modifiers & GLFW_MOD_CONTROL) != 0};
   }
 }
 
-// Acts like a right drag around the picture's middle. Ignores keys while a button is held, and keys other than arrows.
-void Input::tilt_by_key(NavigationKey key) {
-  glm::dvec2 by_px(0.0);
-  const double step_px = kTurnStep_px * window_.text_scale();
-  if (key == NavigationKey::pan_left) by_px.x = step_px;
-  if (key == NavigationKey::pan_right) by_px.x = -step_px;
-  if (key == NavigationKey::pan_up) by_px.y = -step_px;
-  if (key == NavigationKey::pan_down) by_px.y = step_px;
-  if (by_px == glm::dvec2(0.0) || pressed_px_) return;
-  const Viewport size = window_.framebuffer();
-  const glm::dvec2 middle = 0.5 * glm::dvec2(size.width_px, size.height_px);
-  navigator_.pointer_down(PointerButton::right, false, middle, now());
-  navigator_.pointer_move(middle + by_px, now());
-  navigator_.pointer_up(PointerButton::right, now());
-}
-
 void Input::on_character(unsigned character) {
   dirty_ = true;
-  if (character == '+' || character == '=') return navigator_.key(NavigationKey::zoom_in, now());
-  if (character == '-' || character == 0x2212) return navigator_.key(NavigationKey::zoom_out, now());
-  if (repeating_) return;
-  switch (character) {
-    case 'n':
-    case 'N':
-      return navigator_.key(NavigationKey::north_up, now());
-    case 'f':
-    case 'F':
-      return actions_.push_back(ViewerAction::toggle_full_screen);
-    case 'g':
-    case 'G':
-      return actions_.push_back(ViewerAction::toggle_graticule);
-    case 'p':
-    case 'P':
-      return actions_.push_back(ViewerAction::toggle_panel);
-    case 'u':
-    case 'U':
-      return actions_.push_back(ViewerAction::next_alpha);
-    case 'b':
-    case 'B':
-      return actions_.push_back(ViewerAction::toggle_sky);
-    case 's':
-    case 'S':
-      return actions_.push_back(ViewerAction::next_stereo);
-    case 'x':
-    case 'X':
-      return actions_.push_back(ViewerAction::toggle_underground);
-    case 'l':
-    case 'L':
-      return actions_.push_back(ViewerAction::toggle_layers);
-    case 'i':
-    case 'I':
-      return actions_.push_back(ViewerAction::picture);
-    case 'm':
-    case 'M':
-      return actions_.push_back(ViewerAction::toggle_measuring);
-    case '/':
-      ui_.expect_text(true);
-      return actions_.push_back(ViewerAction::find_place);
-    case '?':
-      return actions_.push_back(ViewerAction::toggle_help);
-    default:
-      return;
-  }
+  const bool capital = character >= 'A' && character <= 'Z';
+  const char32_t low = capital ? character - 'A' + 'a' : character;
+  const auto found = std::ranges::find_if(
+      actions_, [low](const Action& one) { return one.characters.find(low) != one.characters.npos; });
+  if (found != actions_.end()) queue(*found);
+}
+
+void Input::queue(const Action& action) {
+  if (repeating_ && (action.flags & Action::repeats) == 0) return;
+  if ((action.flags & Action::types) != 0) ui_.expect_text(true);
+  queued_.push_back(&action);
 }
 
 }  // namespace terrella

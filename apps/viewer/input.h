@@ -3,34 +3,15 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "apps/viewer/action.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/window.h"
 #include "view/navigation.h"
 
 namespace terrella {
-
-/// Actions of keys, apart from navigation.
-enum class ViewerAction {
-  toggle_help,
-  toggle_graticule,
-  toggle_panel,
-  toggle_full_screen,
-  save_screenshot,
-  next_alpha,
-  next_stereo,
-  toggle_sky,
-  toggle_underground,
-  toggle_measuring,
-  measure_middle,
-  take_back,
-  find_place,
-  toggle_layers,
-  picture,
-  panel_focus,
-  leave
-};
 
 /// Bookmark request: keys 1 to 9 fly to a bookmark; with Ctrl they store the current view.
 struct BookmarkKey {
@@ -53,18 +34,19 @@ class ClickPair {
   std::optional<Press> first_;
 };
 
-/// Handles a window's events: passes them to the navigator and queues actions for the viewer. Lives as long as the
-/// window. thread: main
+/// Handles a window's events: passes the pointer to the navigator and queues actions for the viewer. Lives as long as
+/// the window. thread: main
 class Input {
  public:
-  Input(Window& window, Ui& ui, Navigator& navigator);
+  /// `actions` must outlive the input.
+  Input(Window& window, Ui& ui, Navigator& navigator, std::span<const Action> actions);
   Input(const Input&) = delete;
   Input& operator=(const Input&) = delete;
 
   /// Handles pending events. With `wait_s`, first waits up to this many seconds for an event.
   void listen(std::optional<double> wait_s = {});
   /// Actions since the last call, in order.
-  [[nodiscard]] std::vector<ViewerAction> take_actions();
+  [[nodiscard]] std::vector<const Action*> take_actions();
   /// Positions of left clicks without a drag since the last call, framebuffer pixels.
   [[nodiscard]] std::vector<glm::dvec2> take_clicks();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
@@ -72,6 +54,8 @@ class Input {
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
   /// Enables or disables flying to a place by double click.
   void set_double_clicks(bool on) { double_clicks_ = on; }
+  /// True while the left button is held.
+  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value(); }
   /// True if an event since the last call can change the picture.
   [[nodiscard]] bool take_dirty();
   [[nodiscard]] bool dirty() const { return dirty_; }
@@ -83,14 +67,15 @@ class Input {
   void listen_to_pointer();
   void listen_to_keys();
   void listen_to_window();
-  void tilt_by_key(NavigationKey key);
   void on_button(int button, int action, int modifiers);
   void on_key(int key, int action, int modifiers, bool taken);
   void on_character(unsigned character);
+  void queue(const Action& action);
 
   Window& window_;
   Ui& ui_;  ///< receives every event first
   Navigator& navigator_;
+  std::span<const Action> actions_;
   /// Cursor position at the last event. The window only knows the current position, which differs from the position of
   /// a button press after a slow frame.
   glm::dvec2 pointer_px_;
@@ -100,11 +85,11 @@ class Input {
   std::vector<std::filesystem::path> dropped_;
   std::optional<glm::dvec2> pressed_px_;
   std::vector<glm::dvec2> clicks_px_;
-  std::vector<ViewerAction> actions_;
+  std::vector<const Action*> queued_;
   bool dirty_ = true;
   Seconds heard_until_;     ///< time when events were last handled
   Seconds late_{0.0};       ///< greatest possible age of the events being handled
-  bool repeating_ = false;  ///< the next character comes from a held key
+  bool repeating_ = false;  ///< the key, or the next character, comes from a held key
 };
 
 }  // namespace terrella

@@ -1,26 +1,29 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
+#include "apps/viewer/action.h"
 #include "apps/viewer/input.h"
-#include "apps/viewer/panels/layer_panel.h"
-#include "apps/viewer/panels/panels.h"
-#include "apps/viewer/panels/picture_panel.h"
-#include "apps/viewer/panels/place_search.h"
+#include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
-#include "apps/viewer/tools/bookmarks.h"
-#include "apps/viewer/tools/dropped_files.h"
-#include "apps/viewer/tools/gazetteer.h"
+#include "apps/viewer/parts/bookmark_views.h"
+#include "apps/viewer/parts/globe_frame.h"
+#include "apps/viewer/parts/graticule_lines.h"
+#include "apps/viewer/parts/help.h"
+#include "apps/viewer/parts/layers.h"
+#include "apps/viewer/parts/measure.h"
+#include "apps/viewer/parts/messages.h"
+#include "apps/viewer/parts/pictures.h"
+#include "apps/viewer/parts/search.h"
+#include "apps/viewer/parts/view_modes.h"
 #include "apps/viewer/tools/kept_settings.h"
-#include "apps/viewer/tools/measure_tool.h"
-#include "apps/viewer/tools/picture_job.h"
-#include "apps/viewer/tools/view_settings.h"
 #include "apps/viewer/window.h"
 #include "globe/globe.h"
-#include "render/gl/offscreen.h"
 
 namespace terrella {
 
@@ -31,13 +34,12 @@ struct ViewerOptions {
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
   SceneOptions files = {};                      ///< options for opening dropped files
   KeptSettings kept = {};                       ///< settings from the file
-  KeptSettings start = {};                      ///< settings from the file, overridden by the command line
   bool first_run = false;                       ///< true: show a hint
   std::string message = {};                     ///< first message; may be empty
 };
 
-/// The window's main loop: handles events and draws frames. Draws only on changes, motion or loading; otherwise sleeps
-/// until the next event. thread: main
+/// The window's main loop: handles events, draws frames, and wires the parts of the viewer. Draws only on changes,
+/// motion or loading; otherwise sleeps until the next event. thread: main
 class Viewer {
  public:
   /// The window must be shown and its context current; window and globe must outlive the viewer.
@@ -46,58 +48,32 @@ class Viewer {
   /// Runs until the user quits.
   void run();
 
+  /// All actions of the user, in the order of the list of shortcuts. thread: any
+  [[nodiscard]] static std::span<const Action> actions();
+
  private:
   using Clock = std::chrono::steady_clock;
+  static const Action kActions[];
+  static constexpr int kPanelFrames = 3;  // a panel shows an event one frame later
 
-  void begin_as_kept();
-  [[nodiscard]] KeptSettings now_kept() const;
-  void keep_settings();
-  void wait_for_work();
-  [[nodiscard]] bool work() const;
-  void act(ViewerAction action);
-  void next_alpha();
-  void next_stereo();
-  [[nodiscard]] bool under_ground() const;
-  void toggle_underground();
-  [[nodiscard]] double deepest_m() const;
-  bool leave_something();
-  void toggle_panel();
-  void show_panels();
+  template <NavigationKey kKey>
+  static void navigate(Viewer& viewer);
+  template <int kRight, int kDown>
+  static void turn(Viewer& viewer);
+  void leave();
   void pass_keyboard();
-  [[nodiscard]] bool any_panel() const;
-  void toggle_layers();
-  void draw_layer_panel();
-  void take_look(LayerRow& row, const ImageLook& look);
-  Status use_heights(const std::optional<ElevationSource>& heights);
-  void move_layer(std::size_t row, bool up);
-  void remove_layer(std::size_t row);
-  void look_at(const GeoRect& bounds);
-  void take_dropped();
-  void add_layer(OpenedFile file);
-  void insert_row(LayerRow row);
-  void toggle_picture_panel();
-  void draw_picture_panel();
-  void start_picture(Viewport size);
-  void end_picture(std::string message);
-  void draw_picture(Viewport framebuffer);
-  void toggle_measuring();
-  void measure_at(glm::dvec2 px);
-  void draw_measure();
-  void use(const BookmarkKey& key);
-  void toggle_search();
-  [[nodiscard]] const Gazetteer& places();
-  void draw_search();
-  void draw_settings();
-  void draw_graticules(const View& view);
+  void handle_events();
+  void follow_panels();
+  [[nodiscard]] Part* front_panel() const;
+  [[nodiscard]] bool work() const;
+  void wait_for_work();
+  [[nodiscard]] std::string job() const;
   void draw_frame(Viewport framebuffer);
-  void draw_globe(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
-  void save_screenshot(Viewport framebuffer);
-  void say(std::string message);
-  void say_too(const std::string& problem);
-  void say(std::string message, Clock::duration time);
-  void print_camera_at_rest();
   [[nodiscard]] PanelStatus status(const View& view) const;
+  [[nodiscard]] KeptSettings now_kept();
+  void keep_settings();
+  void print_camera_at_rest();
 
   Window& window_;
   Globe& globe_;
@@ -105,38 +81,24 @@ class Viewer {
   Ui ui_;
   Navigator navigator_;
   Input input_;
-  std::optional<OffscreenTarget> picture_;  ///< last drawn globe, so that new panels need no new globe frame
-  Viewport picture_size_;
-  FrameStats stats_;             ///< statistics of `picture_`
-  std::optional<Camera> above_;  ///< eye before it went under the ground
-  bool sky_ = true;
-  bool help_ = false;
-  bool panel_ = false;
-  bool panel_opened_ = false;  ///< since the last frame
-  int panel_frames_ = 0;       ///< frames still to draw: panels show an event one frame late
-  ViewSettings settings_;
-  bool graticule_ = false;
-  bool measuring_ = false;
-  MeasureTool measure_;
-  std::optional<LayerId> measure_layer_;
-  Bookmarks bookmarks_;
-  std::vector<LayerRow> layers_;
-  bool layers_shown_ = false;
-  bool layers_opened_ = false;  ///< since the last frame
-  DroppedFiles dropped_;
-  std::string problems_;      ///< errors of files dropped together
-  std::string dropped_text_;  ///< text of the last frame
-  bool picture_panel_shown_ = false;
-  PicturePanel picture_panel_;
-  std::unique_ptr<PictureJob> picture_job_;
-  KeptSettings started_;  ///< settings at the start of the run
-  KeptSettings saved_;    ///< settings in the file
-  bool searching_ = false;
-  std::optional<Gazetteer> places_;  ///< loaded at the first search
-  PlaceSearch search_;
-  bool screenshot_wanted_ = false;
-  std::string message_;
-  Clock::time_point message_until_{};
+  Messages messages_;
+  const ViewerContext context_{window_, globe_, navigator_, ui_, messages_};
+  GlobeFrame frame_;
+  GraticuleLines graticule_{context_};
+  BookmarkViews bookmarks_{context_};
+  Help help_{context_, actions()};
+  Pictures pictures_{context_};
+  Search search_{context_};
+  Layers layers_;
+  ViewModes modes_;
+  Measure measure_{context_};
+  /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
+  const std::array<Part*, 6> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_};
+  Part* front_ = nullptr;  ///< front_panel() at the last look
+  int panel_frames_ = 0;   ///< frames still to draw
+  std::string job_text_;   ///< job() in the last frame
+  KeptSettings started_;   ///< settings at the start of the run
+  KeptSettings saved_;     ///< settings in the file
   std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };

@@ -1,160 +1,95 @@
-#include "apps/viewer/viewer.h"
-
 #include <epoxy/gl.h>
 // epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <utility>
+#include "apps/viewer/viewer.h"
 
 namespace terrella {
 namespace {
 
-constexpr double kEarthEquator_m = 6378137.0;
+constexpr double kTurnStep_px = 24.0;  // at 96 dots per inch: drag distance that an arrow with Shift stands for
+constexpr unsigned kHeld = Action::repeats, kTilts = Action::repeats | Action::shifted;
+using Go = NavigationKey;
+using V = Viewer&;
 
 }  // namespace
 
-void Viewer::act(ViewerAction action) {
-  switch (action) {
-    case ViewerAction::toggle_help:
-      help_ = !help_;
-      return;
-    case ViewerAction::toggle_graticule:
-      graticule_ = !graticule_;
-      return;
-    case ViewerAction::toggle_panel:
-      return toggle_panel();
-    case ViewerAction::toggle_full_screen:
-      window_.toggle_full_screen();
-      return;
-    case ViewerAction::save_screenshot:
-      screenshot_wanted_ = true;
-      return;
-    case ViewerAction::next_alpha:
-      return next_alpha();
-    case ViewerAction::next_stereo:
-      return next_stereo();
-    case ViewerAction::toggle_sky:
-      sky_ = !sky_;
-      globe_.set_sky(sky_);
-      say(sky_ ? "Sky on" : "Sky off");
-      return;
-    case ViewerAction::toggle_underground:
-      return toggle_underground();
-    case ViewerAction::toggle_measuring:
-      return toggle_measuring();
-    case ViewerAction::measure_middle:
-      if (measuring_) measure_at(0.5 * glm::dvec2(window_.framebuffer().width_px, window_.framebuffer().height_px));
-      return;
-    case ViewerAction::take_back:
-      measure_.take_back();
-      return draw_measure();
-    case ViewerAction::toggle_layers:
-      return toggle_layers();
-    case ViewerAction::picture:
-      return toggle_picture_panel();
-    case ViewerAction::panel_focus:
-      return pass_keyboard();
-    case ViewerAction::find_place:
-      return toggle_search();
-    case ViewerAction::leave:
-      if (leave_something()) return;
-      glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
-      return;
+template <NavigationKey kKey>
+void Viewer::navigate(Viewer& viewer) {
+  viewer.navigator_.key(kKey, Input::now());
+}
+
+// Acts like a right drag around the picture's middle. Ignored while a button is held.
+template <int kRight, int kDown>
+void Viewer::turn(Viewer& viewer) {
+  if (viewer.input_.is_button_held()) return;
+  const glm::dvec2 middle = viewer.context_.middle_px();
+  const glm::dvec2 by_px = kTurnStep_px * viewer.window_.text_scale() * glm::dvec2(kRight, kDown);
+  viewer.navigator_.pointer_down(PointerButton::right, false, middle, Input::now());
+  viewer.navigator_.pointer_move(middle + by_px, Input::now());
+  viewer.navigator_.pointer_up(PointerButton::right, Input::now());
+}
+
+// Esc cancels a job, or else closes a panel or ends a tool, or else quits.
+void Viewer::leave() {
+  for (Part* part : parts_) {
+    if (part->cancel()) return;
   }
-}
-
-// Esc ends one mode or panel at a time; returns false if none was active.
-bool Viewer::leave_something() {
-  if (picture_job_ && !picture_job_->drawn()) {
-    end_picture("Picture cancelled");
-  } else if (dropped_.busy()) {
-    dropped_.leave_off();
-  } else if (help_) {
-    help_ = false;
-  } else if (picture_panel_shown_) {
-    toggle_picture_panel();
-  } else if (searching_) {
-    toggle_search();
-  } else if (layers_shown_) {
-    toggle_layers();
-  } else if (panel_) {
-    toggle_panel();
-  } else if (measuring_) {
-    toggle_measuring();
-  } else {
-    return false;
+  for (Part* part : parts_) {
+    if (part->close()) return;
   }
-  return true;
+  glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
 }
 
-void Viewer::next_alpha() {
-  constexpr double kAlphas[] = {1.0, 0.7, 0.4};
-  SurfaceLook surface = globe_.options().surface;
-  const auto* lower =
-      std::find_if(std::begin(kAlphas), std::end(kAlphas), [&](double alpha) { return alpha < surface.alpha - 0.01; });
-  surface.alpha = lower == std::end(kAlphas) ? kAlphas[0] : *lower;
-  globe_.set_surface(surface);
-  say(fmt::format("Opacity {:.0f} %", 100.0 * surface.alpha));
+// Gives the keyboard to the panel on top, or back to the globe.
+void Viewer::pass_keyboard() {
+  Part* front = front_panel();
+  if (front == nullptr) return;
+  const bool to_panel = !Ui::panel_has_keyboard();
+  Ui::pass_keyboard(front->panel());
+  to_panel ? front->take_keyboard() : ui_.expect_text(false);
+  panel_frames_ = kPanelFrames;
 }
 
-void Viewer::next_stereo() {
-  StereoLook stereo = globe_.options().stereo;
-  switch (stereo.mode) {
-    case Stereo::off:
-      stereo.mode = Stereo::anaglyph;
-      say("Stereo: anaglyph, red for the left eye");
-      break;
-    case Stereo::anaglyph:
-      stereo.mode = Stereo::side_by_side;
-      say("Stereo: side by side");
-      break;
-    case Stereo::side_by_side:
-      stereo.mode = Stereo::interlaced;
-      say("Stereo: interlaced, even rows for the left eye");
-      break;
-    case Stereo::interlaced:
-      stereo.mode = Stereo::off;
-      say("Stereo off");
-      break;
-  }
-  globe_.set_stereo(stereo);
-}
+constinit const Action Viewer::kActions[] = {
+    {"Drag", "move the ground"},
+    {"Wheel", "zoom to the cursor"},
+    {"Right-drag, Ctrl + drag", "tilt and turn"},
+    {"Double-click", "fly to this place"},
+    {"Arrows; with Shift", "move; tilt and turn", turn<1, 0>, U"", GLFW_KEY_LEFT, 0, kTilts},
+    {nullptr, nullptr, turn<-1, 0>, U"", GLFW_KEY_RIGHT, 0, kTilts},
+    {nullptr, nullptr, turn<0, -1>, U"", GLFW_KEY_UP, 0, kTilts},
+    {nullptr, nullptr, turn<0, 1>, U"", GLFW_KEY_DOWN, 0, kTilts},
+    {nullptr, nullptr, navigate<Go::pan_left>, U"", GLFW_KEY_LEFT, 0, kHeld},
+    {nullptr, nullptr, navigate<Go::pan_right>, U"", GLFW_KEY_RIGHT, 0, kHeld},
+    {nullptr, nullptr, navigate<Go::pan_up>, U"", GLFW_KEY_UP, 0, kHeld},
+    {nullptr, nullptr, navigate<Go::pan_down>, U"", GLFW_KEY_DOWN, 0, kHeld},
+    {"+  -  Page up, down", "zoom", navigate<Go::zoom_in>, U"+=", GLFW_KEY_PAGE_UP, 0, kHeld},
+    {nullptr, nullptr, navigate<Go::zoom_out>, U"-\u2212", GLFW_KEY_PAGE_DOWN, 0, kHeld},
+    {"N", "north up", navigate<Go::north_up>, U"n"},
+    {"Home", "the whole globe", navigate<Go::whole_globe>, U"", GLFW_KEY_HOME, 0, kHeld},
+    {"R", "reset the view: look of the start, whole globe", [](V v) { v.modes_.reset(); }, U"r", 0, 0, 0, "Reset"},
+    {"G", "graticule", [](V v) { v.graticule_.is_on() = !v.graticule_.is_on(); }, U"g"},
+    {"/", "search for a place", [](V v) { v.search_.toggle(); }, U"/", 0, 0, Action::types},
+    {"M", "measure: click to add, Enter for the centre, Backspace to undo", [](V v) { v.measure_.toggle(); }, U"m"},
+    {nullptr, nullptr, [](V v) { v.measure_.add(v.context_.middle_px()); }, U"", GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER},
+    {nullptr, nullptr, [](V v) { v.measure_.take_back(); }, U"", GLFW_KEY_BACKSPACE},
+    {"1 ... 9", "fly to a bookmark; Ctrl saves the view"},
+    {"P", "view settings", [](V v) { v.modes_.toggle(); }, U"p"},
+    {"L", "layers: show, opacity, order, remove", [](V v) { v.layers_.toggle(); }, U"l", 0, 0, 0, "Layers"},
+    {"Drop a file", "add a picture, tile set, GeoJSON or glTF"},
+    {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
+    {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
+    {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},
+    {"S", "stereo: anaglyph, side by side, interlaced, off", [](V v) { v.modes_.next_stereo(); }, U"s"},
+    {"F", "full screen", [](V v) { v.window_.toggle_full_screen(); }, U"f"},
+    {"I", "save a picture of any size", [](V v) { v.pictures_.toggle(); }, U"i", 0, 0, 0, "Picture"},
+    {"F12", "save a screenshot", [](V v) { v.pictures_.want_screenshot(); }, U"", GLFW_KEY_F12},
+    {"F6", "switch the keyboard between panel and globe", [](V v) { v.pass_keyboard(); }, U"", GLFW_KEY_F6},
+    {"F1  ?", "shortcuts", [](V v) { v.help_.toggle(); }, U"?", GLFW_KEY_F1, 0, 0, "Shortcuts"},
+    {"Esc", "close a panel, cancel, quit", [](V v) { v.leave(); }, U"", GLFW_KEY_ESCAPE},
+};
 
-// Most of the way down to the inner sphere.
-double Viewer::deepest_m() const {
-  constexpr double kDeepest = 0.8;
-  const Ellipsoid& e = globe_.options().body.ellipsoid;
-  const double below_m = globe_.options().surface.inner_sphere_below_m.value_or(kEarthEquator_m);
-  return -kDeepest * below_m * (e.a_m() / kEarthEquator_m);
-}
-
-// True if the eye is under the ground now; the eye may have flown up since X was pressed.
-bool Viewer::under_ground() const {
-  const Geodetic eye = navigator_.camera().eye;
-  return eye.height_m < globe_.ground_height_m(eye.lat, eye.lon);
-}
-
-// Moves the eye under its place, as deep as it was high but above the inner sphere, looking up at the ground.
-void Viewer::toggle_underground() {
-  Camera camera = navigator_.camera();
-  const double ground_m = globe_.ground_height_m(camera.eye.lat, camera.eye.lon);
-  if (under_ground()) {
-    camera.eye.height_m = 2.0 * ground_m - camera.eye.height_m;
-    camera.pitch = Angle::degrees(-90.0);
-    if (above_) camera = *std::exchange(above_, std::nullopt);
-    navigator_.set_deepest({});
-    say("Above the ground");
-  } else {
-    above_ = camera;
-    navigator_.set_deepest(deepest_m());
-    camera.eye.height_m = std::max(2.0 * ground_m - camera.eye.height_m, deepest_m());
-    camera.pitch = Angle::degrees(std::max(30.0, -camera.pitch.deg()));
-    say("Under the ground; X returns");
-  }
-  navigator_.set_camera(camera);
-}
+std::span<const Action> Viewer::actions() { return kActions; }
 
 }  // namespace terrella

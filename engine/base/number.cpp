@@ -5,16 +5,13 @@
 #include <system_error>
 
 namespace terrella {
-namespace {
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
+  constexpr std::string_view blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
-
-}  // namespace
 
 std::optional<double> read_number(std::string_view text) {
   const std::string_view digits = trimmed(text);

@@ -12,6 +12,9 @@ namespace terrella {
 /// thread: any
 [[nodiscard]] std::optional<double> read_number(std::string_view text);
 
+/// Returns text without the blanks at both ends. A blank is a space, a tab or a line end. thread: any
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 /// Splits text at its commas and removes the blanks around each piece. Returns at least one piece. thread: any
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
 

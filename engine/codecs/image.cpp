@@ -8,6 +8,7 @@
 #include "codecs/image_limits.h"
 #include "codecs/jpeg_codec.h"
 #include "codecs/png_codec.h"
+#include "codecs/webp_codec.h"
 
 namespace terrella {
 namespace {
@@ -27,7 +28,41 @@ ImageFormat sniff_format(std::span<const std::byte> bytes) {
   constexpr std::array<unsigned char, 8> kPng{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   if (begins_with(bytes, kJpeg)) return ImageFormat::jpeg;
   if (begins_with(bytes, kPng)) return ImageFormat::png;
+  // "RIFF", the file's length in four bytes, "WEBP".
+  constexpr std::array<unsigned char, 4> kRiff{'R', 'I', 'F', 'F'};
+  constexpr std::array<unsigned char, 4> kWebp{'W', 'E', 'B', 'P'};
+  if (begins_with(bytes, kRiff) && begins_with(bytes.subspan(std::min<std::size_t>(8, bytes.size())), kWebp)) {
+    return ImageFormat::webp;
+  }
   return ImageFormat::unknown;
+}
+
+const char* extension_of(ImageFormat format) {
+  return format == ImageFormat::unknown ? kImageFormatNames.front()
+                                        : kImageFormatNames.at(static_cast<std::size_t>(format));
+}
+
+namespace {
+
+Error no_picture(std::span<const std::byte> bytes) {
+  if (bytes.empty()) return Error{"no bytes at all, a JPEG, PNG or WebP picture is expected"};
+  return Error{fmt::format("{} bytes that begin like no JPEG, PNG or WebP picture", bytes.size())};
+}
+
+}  // namespace
+
+Result<PictureSize> picture_size(std::span<const std::byte> bytes) {
+  switch (sniff_format(bytes)) {
+    case ImageFormat::jpeg:
+      return jpeg_size(bytes);
+    case ImageFormat::png:
+      return png_size(bytes);
+    case ImageFormat::webp:
+      return webp_size(bytes);
+    case ImageFormat::unknown:
+      break;
+  }
+  return no_picture(bytes);
 }
 
 Status check_size(std::uint64_t width_px, std::uint64_t height_px, const DecodeLimits& limits) {
@@ -51,11 +86,12 @@ Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits&
       return decode_jpeg(bytes, limits);
     case ImageFormat::png:
       return decode_png(bytes, limits);
+    case ImageFormat::webp:
+      return decode_webp(bytes, limits);
     case ImageFormat::unknown:
       break;
   }
-  if (bytes.empty()) return Error{"no bytes at all, a JPEG or PNG picture is expected"};
-  return Error{fmt::format("{} bytes that begin like neither a JPEG nor a PNG picture", bytes.size())};
+  return no_picture(bytes);
 }
 
 }  // namespace terrella

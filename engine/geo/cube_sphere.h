@@ -5,6 +5,8 @@
 #include "geo/coordinates.h"
 
 // thread: any, for all of this header
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 namespace terrella {
 
 /// Cube faces, named by their axis. The centres of the equatorial faces are at 0°, 90°, 180° and 270° E.

@@ -8,9 +8,8 @@
 #include <string>
 
 #include "globe/globe_impl.h"
-#include "render/gl/gl_state.h"
 
-// The façade. Each function checks that the call is allowed, then forwards it.
+// Making a globe, its settings and its frames. Each call first checks thread and context.
 namespace terrella {
 namespace {
 
@@ -52,38 +51,34 @@ Status check_ranges(const GlobeOptions& o) {
   return Done{};
 }
 
-// Sets the state that drawing depends on. The value that it returns restores the caller's state when the call ends.
-[[nodiscard]] std::optional<GlState> at_call(GlContract contract) {
-  if (contract == GlContract::restore) return std::optional<GlState>(std::in_place);
-  set_first_gl_state();
-  return std::nullopt;
-}
-
-// Misuse: told at once where assertions are on.
-bool refuse([[maybe_unused]] const char* call, [[maybe_unused]] const char* why) {
+// Misuse: an assertion, and an error where assertions are off.
+Error misuse(const char* call, const char* why) {
 #ifndef NDEBUG
   std::fprintf(stderr, "terrella: %s: %s\n", call, why);
   std::abort();
 #endif
-  return false;
+  return Error{std::string(call) + ": " + why};
 }
 
-Error refused(const char* call) {
-  return Error{std::string(call) + ": called from another thread than the globe's, or without its context"};
+// Sets the GL state that drawing depends on.
+GlScope enter(GlContract contract) {
+  if (contract == GlContract::restore) return std::make_unique<GlState>();
+  set_first_gl_state();
+  return nullptr;
 }
 
 }  // namespace
 
-bool Globe::Impl::may_call(const char* call) const {
-  if (std::this_thread::get_id() == thread) return true;
-  return refuse(call, "called from another thread than the one that the globe was made on");
+Status Globe::Impl::may_call(const char* call) const {
+  if (std::this_thread::get_id() == thread) return Done{};
+  return misuse(call, "called from another thread than the one that the globe was made on");
 }
 
-bool Globe::Impl::may_draw(const char* call) const {
-  if (!may_call(call)) return false;
-  if (!has_context()) return refuse(call, "no OpenGL context is current");
-  if (renderer && !renderer->is_of_current_context()) return refuse(call, "another OpenGL context is current");
-  return true;
+Result<GlScope> Globe::Impl::may_draw(const char* call) const {
+  if (Status allowed = may_call(call); !allowed) return allowed.error();
+  if (!has_context()) return misuse(call, "no OpenGL context is current");
+  if (!renderer->is_of_current_context()) return misuse(call, "another OpenGL context is current");
+  return enter(options.gl_contract);
 }
 
 Globe::Globe(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -103,14 +98,9 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
                                            const std::optional<ElevationSource>& elevation) {
   if (const Status ranges = check_ranges(options); !ranges) return ranges.error();
   if (const Status context = check_context(); !context) return context.error();
-  const auto state = at_call(options.gl_contract);
+  const GlScope scope = enter(options.gl_contract);
   gl::find_deletes();
   auto impl = std::make_unique<Impl>(options);
-  RenderOptions render;
-  render.texturing = options.texturing;
-  render.depth = options.depth;
-  render.paper_a = options.paper_a;
-  render.paper_band = options.paper_band;
   SkyAssets sky{.body = options.body, .stars = options.stars, .night_lights = {}};
   if (options.sky || options.time) {
     const Result<Almanac> almanac = almanac_at(options.time.value_or(kQuietSky));
@@ -119,104 +109,19 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
     impl->sky_on = options.sky;
     if (options.time && options.body.name == "earth") sky.night_lights = options.night_lights;
   }
-  Result<std::unique_ptr<GlobeRenderer>> renderer =
-      GlobeRenderer::create(render, options.body.ellipsoid, options.sky ? &sky : nullptr);
+  Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(
+      {.texturing = options.texturing, .depth = options.depth}, options.body.ellipsoid, options.sky ? &sky : nullptr);
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
-  if (elevation) impl->make_relief(*elevation);
+  if (elevation) impl->heights = std::make_unique<HeightLayer>(*elevation, impl->options, impl->bell);
   if (Status made = impl->renderer->set_relief(elevation.has_value()); !made) return made.error();
   impl->renderer->set_label_font(std::move(impl->options.label_font));
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
 }
 
-Result<LayerId> Globe::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
-  if (!impl_->may_draw("Globe::add_imagery")) return refused("Globe::add_imagery");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->add_imagery(std::move(source), look);
-}
-
-Status Globe::set_look(LayerId imagery, const ImageLook& look) {
-  if (!impl_->may_call("Globe::set_look")) return refused("Globe::set_look");
-  return impl_->set_look(imagery, look);
-}
-
-Result<ImageLook> Globe::look(LayerId imagery) const {
-  if (!impl_->may_call("Globe::look")) return refused("Globe::look");
-  return impl_->look(imagery);
-}
-
-Status Globe::move(LayerId layer, std::size_t position) {
-  if (!impl_->may_draw("Globe::move")) return refused("Globe::move");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->move(layer, position);
-}
-
-std::vector<LayerId> Globe::imagery() const {
-  std::vector<LayerId> ids;
-  if (!impl_->may_call("Globe::imagery")) return ids;
-  for (const auto& layer : impl_->images) ids.push_back(layer->id());
-  return ids;
-}
-
-Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
-  if (!impl_->may_draw("Globe::add_objects")) return refused("Globe::add_objects");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->add_objects(std::move(objects), shown);
-}
-
-Status Globe::set_objects(LayerId layer, ObjectScene objects) {
-  if (!impl_->may_draw("Globe::set_objects")) return refused("Globe::set_objects");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->set_objects(layer, std::move(objects));
-}
-
-Status Globe::show_objects(LayerId layer, bool shown) {
-  if (!impl_->may_draw("Globe::show_objects")) return refused("Globe::show_objects");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->show_objects(layer, shown);
-}
-
-Status Globe::fade_objects(LayerId layer, double opacity) {
-  if (!impl_->may_draw("Globe::fade_objects")) return refused("Globe::fade_objects");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->fade_objects(layer, opacity);
-}
-
-std::vector<LayerId> Globe::objects() const {
-  std::vector<LayerId> ids;
-  if (!impl_->may_call("Globe::objects")) return ids;
-  for (const ObjectLayer& layer : impl_->objects) ids.push_back(layer.id);
-  return ids;
-}
-
-Status Globe::remove(LayerId layer) {
-  if (!impl_->may_draw("Globe::remove")) return refused("Globe::remove");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->remove(layer);
-}
-
-Status Globe::set_attribution(LayerId layer, std::string text) {
-  if (!impl_->may_call("Globe::set_attribution")) return refused("Globe::set_attribution");
-  return impl_->set_attribution(layer, std::move(text));
-}
-
-std::vector<std::string> Globe::attributions() const {
-  if (!impl_->may_call("Globe::attributions")) return {};
-  return impl_->attributions();
-}
-
-Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
-  if (!impl_->may_draw("Globe::set_elevation")) return refused("Globe::set_elevation");
-  const auto state = at_call(impl_->options.gl_contract);
-  return impl_->set_elevation(elevation);
-}
-
-bool Globe::has_relief() const { return impl_->relief != nullptr; }
-
 void Globe::set_camera(const Camera& camera) {
   if (!impl_->may_call("Globe::set_camera")) return;
-  // Callers set the camera every frame; an unchanged camera keeps the reduced detail.
-  if (camera == impl_->camera) return;
+  if (camera == impl_->camera) return;  // callers set the camera every frame; this keeps the reduced detail
   impl_->camera = camera;
   impl_->restore_detail();
 }
@@ -251,12 +156,12 @@ void Globe::set_sky(bool on) {
 void Globe::set_exaggeration(double exaggeration) {
   if (!impl_->may_call("Globe::set_exaggeration")) return;
   impl_->options.exaggeration = exaggeration;
-  if (impl_->relief) impl_->relief->set_exaggeration(exaggeration);
+  if (impl_->heights) impl_->relief()->set_exaggeration(exaggeration);
   impl_->changed = true;
 }
 
 Status Globe::set_time(std::optional<UtcTime> time) {
-  if (!impl_->may_call("Globe::set_time")) return refused("Globe::set_time");
+  if (Status call = impl_->may_call("Globe::set_time"); !call) return call;
   const Result<Almanac> almanac = almanac_at(time.value_or(kQuietSky));
   if (!almanac) return almanac.error();
   impl_->options.time = time;
@@ -266,8 +171,8 @@ Status Globe::set_time(std::optional<UtcTime> time) {
 }
 
 void Globe::set_budget(const GlobeBudget& budget) {
-  if (!impl_->may_draw("Globe::set_budget")) return;
-  const auto state = at_call(impl_->options.gl_contract);
+  const auto call = impl_->may_draw("Globe::set_budget");
+  if (!call) return;
   impl_->options.gpu_bytes = budget.gpu_bytes;
   impl_->options.upload_bytes_per_frame = budget.upload_bytes_per_frame;
   impl_->options.upload_time_per_frame = budget.upload_time_per_frame;
@@ -276,16 +181,16 @@ void Globe::set_budget(const GlobeBudget& budget) {
   impl_->restore_detail();
 }
 
-void Globe::set_patch_shuffle(std::optional<unsigned> seed) {
-  impl_->patch_shuffle = seed;
-  impl_->changed = true;
+Experiments& Experiments::of(Globe& globe) {
+  globe.impl_->changed = true;
+  return globe.impl_->experiments;
 }
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
-  if (!impl_->may_draw("Globe::render")) return {};
   FrameStats stats;
   {
-    const auto state = at_call(impl_->options.gl_contract);
+    const auto call = impl_->may_draw("Globe::render");
+    if (!call) return stats;
     stats = impl_->draw(framebuffer, viewport, corner_px);
   }
   const bool settled_before = std::exchange(impl_->was_settled, impl_->settled());
@@ -296,7 +201,13 @@ FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 cor
 const Status& Globe::status() const { return impl_->status; }
 bool Globe::settled() const { return impl_->settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
-bool Globe::needs_frame() const { return impl_->needs_frame(); }
+
+bool Globe::needs_frame() const {
+  const FrameStats& last = impl_->stats;
+  if (impl_->changed || impl_->frame == 0 || last.heights_arrived || last.relief_put_off > 0) return true;
+  if (impl_->heights && impl_->heights->has_news()) return true;
+  return std::ranges::any_of(impl_->images, [](const auto& layer) { return layer->has_news(); });
+}
 
 bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
   if (!impl_->may_draw("Globe::render_until_settled")) return false;
@@ -307,15 +218,6 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock:
     while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
     if (Clock::now() >= deadline) return false;
   }
-}
-
-Ground Globe::ground() const { return impl_->ground(); }
-
-double Globe::ground_height_m(Angle lat, Angle lon) const { return ground().height_m(lat, lon); }
-
-std::optional<double> Globe::elevation_m(Angle lat, Angle lon) const {
-  if (!impl_->relief) return std::nullopt;
-  return impl_->relief->field().height_m(lat, lon);
 }
 
 const std::deque<MissingTile>& Globe::missing_tiles() const { return impl_->missing; }
@@ -334,23 +236,5 @@ LoaderCounts Globe::loading() const {
   }
   return all;
 }
-
-GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
-  if (!impl_->may_call("Globe::pick")) return {};
-  return impl_->pick(view(viewport), pixel_px);
-}
-
-std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
-  if (!impl_->may_call("Globe::project")) return std::nullopt;
-  const View eye = view(viewport);
-  const Ecef at = impl_->options.body.ellipsoid.to_ecef(place);
-  const auto pixel = terrella::project(eye, at);
-  if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x > viewport.width_px || pixel->y > viewport.height_px) {
-    return std::nullopt;
-  }
-  return hidden_by_ground(eye, ground(), at) ? std::nullopt : pixel;
-}
-
-View Globe::view(Viewport viewport) const { return make_view(impl_->camera, impl_->options.body.ellipsoid, viewport); }
 
 }  // namespace terrella

@@ -13,7 +13,6 @@
 #include "base/result.h"
 #include "geo/body.h"
 #include "geo/camera.h"
-#include "geo/cube_sphere.h"
 #include "geo/objects.h"
 #include "objects/object_pick.h"
 #include "sky/cube_picture.h"
@@ -37,8 +36,6 @@ enum class GlContract {
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
-  double paper_a = 4.0;      ///< paper 1's a in formula (6), [2, 8]
-  double paper_band = 0.05;  ///< paper 1's b in formula (5), (0, 0.5]
   /// Draws squeezed tiles near the poles if the set has them and `texturing` is exact or automatic. False: draws the
   /// full grid.
   bool squeezed_rows = true;
@@ -51,7 +48,6 @@ struct GlobeOptions {
   /// patch with a larger error is split.
   double max_error_px = 0.2;
   int segments = 24;  ///< edges of triangles along a patch's side: even, [2, 128]
-  CubeMapping mapping = CubeMapping::tangent;
   /// Border of neighbouring texels around a tile in its slot, [0, 64]; mip k has 2^-k times as many. Filtering reaches
   /// at most 8 texels. Without a gutter, tile borders show.
   int gutter_px = 8;
@@ -60,9 +56,6 @@ struct GlobeOptions {
   SurfaceLook surface{};
   double exaggeration = 1.0;  ///< factor of the heights, [0, 100]
   StereoLook stereo{};
-  /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
-  /// prevents.
-  bool naive_translucency = false;
   bool sky = false;  ///< draws stars, Sun, Moon and atmosphere; not with `unlit`
   /// Time for Sun and sky. None: the Sun shines from over the viewer's shoulder and is not drawn, and it is day
   /// everywhere (ImageLook::daylight).
@@ -149,7 +142,7 @@ class Globe {
   /// 4.5, or a shader does not compile. Also fails if the time is outside the almanac's years, or if detail, error,
   /// segments or gutter are out of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
-  /// The same with a first image layer and, optionally, heights.
+  /// The same with a base layer and, optionally, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});
@@ -157,8 +150,8 @@ class Globe {
   Globe(const Globe&) = delete;
   Globe& operator=(const Globe&) = delete;
 
-  /// Adds an image layer over the existing ones. Fails if the source is null, or if its description of its grid is
-  /// invalid.
+  /// Adds an image layer over the existing ones. The lowest image layer is the base layer, the others are upper layers.
+  /// Fails if the source is null, or if its description of its grid is invalid.
   Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look = {});
   /// Replaces the look of an image layer. Fails if `imagery` is not an image layer of this globe.
   Status set_look(LayerId imagery, const ImageLook& look);
@@ -181,8 +174,8 @@ class Globe {
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);
-  /// Returns the attribution texts of the last frame, each text once: of the image layers with a tile in view, lowest
-  /// first and including those under an opaque layer, of the elevation, and of the visible object layers.
+  /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
+  /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
   [[nodiscard]] std::vector<std::string> attributions() const;
   /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
@@ -202,15 +195,13 @@ class Globe {
   /// Sets the budget from the next frame on. Image layers share the GPU memory evenly. Each layer has room for at least
   /// 16 tiles.
   void set_budget(const GlobeBudget& budget);
-  /// For tests: draws the patches in a random order with this seed; none: in the normal order.
-  void set_patch_shuffle(std::optional<unsigned> seed);
 
-  /// Draws one frame into `framebuffer` (a GL name, 0 the window), sRGB or not, its lower left corner at `corner_px`,
-  /// and uploads what has arrived, within the budget. Returns what the frame did. Draws nothing if status() is an
-  /// error.
+  /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`. `framebuffer` is a GL name, 0 the
+  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
+  /// if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
-  /// The error of the last frame, which drew nothing because a shader program that it was the first to need could not
-  /// be made. The next frame tries again.
+  /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
+  /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
 
   /// True if the last frame showed everything that its view needs.
@@ -246,6 +237,7 @@ class Globe {
   [[nodiscard]] std::optional<double> elevation_m(Angle lat, Angle lon) const;
 
  private:
+  friend struct Experiments;  // settings for tests and benchmarks, in a header that is not installed
   struct Impl;
   [[nodiscard]] static Result<std::unique_ptr<Globe>> make(const GlobeOptions& options,
                                                            const std::optional<ElevationSource>& elevation);

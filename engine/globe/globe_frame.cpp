@@ -29,7 +29,7 @@ void Globe::Impl::stack_layers() {
     }
   }
   if (stack.empty() || !stack.front()->is_opaque(has_night())) {
-    if (!plain) plain = ImageLayer::make_plain(options, relief.get());
+    if (!plain) plain = ImageLayer::make_plain(setup());
     stack.insert(stack.begin(), plain.get());
   }
 }
@@ -53,6 +53,8 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
   selection.max_error_px = options.max_error_px;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
+  selection.relief = relief();
+  selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;
     selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
@@ -61,17 +63,17 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
 }
 
 FrameSnapshot Globe::Impl::snapshot() {
-  stack.front()->tree().refresh_bounds();
-  FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = patch_shuffle};
+  if (heights) relief()->refresh_bounds(stack.front()->tree());
+  FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = experiments.patch_shuffle};
   if (has_night()) snapshot.sun = sun();
   for (ImageLayer* layer : stack) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }
 
-void Globe::Impl::execute(FramePlan plan) {
-  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(std::move(plan.layers[k]), frame);
-  stack.front()->tree().make_meshes(plan.meshes);
-  for (std::size_t k = 1; relief && k < stack.size(); ++k) stack[k]->copy_relief();
+void Globe::Impl::execute(FramePlan& plan) {
+  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(plan.layers[k], frame);
+  if (heights) stats.relief_meshes = relief()->make_meshes(stack.front()->tree(), plan.meshes);
+  for (std::size_t k = 1; heights && k < stack.size(); ++k) stack[k]->copy_relief();
   stats.relief_put_off = plan.put_off;
 }
 
@@ -83,32 +85,6 @@ std::size_t Globe::Impl::take_finished() {
     bytes += images[(k + frame) % images.size()]->take_finished(allowance, frame, missing);
   }
   return bytes;
-}
-
-// Runs after the picture is drawn, so that code that steers the eye sees the new ground before it is drawn. Takes tiles
-// singly until the frame's share of meshes must be rebuilt.
-void Globe::Impl::take_heights() {
-  if (!heights) return;
-  const ImageLayer& first = *stack.front();
-  for (int meshes = 0; meshes < options.relief_meshes_per_frame;) {
-    std::optional<LoadedHeights> loaded = heights->take(missing_heights);
-    if (!loaded) return;
-    meshes += relief->touched(stack.front()->tree(), loaded->id, first.patches());
-    relief->add(std::move(*loaded->tile));
-    stats.heights_arrived = true;
-  }
-}
-
-void Globe::Impl::ask_heights() {
-  if (!heights) return;
-  heights->retry();
-  const std::vector<WantedTile> wanted = relief->want(stack.front()->patches());
-  std::vector<TileRequest> requests;
-  requests.reserve(wanted.size());
-  for (const WantedTile& tile : wanted) requests.push_back({tile.id, tile.priority});
-  heights->request(requests);
-  stats.heights_pending = static_cast<int>(wanted.size());
-  stats.heights_missing = relief->missing();
 }
 
 // Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
@@ -131,14 +107,16 @@ FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
                    .eyes = eyes,
                    .stereo = options.stereo.mode,
                    .layers = {},
-                   .relief = relief.get(),
+                   .relief = relief(),
                    .surface = options.surface,
                    .sky = sky(),
                    .lit = !options.unlit,
                    .sun = sun(),
                    .frame = frame,
-                   .ground_m = ground_m(),
-                   .naive_translucency = options.naive_translucency};
+                   .ground_m = ground().height_m(camera.eye.lat, camera.eye.lon),
+                   .paper_a = experiments.paper_a,
+                   .paper_band = experiments.paper_band,
+                   .naive_translucency = experiments.naive_translucency};
   for (ImageLayer* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), has_night()));
   return input;
 }
@@ -148,7 +126,7 @@ void Globe::Impl::count() {
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
-  stats.height_bytes = relief ? relief->bytes() : 0;
+  stats.height_bytes = heights ? relief()->bytes() : 0;
   for (ImageLayer* layer : stack) {
     stats.gpu_bytes += layer->gpu_bytes();
     stats.patches_held += layer->tree().size();
@@ -161,6 +139,19 @@ void Globe::Impl::count() {
   }
 }
 
+// Chooses and requests what the frame draws.
+void Globe::Impl::plan(Viewport viewport) {
+  const auto start = FrameClock::now();
+  look(viewport);
+  last_plan = plan_frame(view, snapshot(), selection_options(), std::move(last_plan));
+  execute(last_plan);
+  stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
+  for (ImageLayer* layer : stack) layer->ask();
+  if (!heights) return;
+  stats.heights_pending = heights->ask(stack.front()->patches());
+  stats.heights_missing = relief()->missing();
+}
+
 FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
   stats = {};
   ++frame;
@@ -170,15 +161,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   stats.uploaded_bytes = take_finished();
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();
-  if (relief) relief->set_mesh_budget(options.relief_meshes_per_frame);
-  const auto start = FrameClock::now();
-  const std::uint64_t meshes_before = relief ? relief->meshes_made() : 0;
-  look(viewport);
-  execute(plan_frame(view, snapshot(), selection_options()));
-  stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
-  for (ImageLayer* layer : stack) layer->ask();
-  ask_heights();
-  if (relief) stats.relief_meshes = static_cast<int>(relief->meshes_made() - meshes_before);
+  plan(viewport);
   const Result<FrameCounts> counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
   status = counts ? Status(Done{}) : counts.error();
   if (counts) {
@@ -187,7 +170,12 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   }
   for (ImageLayer* layer : stack) layer->end_frame(frame);
   count();
-  take_heights();
+  // Heights are taken after the picture is drawn, so that code that steers the eye sees new ground before it is drawn.
+  if (heights) {
+    ImageLayer& base = *stack.front();
+    stats.heights_arrived =
+        heights->take_finished(base.tree(), base.patches(), options.relief_meshes_per_frame, missing_heights);
+  }
   return stats;
 }
 
@@ -195,12 +183,6 @@ bool Globe::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
   return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
-}
-
-bool Globe::Impl::needs_frame() const {
-  if (changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
-  if (heights && heights->has_news()) return true;
-  return std::ranges::any_of(images, [](const auto& layer) { return layer->has_news(); });
 }
 
 void Globe::Impl::restore_detail() {

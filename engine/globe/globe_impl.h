@@ -6,14 +6,14 @@
 #include <thread>
 #include <vector>
 
+#include "globe/experiments.h"
 #include "globe/globe.h"
+#include "globe/height_layer.h"
 #include "globe/image_layer.h"
-#include "globe/tile_stream.h"
+#include "render/gl/gl_state.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
-#include "surface/relief.h"
+#include "surface/plan/frame_plan.h"
 #include "tiles/arrival_bell.h"
-#include "tiles/height_loader.h"
 
 namespace terrella {
 
@@ -32,30 +32,28 @@ struct ObjectLayer {
   [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
 };
 
-/// The implementation of Globe. Globe has checked thread and context before each call. thread: main
+/// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
+using GlScope = std::unique_ptr<GlState>;
+
+/// The state of a Globe. Functions of Globe call may_call() or may_draw() first. thread: main
 struct Globe::Impl {
   explicit Impl(const GlobeOptions& o) : options(o) {}
 
+  /// Fails if a call comes from another thread than the globe's. Reports the misuse by an assertion.
+  [[nodiscard]] Status may_call(const char* call) const;
+  /// The same for a call that uses OpenGL; also fails without the globe's context. Sets the GL state that drawing
+  /// depends on.
+  [[nodiscard]] Result<GlScope> may_draw(const char* call) const;
+
   // Layers.
-  Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look);
-  Status set_look(LayerId id, const ImageLook& look);
-  [[nodiscard]] Result<ImageLook> look(LayerId id) const;
-  Status move(LayerId id, std::size_t position);
-  Status remove(LayerId id);
-  Result<LayerId> add_objects(ObjectScene scene, bool shown);
-  Status set_objects(LayerId id, ObjectScene scene);
-  Status show_objects(LayerId id, bool shown);
-  Status fade_objects(LayerId id, double opacity);
-  Status set_attribution(LayerId id, std::string text);
-  [[nodiscard]] std::vector<std::string> attributions() const;
-  Status set_elevation(const std::optional<ElevationSource>& elevation);
-  void make_relief(const ElevationSource& elevation);
-  Status show_objects();
-  [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
-  void share_gpu();
-  [[nodiscard]] ImageLayer* image(LayerId id) const;
+  [[nodiscard]] ImageLayer* image(LayerId id) const;  ///< null if there is none
   [[nodiscard]] ObjectLayer* object(LayerId id);
   [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
+  [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
+  void share_gpu();
+  Status upload_objects();
+  [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
+  [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
   // A frame.
   FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
@@ -64,39 +62,29 @@ struct Globe::Impl {
   void look(Viewport viewport);
   [[nodiscard]] PatchSelectionOptions selection_options() const;
   [[nodiscard]] FrameSnapshot snapshot();
-  void execute(FramePlan plan);
+  void execute(FramePlan& plan);
+  void plan(Viewport viewport);
   void count();
-  void take_heights();
-  void ask_heights();
   std::size_t take_finished();
   [[nodiscard]] FrameInput frame_input(Viewport viewport, glm::ivec2 corner_px);
   [[nodiscard]] std::optional<SkyInput> sky() const;
   [[nodiscard]] glm::dvec3 sun() const;
   [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
-  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, relief}; }
-  [[nodiscard]] double ground_m() const { return relief ? relief->height_m(camera.eye.lat, camera.eye.lon) : 0.0; }
-  [[nodiscard]] GlobePick pick(const View& eye, glm::dvec2 pixel_px) const;
+  [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, heights ? heights->relief() : nullptr}; }
   [[nodiscard]] bool shows(const ImageLayer& layer, const Geodetic& place) const;
   [[nodiscard]] bool settled() const;
-  [[nodiscard]] bool needs_frame() const;
   void restore_detail();
-
-  /// False if a call comes from another thread than the globe's, or without the globe's context. Reports the misuse by
-  /// an assertion.
-  [[nodiscard]] bool may_call(const char* call) const;
-  [[nodiscard]] bool may_draw(const char* call) const;
 
   const std::thread::id thread = std::this_thread::get_id();
   GlobeOptions options;
+  Experiments experiments;
   Camera camera;
-  std::shared_ptr<Relief> relief;  ///< shared with each Ground; none: the ellipsoid
   std::shared_ptr<ArrivalBell> bell = std::make_shared<ArrivalBell>();  ///< rung when a tile of any kind has arrived
-  std::optional<TileStream<HeightTile>> heights;                        ///< set if relief is
-  std::string heights_attribution;
+  std::unique_ptr<HeightLayer> heights;                                 ///< none: the ellipsoid
   std::uint64_t last_id = 0;
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< lowest first
-  std::unique_ptr<ImageLayer> plain;                ///< made if no image layer is opaque
-  std::vector<ImageLayer*> stack;                   ///< layers that a frame draws, lowest first; the lowest is opaque
+  std::unique_ptr<ImageLayer> plain;                ///< made if the lowest image layer is not opaque
+  std::vector<ImageLayer*> stack;                   ///< layers that a frame draws: the opaque base layer, upper layers
   std::vector<ObjectLayer> objects;
   std::size_t objects_cut = 0;  ///< since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
@@ -104,15 +92,27 @@ struct Globe::Impl {
   std::optional<EyePair> eyes;
   std::optional<Almanac> almanac;  ///< set if there is a sky or a time
   bool sky_on = false;
-  std::optional<unsigned> patch_shuffle;
   std::uint64_t frame = 0;
   Viewport drawn;       ///< viewport of the last frame
   bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
+  FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
   Status status = Done{};  ///< of the last frame
   std::deque<MissingTile> missing, missing_heights;
 };
+
+/// Returns the error of a call that names a layer which the globe does not have. thread: any
+[[nodiscard]] Error no_layer(const char* call, const char* kind, LayerId id);
+/// Fails if an opacity is not from 0 to 1. thread: any
+[[nodiscard]] Status check_opacity(const char* call, double opacity);
+
+/// Moves the element at `from` so that `position` others are before it, or to the end.
+template <class T>
+void move_to(std::vector<T>& all, typename std::vector<T>::iterator from, std::size_t position) {
+  const auto to = all.begin() + static_cast<std::ptrdiff_t>(std::min(position, all.size() - 1));
+  from < to ? std::rotate(from, from + 1, to + 1) : std::rotate(to, from, from + 1);
+}
 
 }  // namespace terrella

@@ -4,7 +4,7 @@
 #include "globe/globe_impl.h"
 #include "surface/daylight.h"
 
-// Picking: the place, layer and object under a pixel.
+// Picking and projecting: from a pixel to places, layers and objects, and from a place to its pixel.
 namespace terrella {
 namespace {
 
@@ -23,21 +23,46 @@ bool Globe::Impl::shows(const ImageLayer& layer, const Geodetic& place) const {
   return part_shown(layer.look().daylight, sun_sine) > 0.0;
 }
 
-GlobePick Globe::Impl::pick(const View& eye, glm::dvec2 pixel_px) const {
+View Globe::view(Viewport viewport) const { return make_view(impl_->camera, impl_->options.body.ellipsoid, viewport); }
+
+GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   GlobePick found;
-  found.place = terrella::pick(eye, ground(), pixel_px);
-  for (const auto& layer : images) {
-    if (found.place && shows(*layer, *found.place)) found.imagery = layer->id();
+  if (!impl_->may_call("Globe::pick")) return found;
+  const View eye = view(viewport);
+  const Ground drawn = ground();
+  found.place = terrella::pick(eye, drawn, pixel_px);
+  for (const auto& layer : impl_->images) {
+    if (found.place && impl_->shows(*layer, *found.place)) found.imagery = layer->id();
   }
-  const PickOptions how{.through_ground = options.surface.alpha < 1.0};
-  for (const ObjectLayer& layer : objects) {
+  const PickOptions how{.through_ground = impl_->options.surface.alpha < 1.0};
+  for (const ObjectLayer& layer : impl_->objects) {
     if (!layer.is_drawn()) continue;
-    const auto object = pick_object(eye, ground(), layer.scene, pixel_px, how);
+    const auto object = pick_object(eye, drawn, layer.scene, pixel_px, how);
     if (!object || (found.object && found.object->distance_m < object->distance_m)) continue;
     found.object = object;
     found.objects = layer.id;
   }
   return found;
+}
+
+std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
+  if (!impl_->may_call("Globe::project")) return std::nullopt;
+  const View eye = view(viewport);
+  const Ecef at = impl_->options.body.ellipsoid.to_ecef(place);
+  const auto pixel = terrella::project(eye, at);
+  if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x > viewport.width_px || pixel->y > viewport.height_px) {
+    return std::nullopt;
+  }
+  return hidden_by_ground(eye, ground(), at) ? std::nullopt : pixel;
+}
+
+Ground Globe::ground() const { return impl_->ground(); }
+
+double Globe::ground_height_m(Angle lat, Angle lon) const { return ground().height_m(lat, lon); }
+
+std::optional<double> Globe::elevation_m(Angle lat, Angle lon) const {
+  if (!impl_->heights) return std::nullopt;
+  return impl_->relief()->field().height_m(lat, lon);
 }
 
 }  // namespace terrella

@@ -17,30 +17,30 @@ TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
 
 }  // namespace
 
-ImageLayer::ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source,
-                       const ImageLook& look, std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell)
+ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<TileSource> source, const ImageLook& look,
+                       std::size_t gpu_bytes)
     : id_(id),
-      ellipsoid_(options.body.ellipsoid),
-      segments_(options.segments),
-      mapping_(options.mapping),
-      texels_per_pixel_(options.texels_per_pixel),
-      grid_(source ? grid_to_draw(options, source->info().grid) : kPlainGrid),
+      ellipsoid_(setup.options.body.ellipsoid),
+      segments_(setup.options.segments),
+      mapping_(setup.mapping),
+      texels_per_pixel_(setup.options.texels_per_pixel),
+      grid_(source ? grid_to_draw(setup.options, source->info().grid) : kPlainGrid),
       roots_(root_tiles(grid_)),
       look_(look),
       attribution_(source ? source->info().attribution : ""),
-      tiles_(grid_, {grid_.tile_px, options.gutter_px}, kMips, gpu_bytes) {
-  set_relief(relief);
+      tiles_(grid_, {grid_.tile_px, setup.options.gutter_px}, kMips, gpu_bytes) {
+  discard_patches();
   if (!source) return;
   LoaderOptions loading{
-      .workers = options.workers, .gutter = options.gutter_px, .mips = kMips, .bell = std::move(bell)};
+      .workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
   // Tiles waiting for slots hold at most as many bytes as all slots.
   loading.max_finished_bytes =
       std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
-  stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, options.retry_after);
+  stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, setup.options.retry_after);
 }
 
-std::unique_ptr<ImageLayer> ImageLayer::make_plain(const GlobeOptions& options, Relief* relief) {
-  auto plain = std::make_unique<ImageLayer>(LayerId::none, options, nullptr, ImageLook{}, 0, relief, nullptr);
+std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {
+  auto plain = std::make_unique<ImageLayer>(LayerId::none, setup, nullptr, ImageLook{}, 0);
   // The tiles of the plain colour are all resident, and empty.
   for (const TileId& id : plain->roots_) {
     TileResidency::Entry& entry = plain->tiles_.residency().entry(id);
@@ -55,11 +55,10 @@ void ImageLayer::set_look(const ImageLook& look) {
   restore_detail();
 }
 
-void ImageLayer::set_relief(Relief* relief) {
+void ImageLayer::discard_patches() {
   gpu_.vertices.reset();
   patches_.clear();
   tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
-  if (relief != nullptr) tree_->set_relief(*relief);
 }
 
 bool ImageLayer::is_drawn(bool has_night) const {
@@ -74,7 +73,7 @@ bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
 }
 
-// Slot 0 and those of the root tiles are never given up; a tenth is left for tiles on their way.
+// Slot 0 and the slots of root tiles are never evicted. A tenth of the others stays free for tiles in flight.
 LayerSnapshot ImageLayer::snapshot() {
   LayerSnapshot layer{.tree = tree_.get(),
                       .tiles = &tiles_.residency(),
@@ -87,12 +86,12 @@ LayerSnapshot ImageLayer::snapshot() {
   return layer;
 }
 
-void ImageLayer::execute(LayerPlan plan, std::uint64_t frame) {
+void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
   tree_->adopt(plan.growth);
-  patches_ = std::move(plan.patches);
-  coverage_ = std::move(plan.coverage);
+  std::swap(patches_, plan.patches);
+  std::swap(coverage_, plan.coverage);
   detail_ = plan.detail;
-  note_use(coverage_.uses, frame, tiles_.residency());
+  coverage_.uses.note(frame, tiles_.residency());
 }
 
 void ImageLayer::copy_relief() {
@@ -138,16 +137,17 @@ void ImageLayer::stop_asking() {
   if (stream_) stream_->stop();
 }
 
-LayerFrame ImageLayer::frame(bool first, bool has_night) {
-  tiles_.set_empty(first ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
+LayerFrame ImageLayer::frame(bool is_base, bool has_night) {
+  tiles_.set_empty(is_base ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
           .coverage = &coverage_,
           .tiles = &tiles_,
           .gpu = &gpu_,
-          .opacity = first ? 1.0 : look_.opacity,
+          .opacity = is_base ? 1.0 : look_.opacity,
           .daylight = has_night ? look_.daylight : Daylight::both,
-          .alpha = look_.alpha};
+          .alpha = look_.alpha,
+          .special = is_special(has_night)};
 }
 
 // Patches of a root tile that has finally failed can never be covered, so nothing waits for them.

@@ -11,8 +11,8 @@
 #include "globe/globe.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
 #include "surface/layers.h"
+#include "surface/plan/frame_plan.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -23,21 +23,27 @@ struct UploadAllowance {
   std::chrono::steady_clock::time_point deadline;
 };
 
+/// The parts of a globe with which its layers are made.
+struct LayerSetup {
+  const GlobeOptions& options;
+  CubeMapping mapping;
+  std::shared_ptr<ArrivalBell> bell;  ///< rings when a tile has arrived
+};
+
 /// One image layer of a globe: its tiles from the source to the GPU, and the patches that a frame draws with them.
 /// thread: main
 class ImageLayer {
  public:
-  /// `gpu_bytes` is this layer's share of the budget. `relief` is the globe's; null: the ellipsoid. `bell` rings when a
-  /// tile has arrived.
-  ImageLayer(LayerId id, const GlobeOptions& options, std::shared_ptr<TileSource> source, const ImageLook& look,
-             std::size_t gpu_bytes, Relief* relief, std::shared_ptr<ArrivalBell> bell);
-  /// Makes the layer of plain colour that is drawn if no layer is opaque.
-  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const GlobeOptions& options, Relief* relief);
+  /// `gpu_bytes` is this layer's share of the budget.
+  ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<TileSource> source, const ImageLook& look,
+             std::size_t gpu_bytes);
+  /// Makes the layer of plain colour that is the base layer if the lowest image layer is not opaque.
+  [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const LayerSetup& setup);
 
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
-  void set_relief(Relief* relief);  ///< discards all patches
+  void discard_patches();
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.
   [[nodiscard]] bool is_drawn(bool has_night) const;
@@ -58,16 +64,16 @@ class ImageLayer {
   void restore_detail() { detail_ = 1.0; }
   /// The layer as a plan reads it.
   [[nodiscard]] LayerSnapshot snapshot();
-  /// Takes a plan over: its patches, its tiles and their use, and what the tree misses.
-  void execute(LayerPlan plan, std::uint64_t frame);
-  void copy_relief();  ///< from the patches of the lowest layer, on which this layer lies
+  /// Takes a plan over: patches, tiles and their use, nodes for the tree. The plan gets the last frame's memory.
+  void execute(LayerPlan& plan, std::uint64_t frame);
+  void copy_relief();  ///< from the patches of the base layer, on which this upper layer lies
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `missing`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<MissingTile>& missing);
   void ask();
   void end_frame(std::uint64_t frame);  ///< evicts and forgets what frames have not used for long
   void stop_asking();
-  [[nodiscard]] LayerFrame frame(bool first, bool has_night);
+  [[nodiscard]] LayerFrame frame(bool is_base, bool has_night);
 
   [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
@@ -93,7 +99,7 @@ class ImageLayer {
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
   double detail_ = 1.0;            ///< part of texels_per_pixel_ that views have room for
-  bool has_transparency_ = false;  ///< a tile came that has some
+  bool has_transparency_ = false;  ///< a loaded tile has transparent pixels
 };
 
 }  // namespace terrella

@@ -11,6 +11,9 @@
 #include "geo/objects.h"
 #include "objects/cut_objects.h"
 
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
+
 namespace terrella {
 
 /// Objects drawn before the surface and objects drawn after it (paper 2, 2.2).

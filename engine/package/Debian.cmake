@@ -23,8 +23,8 @@ Cuts pictures into tiles, streams tiles from servers and fills caches with them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrella-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libgeotiff-dev, libglm-dev, libglu1-mesa-dev, "
-  "libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, "
+  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libexif-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libgeotiff-dev, libglm-dev, libglu1-mesa-dev, "
+  "libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, libwebp-dev, "
   "nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS terrella)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The globe as a C++20 library: static libraries, headers, CMake and pkg-config descriptions.")

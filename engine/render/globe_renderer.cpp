@@ -1,18 +1,20 @@
 #include "render/globe_renderer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <glm/geometric.hpp>
 
-#include "render/frame_camera.h"
 #include "render/gl/stencil_bits.h"
 #include "surface/far_side_curtain.h"
 #include "surface/relief.h"
 
+// The order of the passes of a frame.
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
 namespace terrella {
 namespace {
 
-/// Makes a pass if it is not there yet. Fails only if the installation or the driver is broken.
+/// Makes a pass unless it exists. Fails only if the installation or the driver is broken.
 template <class T, class... Given>
 Status make_once(std::unique_ptr<T>& place, const Given&... given) {
   if (place) return Done{};
@@ -51,12 +53,8 @@ Status GlobeRenderer::set_relief(bool on) {
 }
 
 Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
-  if (!objects_) {
-    Result<std::unique_ptr<ObjectPass>> made = ObjectPass::create(options_.depth);
-    if (!made) return made.error();
-    objects_ = std::move(*made);
-    objects_->set_label_font(std::move(label_font_));
-  }
+  if (Status s = make_once(objects_, options_.depth); !s) return s;
+  if (!label_font_.empty()) objects_->set_label_font(std::exchange(label_font_, {}));
   objects_->set_objects(make_batches(scenes, ellipsoid_));
   std::vector<MeshObject> meshes;
   std::vector<LabelObject> labels;
@@ -68,11 +66,11 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
   return objects_->set_labels(labels, ellipsoid_);
 }
 
-// Draws have nothing to make, so that a frame is drawn as a whole or not at all.
+// Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (const auto further = pass.further(); !further.empty()) {
-    const bool special = std::ranges::any_of(further, &LayerFrame::is_special);
-    if (Status s = patches_->prepare_further(special); !s) return s;
+  if (const auto upper = pass.upper(); !upper.empty()) {
+    const bool special = std::ranges::any_of(upper, &LayerFrame::special);
+    if (Status s = patches_->prepare_upper(special); !s) return s;
   }
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;
@@ -96,10 +94,10 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuf
   targets_.fit(input.size, input.sky || selective || input.stereo == Stereo::interlaced);
   upload_layers(input);
   begin_frame(input, counts);
-  // Chosen for the first eye: both are to see the same.
+  // Places for labels are chosen for the first eye, so that both eyes see the same labels.
   if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}));
   for (const EyePicture& eye : pictures) draw_picture({input, eye, counts});
-  apply({});  // the scissor would cut the copy
+  apply({});  // a scissor would cut the copy
   targets_.copy_to(framebuffer, input.corner_px);
   if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -120,7 +118,7 @@ void GlobeRenderer::draw_picture(const Pass& pass) {
   }
 }
 
-// Paper 2, 2.2, in its order.
+// The order of passes of paper 2, section 2.2.
 void GlobeRenderer::draw_from_above(const Pass& pass) {
   if (has_inner_sphere(pass)) {
     draw_inner_sphere(pass);
@@ -133,7 +131,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
-// Paper 2, 2.9: what is over the ground lies behind the surface, what is under it before.
+// Paper 2, section 2.9: objects above the ground lie behind the surface, objects under the ground lie in front of it.
 void GlobeRenderer::draw_from_below(const Pass& pass) {
   if (has_inner_sphere(pass)) draw_inner_sphere(pass);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::others, 0);
@@ -142,76 +140,32 @@ void GlobeRenderer::draw_from_below(const Pass& pass) {
   draw_surface(pass);
 }
 
-// An opaque globe's order with blending switched on, which paper 2 begins with (figures 2.23 to 2.26).
+// Draws in the order of an opaque globe with blending switched on, as in paper 2's figures 2.23 to 2.26.
 void GlobeRenderer::draw_naively(const Pass& pass) {
   draw_sky(pass);
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   if (night_lights_) night_lights_->bind();
   DrawState state = picture_state(pass.eye);
   state.blend = surface_blend(pass.input.surface);
-  draw_first(pass, state);
+  draw_base(pass, state);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
-}
-
-// Where nothing goes over it, the limb can be drawn as the picture is copied.
-bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
-  if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0)) return false;
-  return !objects_ || !(under_ground(pass) || objects_->has(ObjectPart::above_ground));
-}
-
-// What the surface or the inner sphere will hide takes no room; imagery alone has no text.
-LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
-  LabelSight sight;
-  sight.shown = pass.input.lit;
-  const SurfaceLook& surface = pass.input.surface;
-  if (under_ground(pass)) {
-    const SurfaceFromBelow look = surface_look(pass);
-    sight.above_ground = look == SurfaceFromBelow::translucent;
-    sight.chosen_above_ground = look != SurfaceFromBelow::opaque;
-  }
-  if (!under_ground(pass) && surface.alpha >= 1.0) {
-    constexpr double kNotTheGroundItself = 1.0 - 1e-5;
-    const Ellipsoid& e = ellipsoid_;
-    const double lowest_m = pass.input.relief != nullptr ? std::min(pass.input.relief->range_m().min_m, 0.0) : 0.0;
-    sight.hiding_half_axes_m = kNotTheGroundItself * (glm::dvec3(e.a_m(), e.a_m(), e.b_m()) + lowest_m);
-  } else {
-    sight.hiding_half_axes_m = glm::dvec3(hiding_radius_m(pass));
-  }
-  return sight;
-}
-
-// Of the inner sphere where it is drawn, or one in an opaque surface: what it hides need not be begun.
-double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
-  if (pass.input.naive_translucency) return 0.0;
-  double radius_m = inner_radius_m(pass.input);
-  if (!under_ground(pass) && pass.input.surface.alpha >= 1.0) {
-    const double lowest_m = pass.input.relief != nullptr ? pass.input.relief->range_m().min_m : 0.0;
-    radius_m = ellipsoid_.b_m() + std::min(lowest_m, 0.0);
-  }
-  return glm::length(pass.eye.view.eye.xyz_m) > radius_m ? radius_m : 0.0;
 }
 
 void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark) {
   if (!objects_ || !objects_->has(part)) return;
   DrawState state = picture_state(pass.eye);
-  state.depth = depth(DepthTest::nearer_or_equal);  // the last of several objects at the same place is seen
+  state.depth = depth(DepthTest::nearer_or_equal);  // the last of several objects at one place is visible
   state.stencil = stencil(pass.eye, {.set = mark});
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
 }
 
-// Where no surface is; neither reads nor writes depth, so it moves no plane (paper 2, 2.3).
+// The sky is drawn where there is no surface. It neither reads nor writes depth, so it does not affect the near and the
+// far plane (paper 2, section 2.3).
 void GlobeRenderer::draw_sky(const Pass& pass) {
   if (!pass.input.sky || !sky_) return;
   DrawState state = picture_state(pass.eye);
   state.stencil = stencil(pass.eye, {.clear = kSurfaceBit});
   pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky, state);
-}
-
-// The sphere hides the far side, which an eye under the ground always sees, and an eye above through the surface.
-bool GlobeRenderer::has_inner_sphere(const Pass& pass) const {
-  if (inner_radius_m(pass.input) <= 0.0) return false;
-  if (under_ground(pass)) return true;
-  return pass.input.surface.alpha < 1.0 && objects_ && objects_->has(ObjectPart::underground);
 }
 
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
@@ -220,8 +174,9 @@ void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
   pass.counts.draw_calls += inner_sphere_->draw(radius_m, picture_state(pass.eye));
 }
 
-// What lies beyond the point of a line of sight that is nearest to the centre is the far side's. The inner sphere hides
-// it where the line meets that sphere; where it passes by, between the sphere and the ground, the curtain does.
+// A line of sight reaches the far side of the globe beyond its point that is nearest to the centre. The inner sphere
+// hides the far side from lines that meet the sphere. The curtain hides it from lines that pass between the sphere and
+// the ground.
 void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   const Ellipsoid& e = ellipsoid_;
   const double radius_m = inner_radius_m(pass.input);
@@ -230,59 +185,28 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, picture_state(pass.eye));
 }
 
-SurfaceFromBelow GlobeRenderer::surface_look(const Pass& pass) const {
-  if (pass.input.surface.alpha >= 1.0) return SurfaceFromBelow::opaque;
-  return under_ground(pass) ? pass.input.surface.from_below : SurfaceFromBelow::translucent;
-}
-
-// Opaque in one pass; translucent in two, so that no part of the surface shows through another (paper 2, 2.2 and 2.11).
-void GlobeRenderer::draw_surface(const Pass& pass) const {
-  const SurfaceFromBelow look = surface_look(pass);
-  DrawState state = picture_state(pass.eye);
-  if (under_ground(pass)) state.cull = GL_FRONT;
-  for (const LayerFrame& layer : pass.further()) upload_frame(layer);
-  if (look != SurfaceFromBelow::opaque) {
-    DrawState depth_only = state;
-    depth_only.color = {false, false, false, false};
-    patches_->draw_depth(*pass.first().gpu, vertices_of(pass.first(), pass.first()), depth_only, pass.counts);
-    state.depth = kSameDepth;
-  }
-  if (night_lights_) night_lights_->bind();
-  if (look == SurfaceFromBelow::selective) {
-    state.stencil = stencil(pass.eye, {.clear = kThroughBit});
-    draw_layers(pass, SurfaceFromBelow::opaque, state);
-    state.stencil = stencil(pass.eye, {.needed = kThroughBit});
-  } else {
-    state.stencil = stencil(pass.eye, {.set = kSurfaceBit});
-  }
-  draw_layers(pass, look, state);
-}
-
-// The limb's ribbon is of the ellipsoid: where the ground rises from it by more than the ribbon is wide, it is none.
-bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
-  if (pass.input.relief == nullptr) return false;
-  const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
-  const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
-  return pass.input.relief->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m;
-}
-
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
-  const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
   const View& view = pass.eye.view;
-  const LimbPicture picture{
-      .texture = targets_.color(), .left_px = pass.eye.left_px, .rows_apart = pass.eye.interlaced ? 2 : 1};
-  int& calls = pass.counts.draw_calls;
-  if (mountains_on_limb(pass)) {
-    const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
-    const OutlineDepth depth{targets_.depth(), no_depth};
-    calls += in_place ? outline_->draw_in_place(view.viewport, picture, depth, state, targets_.beside(),
-                                                targets_.framebuffer())
-                      : outline_->draw(view.viewport, picture, depth, state);
-  } else {
-    calls += in_place
-                 ? limb_->draw_in_place(view, ellipsoid_, picture, state, targets_.beside(), targets_.framebuffer())
-                 : limb_->draw(view, ellipsoid_, picture, state);
-  }
+  const bool mountains = mountains_on_limb(pass);
+  if (!mountains && !limb_->fit(view, ellipsoid_)) return;
+  const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
+  const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
+  const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
+    const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
+    mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
+              : limb_->draw(view.viewport, picture, state);
+    ++pass.counts.draw_calls;
+  };
+  const int rows_apart = pass.eye.interlaced ? 2 : 1;
+  if (!in_place) return draw(targets_.color(), targets_.depth(), rows_apart);
+  // A pass must not read the texture that it writes, so the limb is first drawn beside the picture.
+  const FrameTargets::Beside beside = targets_.beside();
+  glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
+  apply(state);
+  if (mountains) glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{}.data());
+  draw(targets_.color(), targets_.depth(), rows_apart);
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
+  draw(beside.texture, 0, 0);
 }
 
 std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {
@@ -322,10 +246,10 @@ void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) {
 void GlobeRenderer::begin_picture(const Pass& pass) const {
   const EyePicture& eye = pass.eye;
   glViewport(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
-  // A point's square may reach over the middle of a picture of two halves, and a clear knows no viewport.
+  // The square of a point may cross the middle of a side-by-side picture, and a clear ignores the viewport.
   glScissor(eye.left_px, 0, eye.view.viewport.width_px, eye.view.viewport.height_px);
   DrawState state = picture_state(eye);
-  state.stencil = {.write_mask = kSurfaceBit | kThroughBit};  // keeps the interlaced rows
+  state.stencil = {.write_mask = kSurfaceBit | kThroughBit};  // keeps the bits of the interlaced rows
   apply(state);
   glClearDepth(options_.depth == DepthMode::reversed ? 0.0 : 1.0);
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
@@ -350,44 +274,6 @@ DepthState GlobeRenderer::depth(DepthTest test) const {
   const bool reversed = options_.depth == DepthMode::reversed;
   if (test == DepthTest::nearer) return {.test = static_cast<GLenum>(reversed ? GL_GREATER : GL_LESS)};
   return {.test = static_cast<GLenum>(reversed ? GL_GEQUAL : GL_LEQUAL)};
-}
-
-double GlobeRenderer::inner_radius_m(const FrameInput& input) const {
-  const Ellipsoid& e = ellipsoid_;
-  if (!input.surface.inner_sphere_below_m) return 0.0;
-  return inner_sphere_radius_m(e.a_m(), e.b_m(), *input.surface.inner_sphere_below_m);
-}
-
-bool GlobeRenderer::under_ground(const Pass& pass) const {
-  return ellipsoid_.to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
-}
-
-// A tenth of the way to the nearest thing that is drawn, less where the picture is very wide; the sky has no part in it
-// (paper 2, 2.3).
-double GlobeRenderer::near_m(const Pass& pass) const {
-  const View& view = pass.eye.view;
-  const Ecef& eye = view.eye;
-  double free_m = std::abs(ellipsoid_.to_geodetic(eye).height_m - pass.input.ground_m);
-  const double radius_m = inner_radius_m(pass.input);
-  if (under_ground(pass) && radius_m > 0.0) {
-    const double over_m = glm::length(eye.xyz_m) - radius_m;
-    if (over_m > 0.0) free_m = std::min(free_m, over_m);
-  }
-  // That thing may lie in a corner of the picture: its depth is then less than its distance.
-  const double tan_y = view.tan_half_fov_y, tan_x = tan_y * view.aspect() + std::abs(view.shear_x);
-  const double cos_corner = 1.0 / std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y);
-  return std::max(std::min(0.1, 0.9 * cos_corner) * free_m, 0.05);
-}
-
-void GlobeRenderer::upload_frame(const Pass& pass) {
-  const View& view = pass.eye.view;
-  const Ellipsoid& e = ellipsoid_;
-  const double far_m = glm::length(view.eye.xyz_m) + 1.5 * e.a_m();
-  FrameBlock& block = frame_;
-  block = frame_of_camera(view, near_m(pass), far_m);
-  block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
-  describe_layer(pass.first(), block);
-  glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }
 
 }  // namespace terrella

@@ -22,15 +22,19 @@
 #include "render/surface/patch_pass.h"
 #include "render/surface/tile_textures.h"
 #include "surface/layers.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "surface/relief.h"
-#include "surface/tile_coverage.h"
 #include "view/render_modes.h"
 #include "view/stereo.h"
 
 namespace terrella {
 
-/// An image layer in a frame. Draws belong to patches, one to one.
+// "Paper 1" is A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023. "Paper 2" is "Interactive visualization of 3D data on a virtual globe in stereoscopic
+// systems", abstract of a dissertation, chapter 2.2 (engine/DESIGN.md).
+
+/// An image layer in a frame. `patches` and the draws of `coverage` correspond one to one.
 struct LayerFrame {
   const PatchTree* tree = nullptr;
   const std::vector<SelectedPatch>* patches = nullptr;
@@ -40,53 +44,58 @@ struct LayerFrame {
   double opacity = 1.0;
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
-  [[nodiscard]] bool is_special() const { return daylight != Daylight::both || alpha != AlphaFrom::own; }
+  /// The layer needs special programs: it shows on one side of the terminator, or takes alpha from brightness.
+  bool special = false;
 };
 
 /// Input of one frame.
 struct FrameInput {
   Viewport size;
-  glm::ivec2 corner_px{0};         ///< of the picture in the framebuffer, lower left
-  View view;                       ///< of the one eye
-  std::optional<EyePair> eyes;     ///< of two; then `view` is not used
-  Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are put together
-  std::vector<LayerFrame> layers;  ///< the lowest first: it is opaque and has every patch; the others lie over it
-  const Relief* relief = nullptr;  ///< of the patches, if they were raised
+  glm::ivec2 corner_px{0};         ///< lower left corner of the picture in the framebuffer
+  View view;                       ///< view of the eye in a mono picture
+  std::optional<EyePair> eyes;     ///< views of both eyes in stereo; `view` is then unused
+  Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are joined
+  std::vector<LayerFrame> layers;  ///< the base layer, which is opaque and has every patch; then the upper layers
+  const Relief* relief = nullptr;  ///< relief of the patches; null: the ellipsoid
   SurfaceLook surface;
-  std::optional<SkyInput> sky;  ///< none: black
+  std::optional<SkyInput> sky;  ///< none: a black background
   bool lit = true;
-  glm::dvec3 sun{1.0, 0.0, 0.0};  ///< unit, ECEF axes
+  glm::dvec3 sun{1.0, 0.0, 0.0};  ///< direction to the Sun: unit vector, ECEF axes
   std::uint64_t frame = 0;
-  double ground_m = 0.0;  ///< height of the ground under the eye
-  /// For tests: an opaque globe's order with blending switched on, to show what paper 2 prevents.
+  double ground_m = 0.0;     ///< height of the ground under the eye
+  double paper_a = 4.0;      ///< a of paper 1's formula (6), for Texturing::paper
+  double paper_band = 0.05;  ///< b of paper 1's formula (5), for Texturing::paper
+  /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
+  /// prevents.
   bool naive_translucency = false;
 };
 
-/// Data of the sky. Programs for the sky exist only if the data is given.
+/// Data of the sky. The renderer makes programs for the sky only if it gets this data.
 struct SkyAssets {
   Body body;
   std::vector<Star> stars;
-  GreyPicture night_lights;  ///< empty: no day and night on the surface
+  GreyPicture night_lights;  ///< empty: the surface has no night side
 };
 
-/// Draws frames: the list of passes, and the state that each of them draws with. thread: main (of the context)
+/// Draws frames. Holds the passes and decides in which order and with which state each of them draws. thread: main (of
+/// the context)
 class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
                                                                      const Ellipsoid& ellipsoid, const SkyAssets* sky);
-  /// Whether patches have relief from now on; to be said before the first frame. The layers' vertices are to be made
-  /// anew.
+  /// Makes the programs for patches with or without relief. Call it before the first frame. The caller discards the
+  /// vertices of all layers.
   Status set_relief(bool on);
-  /// By the names that contexts do not share.
+  /// True if the current context is the one with this renderer's objects. Tests names that contexts do not share.
   [[nodiscard]] bool is_of_current_context() const { return patches_->is_of_current_context(); }
 
-  /// A font file's bytes, before the first objects; without one there are no labels.
+  /// Sets the bytes of the font file for labels, before the first objects. Without a font there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
-  /// In place of those before; the program for objects is made with the first.
+  /// Replaces all objects. The first call makes the programs for objects.
   Status set_objects(std::span<const CutScene> scenes);
 
-  /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads once what the eyes share. Makes the programs
-  /// that no frame before has needed; if one of them cannot be made, returns the error and draws nothing.
+  /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
+  /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
   Result<FrameCounts> draw(const FrameInput& input, GLuint framebuffer);
 
  private:
@@ -96,62 +105,68 @@ class GlobeRenderer {
     int left_px = 0;
     bool red = true, green = true, blue = true;
     bool interlaced = false;
-    GLuint row_bits = 0;  ///< interlaced: the stencil of its rows
+    GLuint row_bits = 0;  ///< stencil value of this eye's rows, if interlaced
   };
-  /// Bits of stencil_bits.h: a draw passes where some are clear and some set, and sets others there.
+  /// Bits of stencil_bits.h for a draw. The draw passes where all `clear` bits are 0 and all `needed` bits are 1, and
+  /// sets the `set` bits there.
   struct Marks {
     GLuint clear = 0, needed = 0, set = 0;
   };
-  /// Passes that draw the surface once more, after its depth is there.
+  /// Depth state of passes that draw the surface again, over its own depth.
   static constexpr DepthState kSameDepth{.test = GL_EQUAL, .write = false};
   /// Values that all passes of one picture share.
   struct Pass {
     const FrameInput& input;
     const EyePicture& eye;
     FrameCounts& counts;
-    [[nodiscard]] const LayerFrame& first() const { return input.layers.front(); }
-    [[nodiscard]] std::span<const LayerFrame> further() const { return std::span(input.layers).subspan(1); }
+    [[nodiscard]] const LayerFrame& base() const { return input.layers.front(); }
+    [[nodiscard]] std::span<const LayerFrame> upper() const { return std::span(input.layers).subspan(1); }
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
+  // globe_renderer.cpp: the order of the passes.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
+  void begin_frame(const FrameInput& input, FrameCounts& counts);
+  void begin_picture(const Pass& pass) const;
   void draw_picture(const Pass& pass);
   void draw_from_above(const Pass& pass);
   void draw_from_below(const Pass& pass);
   void draw_naively(const Pass& pass);
+  void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
+  void draw_sky(const Pass& pass);
   void draw_inner_sphere(const Pass& pass);
   void draw_far_side_curtain(const Pass& pass);
-  [[nodiscard]] bool has_inner_sphere(const Pass& pass) const;
-  [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
-  void draw_surface(const Pass& pass) const;
-  [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& first);
-  void upload_layers(const FrameInput& input) const;
-  void draw_first(const Pass& pass, const DrawState& state) const;
-  void draw_further(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
-  void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
-  void draw_layers_translucent(const Pass& pass, DrawState state) const;
-  [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
-  void draw_sky(const Pass& pass);
-  void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
   void draw_limb(const Pass& pass, bool in_place);
-  [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
-  void begin_frame(const FrameInput& input, FrameCounts& counts);
-  void begin_picture(const Pass& pass) const;
-  /// The state that passes of a picture begin with: the nearer front faces win, in the eye's colors and rows.
+  /// The state with which the passes of a picture begin: the nearer front face wins, in the eye's colours and rows.
   [[nodiscard]] DrawState picture_state(const EyePicture& eye) const;
   [[nodiscard]] std::optional<StencilState> stencil(const EyePicture& eye, const Marks& marks) const;
   enum class DepthTest { nearer, nearer_or_equal };
   [[nodiscard]] DepthState depth(DepthTest test) const;
+
+  // globe_surface.cpp: the image layers.
+  [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
+  void upload_layers(const FrameInput& input) const;
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
-  [[nodiscard]] double near_m(const Pass& pass) const;
-  [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
-  [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
+  void draw_surface(const Pass& pass) const;
+  void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
+  void draw_layers_translucent(const Pass& pass, DrawState state) const;
+  void draw_base(const Pass& pass, const DrawState& state) const;
+  void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
+  [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
+
+  // globe_sight.cpp: what an eye can see.
   [[nodiscard]] bool under_ground(const Pass& pass) const;
-  [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
+  [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
+  [[nodiscard]] bool has_inner_sphere(const Pass& pass) const;
+  [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
+  [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
+  [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
+  [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
+  [[nodiscard]] double near_m(const Pass& pass) const;
 
   RenderOptions options_;
   Ellipsoid ellipsoid_;
@@ -165,7 +180,7 @@ class GlobeRenderer {
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;
   FrameTargets targets_;
-  FrameBlock frame_{};  ///< of the eye whose picture is drawn
+  FrameBlock frame_{};  ///< uniforms of the eye whose picture is drawn
   gl::Buffer frame_block_;
 };
 

@@ -1,44 +1,76 @@
 #include "render/globe_renderer.h"
 
-// The surface's image layers: the first as it is, those over it blended where their depth is equal.
+#include <glm/geometric.hpp>
+
+#include "render/frame_camera.h"
+#include "render/gl/stencil_bits.h"
+
+// The image layers of the surface. The base layer is drawn with depth; upper layers are blended over equal depth.
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
 namespace terrella {
 
-PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& first) {
-  return layer.gpu->vertices ? *layer.gpu->vertices : *first.gpu->vertices;
+PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
+  return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
 }
 
-// Further layers whose rows count the same latitude take the vertices of the first.
+// An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
 void GlobeRenderer::upload_layers(const FrameInput& input) const {
-  const LayerFrame& first = input.layers.front();
-  const TileGrid& rows = first.tree->grid();
+  const LayerFrame& base = input.layers.front();
+  const TileGrid& rows = base.tree->grid();
+  patches_->set_paper_band(input.paper_band);
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
-    const bool shares = &layer != &first && grid.projection == rows.projection && grid.latitude == rows.latitude;
+    const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
     std::unique_ptr<PatchBuffers>& own = layer.gpu->vertices;
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree);
+      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr);
     }
-    patches_->upload(*layer.gpu, vertices_of(layer, first), *layer.patches, *layer.coverage, input.frame);
+    patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
   }
+}
+
+// An opaque surface takes one pass. A translucent surface takes two, so that no part of the surface shows through
+// another (paper 2, sections 2.2 and 2.11).
+void GlobeRenderer::draw_surface(const Pass& pass) const {
+  const SurfaceFromBelow look = surface_look(pass);
+  DrawState state = picture_state(pass.eye);
+  if (under_ground(pass)) state.cull = GL_FRONT;
+  for (const LayerFrame& layer : pass.upper()) upload_frame(layer);
+  if (look != SurfaceFromBelow::opaque) {
+    DrawState depth_only = state;
+    depth_only.color = {false, false, false, false};
+    patches_->draw_depth(*pass.base().gpu, vertices_of(pass.base(), pass.base()), depth_only, pass.counts);
+    state.depth = kSameDepth;
+  }
+  if (night_lights_) night_lights_->bind();
+  if (look == SurfaceFromBelow::selective) {
+    state.stencil = stencil(pass.eye, {.clear = kThroughBit});
+    draw_layers(pass, SurfaceFromBelow::opaque, state);
+    state.stencil = stencil(pass.eye, {.needed = kThroughBit});
+  } else {
+    state.stencil = stencil(pass.eye, {.set = kSurfaceBit});
+  }
+  draw_layers(pass, look, state);
 }
 
 void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const {
   const bool translucent = look != SurfaceFromBelow::opaque;
-  if (translucent && !pass.further().empty()) return draw_layers_translucent(pass, state);
+  if (translucent && !pass.upper().empty()) return draw_layers_translucent(pass, state);
   if (translucent) state.blend = surface_blend(pass.input.surface);
-  draw_first(pass, state);
+  draw_base(pass, state);
   state.depth = kSameDepth;
   state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
-  for (const LayerFrame& layer : pass.further()) draw_further(pass, layer, state);
+  for (const LayerFrame& layer : pass.upper()) draw_upper(pass, layer, state);
 }
 
-// What lies below gives way first. Then layers add their part from the highest down, and the picture's alpha keeps what
-// is left for those below them; at the end it is opaque again.
+// First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
+// alpha of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
 void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
   const auto flat = [&] {
-    patches_->draw_flat(*pass.first().gpu, vertices_of(pass.first(), pass.first()), state, pass.counts);
+    patches_->draw_flat(*pass.base().gpu, vertices_of(pass.base(), pass.base()), state, pass.counts);
   };
   state.blend = surface_blend(pass.input.surface);
   state.blend->from_rgb = GL_ZERO;
@@ -46,27 +78,26 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
   state.blend->to_alpha = GL_ZERO;
   flat();
   state.blend = {GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA};
-  for (auto layer = pass.further().rbegin(); layer != pass.further().rend(); ++layer) draw_further(pass, *layer, state);
-  draw_first(pass, state);
+  for (auto layer = pass.upper().rbegin(); layer != pass.upper().rend(); ++layer) draw_upper(pass, *layer, state);
+  draw_base(pass, state);
   state.blend.reset();
   state.color = {false, false, false, true};
   flat();
 }
 
-void GlobeRenderer::draw_first(const Pass& pass, const DrawState& state) const {
-  const LayerFrame& first = pass.first();
-  patches_->draw(*first.gpu, vertices_of(first, first), *first.tiles, state, pass.counts);
+void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
+  const LayerFrame& base = pass.base();
+  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, state, pass.counts);
 }
 
-void GlobeRenderer::draw_further(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
+void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  patches_->draw_further(*layer.gpu, vertices_of(layer, pass.first()), *layer.tiles, layer.is_special(), state,
-                         pass.counts);
+  patches_->draw_upper(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, layer.special, state, pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
-// Paper 2, (2.7) and (2.9).
+// Paper 2's formulas (2.7) and (2.9).
 BlendState GlobeRenderer::surface_blend(const SurfaceLook& look) {
   return {.from_rgb = GL_CONSTANT_ALPHA,
           .to_rgb = static_cast<GLenum>(look.blend == Blend::normal ? GL_ONE_MINUS_CONSTANT_ALPHA : GL_ONE),
@@ -75,18 +106,30 @@ BlendState GlobeRenderer::surface_blend(const SurfaceLook& look) {
           .constant_alpha = static_cast<float>(look.alpha)};
 }
 
-// What a layer's programs know of its tiles.
+// Sets the uniforms that depend on a layer.
 void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) const {
   const SlotLayout& layout = layer.tiles->layout();
   const TileGrid& grid = layer.tree->grid();
   const double polar_scale = grid.latitude == LatitudeKind::centric ? ellipsoid_.one_minus_e2() : 1.0;
   block.texels =
       glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), layer.tiles->mips(), polar_scale);
-  block.paper = glm::vec4(options_.paper_a, options_.paper_band, grid.projection == Projection::equal_area ? 1.0 : 0.0,
-                          layer.opacity);
+  block.paper.z = grid.projection == Projection::equal_area ? 1.0F : 0.0F;
+  block.paper.w = static_cast<float>(layer.opacity);
   const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
   block.layer_look = glm::vec4(layer.daylight == Daylight::both ? 0.0F : side,
                                layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
+}
+
+void GlobeRenderer::upload_frame(const Pass& pass) {
+  const View& view = pass.eye.view;
+  const Ellipsoid& e = ellipsoid_;
+  const double far_m = glm::length(view.eye.xyz_m) + 1.5 * e.a_m();
+  FrameBlock& block = frame_;
+  block = frame_of_camera(view, near_m(pass), far_m);
+  block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
+  block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
+  describe_layer(pass.base(), block);
+  glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }
 
 void GlobeRenderer::upload_frame(const LayerFrame& layer) const {

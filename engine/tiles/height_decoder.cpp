@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -26,17 +27,22 @@ std::optional<double> nodata_of(const ElevationInfo& info) {
   return static_cast<double>(static_cast<float>(*info.nodata));
 }
 
-Result<Numbers, TileFailure> from_png(const EncodedTile& encoded, int side_px) {
+Result<Numbers, TileFailure> from_png(const EncodedTile& encoded, int side_px, bool is_signed) {
   if (const ImageFormat format = sniff_format(encoded.bytes); format != ImageFormat::png) {
-    return broken(fmt::format("{}, heights are PNG pictures, gray of 16 bits",
-                              format == ImageFormat::jpeg ? "a JPEG picture" : "no PNG picture"));
+    return broken(
+        fmt::format("{}, heights are PNG pictures, gray of 16 bits", format == ImageFormat::jpeg   ? "a JPEG picture"
+                                                                     : format == ImageFormat::webp ? "a WebP picture"
+                                                                                                   : "no PNG picture"));
   }
   DecodeLimits limits;
   limits.max_side_px = std::max(side_px, 1024);
   const Result<Gray16> gray = decode_gray16_png(encoded.bytes, limits);
   if (!gray) return broken(gray.error().message);
   Numbers numbers{gray->width_px, gray->height_px, {}};
-  numbers.values.assign(gray->values.begin(), gray->values.end());
+  const auto number = [is_signed](std::uint16_t bits) {
+    return is_signed ? static_cast<float>(static_cast<std::int16_t>(bits)) : static_cast<float>(bits);
+  };
+  std::ranges::transform(gray->values, std::back_inserter(numbers.values), number);
   return numbers;
 }
 
@@ -74,7 +80,7 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const Numbers& numbe
 Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const ElevationInfo& info, int side_px) {
   auto numbers = tile.make_numbers ? tile.make_numbers()
                  : info.floats     ? from_tiff(tile, side_px)
-                                   : from_png(tile, side_px);
+                                   : from_png(tile, side_px, info.is_signed);
   if (!numbers) return numbers;
   if (numbers->width_px != side_px || numbers->height_px != side_px) {
     return broken(fmt::format("PNG: {}×{} pixels, the tile set says {}×{}", numbers->width_px, numbers->height_px,

@@ -60,6 +60,11 @@ double polar_scale(const TileGrid& grid, const Ellipsoid& ellipsoid) {
   return grid.latitude == LatitudeKind::centric ? ellipsoid.one_minus_e2() : 1.0;
 }
 
+/// True for grids of a square of 360 degrees each way, which are stored and never drawn.
+bool is_stored_square(Projection projection) {
+  return projection == Projection::web_mercator || projection == Projection::projected;
+}
+
 double mercator_row_of(double tangent) {
   return std::clamp(std::asinh(tangent) * (180.0 / std::numbers::pi), -180.0, 180.0);
 }
@@ -81,11 +86,17 @@ std::size_t TileIdHash::operator()(const TileId& id) const {
 
 double tile_span_deg(const TileGrid& grid, int level) { return std::ldexp(grid.root_span_deg, -level); }
 
-std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(360.0, grid, level); }
+std::int64_t columns(const TileGrid& grid, int level) { return tiles_over(180.0 - grid.west_deg, grid, level); }
 
-std::int64_t rows(const TileGrid& grid, int level) { return tiles_over(2.0 * top_row_deg(grid), grid, level); }
+std::int64_t rows(const TileGrid& grid, int level) {
+  return tiles_over(top_row_deg(grid) - bottom_row_deg(grid), grid, level);
+}
 
-double top_row_deg(const TileGrid& grid) { return grid.projection == Projection::web_mercator ? 180.0 : 90.0; }
+double top_row_deg(const TileGrid& grid) { return is_stored_square(grid.projection) ? 180.0 : grid.north_deg; }
+
+double bottom_row_deg(const TileGrid& grid) { return is_stored_square(grid.projection) ? -180.0 : -90.0; }
+
+bool begins_at_planet(const TileGrid& grid) { return grid.west_deg == -180.0 && grid.north_deg == 90.0; }
 
 RowLatitudes row_bounds(const TileGrid& grid) {
   const double south = grid.bounds.south.deg();
@@ -124,8 +135,8 @@ bool exists(const TileGrid& grid, const TileId& id) {
   const double sliver_deg = std::max(kSliverTiles * tile_span_deg(grid, grid.max_level), kAngleNoiseDeg);
   const RowLatitudes data = row_bounds(grid);
   const Interval data_rows{data.south_deg, data.north_deg};
-  // The part beyond 180° is padding; it does not repeat the planet's west.
-  const Interval on_planet{tile.west_deg, std::min(tile.east_deg, 180.0)};
+  // The parts beyond ±180° are padding; they do not repeat the planet's other side.
+  const Interval on_planet{std::max(tile.west_deg, -180.0), std::min(tile.east_deg, 180.0)};
   return touches({tile.south_deg, tile.north_deg}, data_rows, sliver_deg) &&
          touches_longitudes(on_planet, grid.bounds, sliver_deg);
 }
@@ -159,7 +170,7 @@ Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double r
 
 TileXY tile_xy(const TileGrid& grid, int level, double row_latitude_deg, double lon_deg) {
   const double span = tile_span_deg(grid, level);
-  return {.x = (lon_deg + 180.0) / span, .y = (top_row_deg(grid) - row_latitude_deg) / span};
+  return {.x = (lon_deg - grid.west_deg) / span, .y = (top_row_deg(grid) - row_latitude_deg) / span};
 }
 
 TileBounds tile_bounds(const TileGrid& grid, const TileId& id) {
@@ -168,9 +179,9 @@ TileBounds tile_bounds(const TileGrid& grid, const TileId& id) {
   const double top = top_row_deg(grid);
   const auto x = static_cast<double>(id.x);
   const auto y = static_cast<double>(id.y);
-  return {.west_deg = -180.0 + x * width,
+  return {.west_deg = grid.west_deg + x * width,
           .south_deg = top - (y + 1.0) * span,
-          .east_deg = -180.0 + (x + 1.0) * width,
+          .east_deg = grid.west_deg + (x + 1.0) * width,
           .north_deg = top - y * span};
 }
 

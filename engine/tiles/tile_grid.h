@@ -9,13 +9,16 @@
 #include "geo/ellipsoid.h"
 
 // thread: any, for all of this header
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 namespace terrella {
 
 /// The relation between rows of the imagery and latitude. `equirectangular` is paper 1's formula (3), rows linear in
 /// latitude. `equal_area` is its formula (4), Lambert's cylinder, rows linear in the sine. The paper swaps the two
 /// names. `web_mercator` is EPSG:3857's square, rows linear in asinh(tan(latitude)). It describes tiles as stored:
-/// streaming/warp converts them to equirectangular ones, and web_mercator itself is never drawn.
-enum class Projection { equirectangular, equal_area, web_mercator };
+/// streaming/warp converts them to equirectangular ones, and web_mercator itself is never drawn. `projected` also
+/// describes tiles as stored, and is never drawn: a square of any coordinate reference system (TileSetInfo::square).
+enum class Projection { equirectangular, equal_area, web_mercator, projected };
 
 /// Northern end of the square of Web Mercator: atan(sinh(π)), degrees.
 inline constexpr double kMercatorEndDeg = 85.05112877980659;
@@ -42,9 +45,12 @@ struct TileIdHash {
 };
 inline constexpr int kMaxTileLevel = 24;
 
-/// A quadtree grid over longitude and latitude with origin (-180°, +90°), clipped to the planet (engine/DESIGN.md, 4).
-/// Rows are measured in degrees of "row latitude". In an equal_area grid one degree is 1/180 of the picture's height.
-/// In a web_mercator grid it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180). The functions of
+/// A quadtree grid over longitude and latitude, clipped to the planet (engine/DESIGN.md, 4). Its origin, the outer
+/// corner of tile (0, 0) of every level, is the planet's corner (-180°, +90°), or a place up to one root tile
+/// north-west of it. Such an origin lets the pixels of a region be texels without resampling. Rows are measured in
+/// degrees of "row latitude". In an equal_area grid one degree is 1/180 of the picture's height. In a web_mercator grid
+/// it is 1/360: rows run from +180 to -180, and the origin is (-180°, +180). In a projected grid columns and rows both
+/// run over the stored square, from -180 to 180 and from 180 to -180: a "degree" is 1/360 of its side. The functions of
 /// this header are pure. thread: any
 struct TileGrid {
   double root_span_deg = 180.0;  ///< span of a level-0 tile, degrees, in both directions; (0, 1e4]
@@ -53,30 +59,36 @@ struct TileGrid {
   int max_level = 0;  ///< [min_level, kMaxTileLevel]
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
-  GeoRect bounds{};      ///< area with data, in row latitude (web_mercator: latitude); by default the whole planet
-  bool reduced = false;  ///< true if rows near the poles also have squeezed tiles (squeeze_of_row())
+  GeoRect bounds{};          ///< area with data, in row latitude (web_mercator: latitude); by default the whole planet
+  bool reduced = false;      ///< true if rows near the poles also have squeezed tiles (squeeze_of_row())
+  double west_deg = -180.0;  ///< longitude of the origin; other than -180 only if the bounds do not cross ±180°
+  double north_deg = 90.0;   ///< row latitude of the origin; web_mercator does not use the origin
   bool operator==(const TileGrid&) const = default;
 };
 
-/// Continuous tile coordinates at a level, in tiles: x east from -180°, y south from +90°.
+/// Continuous tile coordinates at a level, in tiles: x east and y south from the grid's origin.
 struct TileXY {
   double x;
   double y;
 };
 
 [[nodiscard]] double tile_span_deg(const TileGrid& grid, int level);  ///< root_span / 2^level
-/// Row latitude of the grid's northern edge: 90, for web_mercator 180. The southern edge is its negative.
+/// Row latitude of the grid's origin: north_deg, for web_mercator and projected 180.
 [[nodiscard]] double top_row_deg(const TileGrid& grid);
+/// Row latitude of the planet's southern end: -90, for web_mercator and projected -180.
+[[nodiscard]] double bottom_row_deg(const TileGrid& grid);
+/// True if the grid's origin is the planet's corner.
+[[nodiscard]] bool begins_at_planet(const TileGrid& grid);
 struct RowLatitudes {
   double south_deg, north_deg;
 };
 [[nodiscard]] RowLatitudes row_bounds(const TileGrid& grid);  ///< bounds in row latitude, for every projection
 /// Matrix size. A strip under 1e-6 of a tile of the finest level counts as rounding and gets no tile. Levels are
 /// counted from the finest, so the parent of every existing tile exists, down to min_level.
-[[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);  ///< tiles that cover [-180°, 180°], ≥ 1
+[[nodiscard]] std::int64_t columns(const TileGrid& grid, int level);  ///< tiles from the origin to 180°, ≥ 1
 /// Number of tiles of a row that is squeezed by 2^squeeze.
 [[nodiscard]] std::int64_t squeezed_columns(const TileGrid& grid, int level, int squeeze);
-[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);  ///< tiles that cover [90°, -90°], ≥ 1
+[[nodiscard]] std::int64_t rows(const TileGrid& grid, int level);  ///< tiles from the origin to -90°, ≥ 1
 /// Returns the squeeze of a row in a reduced grid, a layout known from weather models: the largest k that keeps texels
 /// short enough. Texels 2^k times as wide must be at most 20 % longer along the parallel than along the meridian, at
 /// the row's edge nearest to the equator (engine/DESIGN.md, 12). 0 for other rows, for grids that are not reduced, and

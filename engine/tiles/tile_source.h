@@ -22,7 +22,17 @@ struct ElevationInfo {
   double offset = 0.0;                ///< metres
   std::optional<double> nodata = {};  ///< number that means "no height"; for integer tiles in [0, 65535]
   bool floats = false;                ///< true: tiles are TIFFs of 32-bit floats; false: gray PNGs of 16 bits
+  bool is_signed = false;             ///< the 16 bits of a PNG are a two's complement number, as GDAL's Int16
   bool operator==(const ElevationInfo&) const = default;
+};
+
+/// The square of a coordinate reference system that a `projected` grid covers.
+struct CrsSquare {
+  std::string crs;    ///< text for Crs::open() (streaming/georeference)
+  double west = 0.0;  ///< north-west corner, easting first, in units of `crs`
+  double north = 0.0;
+  double unit_per_deg = 1.0;  ///< 1/360 of the side, in units of `crs`; > 0
+  bool operator==(const CrsSquare&) const = default;
 };
 
 /// The description that a tile set contains. `cut` writes it, `info` prints it.
@@ -35,6 +45,7 @@ struct TileSetInfo {
   std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
   /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
+  std::optional<CrsSquare> square = {};  ///< of a `projected` grid: this set's, or that of `made_of`
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.

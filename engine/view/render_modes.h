@@ -2,6 +2,9 @@
 
 #include <optional>
 
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
+
 namespace terrella {
 
 // Plain values. thread: any

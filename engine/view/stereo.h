@@ -5,6 +5,9 @@
 #include "view/ground.h"
 #include "view/render_modes.h"
 
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
+
 namespace terrella {
 
 /// A pair of off-axis eyes. Their view planes are parallel, so the pictures have no vertical parallax. Objects at the

@@ -35,11 +35,11 @@ Cell cell_at(vec2 p) {
 }
 
 #if defined(SPECIAL_LAYER)
-#define FURTHER_LAYER
+#define UPPER_LAYER
 #endif
 
-// The first layer of imagery is opaque. Layers over it are premultiplied by their alpha.
-#if defined(FURTHER_LAYER)
+// The base layer is opaque. Upper layers are premultiplied by their alpha.
+#if defined(UPPER_LAYER)
 #define Imagery vec4
 #define IMAGERY(texel) (texel)
 #else
@@ -91,7 +91,7 @@ float part_shown() {
 // The result equals blending all layers first and lighting the blend. Layers that show by night emit light and are not
 // lit.
 void finish(Imagery imagery_srgb) {
-#if defined(FURTHER_LAYER)
+#if defined(UPPER_LAYER)
   float alpha = imagery_srgb.a;
   float share = paper.w;
 #else

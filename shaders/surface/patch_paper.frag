@@ -1,4 +1,6 @@
 // `paper`: formulas (5) and (6) of paper 1 inside the bands v < b and v > 1 - b; elsewhere interpolated coordinates.
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
 
 // Returns the level of detail of a texture query on the whole picture at its finest level.

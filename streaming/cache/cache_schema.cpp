@@ -111,7 +111,7 @@ WriteStatus add_levels(SqliteWriter& database, const TileGrid& grid) {
   all.max_level = std::max(before.max_level, grid.max_level);
   for (int level = all.min_level; level <= all.max_level; ++level) {
     if (level >= before.min_level && level <= before.max_level) continue;
-    if (WriteStatus added = database.run(tile_matrix_row(all, level)); !added) return added;
+    if (WriteStatus added = database.run(tile_matrix_row(*held, level)); !added) return added;
   }
   const SqlStatement changes[] = {
       {fmt::format("UPDATE {} SET value = ?2 WHERE key = ?1", kTileSetTable), {kTileSetKey, to_tileset_json(*held)}},

@@ -57,8 +57,8 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   plan.grid.max_level = *level;
   plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
   plan.grid.projection = options.projection;
-  plan.grid.latitude = options.latitude;
-  plan.grid.reduced = plan.wraps && !options.elevation && has_reduced_rows(plan);
+  plan.grid.latitude = options.latitude.value_or(LatitudeKind::graphic);
+  plan.grid.reduced = plan.wraps && !options.elevation && begins_at_planet(plan.grid) && has_reduced_rows(plan);
   return plan;
 }
 
@@ -108,20 +108,33 @@ double pixel_size_deg(const Degrees& b, std::int64_t width_px) {
   return std::abs(whole - said) * static_cast<double>(width_px) < kAlignment_px * said ? whole : said;
 }
 
-std::string nearest_bounds(const PixelRect& rect, double pixel_deg) {
-  const auto lon = [&](std::int64_t x) { return -180.0 + static_cast<double>(x) * pixel_deg; };
-  const auto lat = [&](std::int64_t y) { return 90.0 - static_cast<double>(y) * pixel_deg; };
-  return fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}", lon(rect.x0), lat(rect.y1), lon(rect.x1), lat(rect.y0));
+/// True if the distance is a whole number of pixels.
+bool is_whole(double distance_deg, double pixel_deg) {
+  const double pixels = distance_deg / pixel_deg;
+  return std::abs(pixels - std::round(pixels)) <= kAlignment_px;
 }
 
-Status check_alignment(const Degrees& b, const PixelRect& rect, double pixel_deg, const std::string& name) {
-  const double x_off = (b.west + 180.0) / pixel_deg - static_cast<double>(rect.x0);
-  const double y_off = (90.0 - b.north) / pixel_deg - static_cast<double>(rect.y0);
-  if (std::abs(x_off) <= kAlignment_px && std::abs(y_off) <= kAlignment_px) return Done{};
-  return Error{
-      fmt::format("{}: the bounds lie {:.3f} pixels in longitude and {:.3f} in latitude off the grid of the picture's "
-                  "own pixels from (-180, 90), and it is not resampled; the nearest bounds that fit are {}",
-                  name, x_off, y_off, nearest_bounds(rect, pixel_deg))};
+/// Places the first pixel. The grid begins at -180° and at 90° if these are a whole number of pixels away, else less
+/// than a pixel beyond them.
+Status place_first_pixel(CutPlan& plan, const Degrees& b, const std::string& name) {
+  const double west_px = (b.west + 180.0) / plan.pixel_deg;
+  const double north_px = (90.0 - b.north) / plan.pixel_deg;
+  plan.finest.x0 = std::llround(west_px);
+  plan.finest.y0 = std::llround(north_px);
+  if (!is_whole(90.0 - b.north, plan.pixel_deg)) {
+    plan.finest.y0 = static_cast<std::int64_t>(std::ceil(north_px));
+    plan.grid.north_deg = b.north + static_cast<double>(plan.finest.y0) * plan.pixel_deg;
+  }
+  if (is_whole(b.west + 180.0, plan.pixel_deg)) return Done{};
+  if (b.east > 180.0 || b.east - b.west >= 360.0) {
+    return Error{
+        fmt::format("{}: it goes over 180 degrees, and it begins {:.3f} pixels beside a grid of its own pixels from "
+                    "-180; give bounds that fit, or cut it as two",
+                    name, west_px - std::round(west_px))};
+  }
+  plan.finest.x0 = static_cast<std::int64_t>(std::ceil(west_px));
+  plan.grid.west_deg = b.west - static_cast<double>(plan.finest.x0) * plan.pixel_deg;
+  return Done{};
 }
 
 /// Checks a picture that crosses ±180°: it continues there at column 0, and no tile may be reached from both sides.
@@ -143,8 +156,8 @@ Status check_crossing(CutPlan& plan, const std::string& name) {
 }
 
 GeoRect covered_by(const CutPlan& plan) {
-  const auto lon = [&](std::int64_t x) { return -180.0 + static_cast<double>(x) * plan.pixel_deg; };
-  const auto lat = [&](std::int64_t y) { return 90.0 - static_cast<double>(y) * plan.pixel_deg; };
+  const auto lon = [&](std::int64_t x) { return plan.grid.west_deg + static_cast<double>(x) * plan.pixel_deg; };
+  const auto lat = [&](std::int64_t y) { return plan.grid.north_deg - static_cast<double>(y) * plan.pixel_deg; };
   return {.west = Angle::degrees(lon(plan.finest.x0)),
           .south = Angle::degrees(std::max(-90.0, lat(plan.finest.y1))),
           .east = Angle::degrees(std::min(180.0, lon(plan.finest.x1 - plan.turn_px))),
@@ -160,7 +173,10 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   // A whole planet of odd width has half a row too few or too many (plan_planet()).
   const bool planet = b.west == -180.0 && b.east == 180.0 && b.south == -90.0 && b.north == 90.0;
   if (planet) return plan_planet(picture, options);
-  if (std::abs(height * pixel_deg - (b.north - b.south)) > kAlignment_px * pixel_deg) {
+  // The last row may reach half a pixel beyond the south pole.
+  const double beyond_px = height - (b.north - b.south) / pixel_deg;
+  const double most_px = b.south == -90.0 ? 0.5 + kAlignment_px : kAlignment_px;
+  if (beyond_px < -kAlignment_px || beyond_px > most_px) {
     return Error{
         fmt::format("{}: {}x{} pixels over these bounds are not square ({:.9g} degrees wide, {:.9g} high); check "
                     "--bounds, or resample the picture",
@@ -168,13 +184,11 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   }
   CutPlan plan;
   plan.pixel_deg = pixel_deg;
-  plan.finest.x0 = std::llround((b.west + 180.0) / pixel_deg);
-  plan.finest.y0 = std::llround((90.0 - b.north) / pixel_deg);
+  if (Status placed = place_first_pixel(plan, b, name); !placed) return placed.error();
   plan.finest.x1 = plan.finest.x0 + picture.width_px;
   plan.finest.y1 = plan.finest.y0 + picture.height_px;
   plan.picture_rows = picture.height_px;
-  plan.wraps = plan.finest.x0 == 0 && b.east == 180.0;
-  if (Status aligned = check_alignment(b, plan.finest, pixel_deg, name); !aligned) return aligned.error();
+  plan.wraps = b.west == -180.0 && b.east == 180.0;
   auto made = with_grid(plan, options);
   if (!made) return made;
   if (b.east > 180.0) {
@@ -213,7 +227,7 @@ PixelRect pixels_at(const CutPlan& plan, int level) {
 double finest_row_area(const CutPlan& plan, std::int64_t y) {
   if (plan.grid.projection == Projection::equal_area) return 1.0;
   const auto sine = [&](std::int64_t edge) {
-    const double lat_deg = std::max(-90.0, 90.0 - static_cast<double>(edge) * plan.pixel_deg);
+    const double lat_deg = std::clamp(plan.grid.north_deg - static_cast<double>(edge) * plan.pixel_deg, -90.0, 90.0);
     return std::sin(lat_deg * (std::numbers::pi / 180.0));
   };
   return sine(y) - sine(y + 1);

@@ -7,17 +7,12 @@
 #include <array>
 #include <charconv>
 
+#include "base/number.h"
+
 namespace terrella::http {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 8192;  // most servers accept no more
-constexpr std::string_view kBlank = " \t\r\n";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 // std::tolower would use the locale.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -101,6 +96,8 @@ void read_field(std::string_view name, std::string_view value, ReplyFields& fiel
     fields.date_unix_s = date_of(value);
   } else if (same_name(name, "age")) {
     fields.age_s = seconds_of(value);
+  } else if (same_name(name, "content-range")) {
+    fields.content_range = parse_content_range(value);
   } else if (same_name(name, "retry-after")) {
     fields.retry_after_s = seconds_of(value);
     if (!fields.retry_after_s) fields.retry_at_unix_s = date_of(value);
@@ -112,13 +109,44 @@ bool is_token_char(char c) {
          std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
 }
 
+/// Reads digits from the front of a text; none if there are no digits or too many.
+std::optional<std::uint64_t> take_number(std::string_view& text) {
+  std::uint64_t number = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (problem != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+bool take_char(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
 }  // namespace
+
+std::optional<ContentRange> parse_content_range(std::string_view value) {
+  constexpr std::string_view kUnit = "bytes";
+  if (!same_name(value.substr(0, kUnit.size()), kUnit)) return std::nullopt;
+  std::string_view rest = trimmed(value.substr(std::min(kUnit.size(), value.size())));
+  const auto first = take_number(rest);
+  if (!first || !take_char(rest, '-')) return std::nullopt;
+  const auto last = take_number(rest);
+  if (!last || *last < *first || *last - *first == ~std::uint64_t{0} || !take_char(rest, '/')) return std::nullopt;
+  ContentRange range{.bytes = {.offset = *first, .length = *last - *first + 1}, .file_bytes = {}};
+  if (rest == "*") return range;
+  range.file_bytes = take_number(rest);
+  if (!range.file_bytes || !rest.empty() || *last >= *range.file_bytes) return std::nullopt;
+  return range;
+}
 
 void ReplyFields::clear() {
   for (std::string* text : {&content_type, &etag, &last_modified}) text->clear();
   for (auto* number : {&max_age_s, &age_s, &expires_unix_s, &date_unix_s, &retry_after_s, &retry_at_unix_s}) {
     number->reset();
   }
+  content_range.reset();
   no_store = no_cache = false;
   bytes = 0;
 }

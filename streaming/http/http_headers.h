@@ -8,8 +8,17 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "streaming/byte_range.h"
 
 namespace terrella::http {
+
+/// Content-Range: the bytes in an answer's body, and the length of the whole file if the server says it.
+struct ContentRange {
+  ByteRange bytes;  ///< at least one
+  std::optional<std::uint64_t> file_bytes;
+};
+/// Parses "bytes 0-99/1234" or "bytes 0-99/*" (RFC 9110, 14.4); none for anything else. thread: any
+[[nodiscard]] std::optional<ContentRange> parse_content_range(std::string_view value);
 
 /// Header fields of an answer that Terrella uses. The fields are untrusted: values that are too long or contain control
 /// characters are dropped. thread: any, one at a time
@@ -28,6 +37,7 @@ struct ReplyFields {
   std::optional<std::int64_t> date_unix_s;      ///< the server's clock
   std::optional<std::int64_t> retry_after_s;    ///< given as seconds, [0, kForever_s]
   std::optional<std::int64_t> retry_at_unix_s;  ///< given as a date
+  std::optional<ContentRange> content_range;
   bool no_store = false;
   bool no_cache = false;
   std::size_t bytes = 0;  ///< bytes of all lines, interim answers included

@@ -30,7 +30,8 @@ std::string fault_of(const HttpRequest& request) {
   for (const std::string& header : request.headers) {
     if (const Status status = check_request_header(header); !status) return status.error().message;
   }
-  const bool good = is_field_value(request.etag) && is_field_value(request.last_modified);
+  const bool good =
+      is_field_value(request.etag) && is_field_value(request.if_match) && is_field_value(request.last_modified);
   return good ? std::string() : "an entity tag or date to ask with holds a control character";
 }
 
@@ -66,7 +67,9 @@ void Network::submit(HttpRequest&& request) {
   Result<Address> address = parse_http_address(job.request.url);
   if (!address) return reply(job, HttpOutcome::refused, 0, address.error().message);
   job.address = std::move(*address);
+  assert(!job.request.range || job.request.range->length > 0);
   std::string fault = fault_of(job.request);
+  if (job.request.range && job.address.scheme == Address::Scheme::file) fault = "files are not read by ranges";
   if (!fault.empty()) return reply(job, HttpOutcome::refused, 0, shown(job.address) + ": " + fault);
   enqueue(job);
 }
@@ -205,6 +208,8 @@ void Network::send(Job& job) {
       .headers = job.may_send_headers ? &job.request.headers : nullptr,
       .etag = job.request.etag,
       .last_modified = job.request.last_modified,
+      .if_match = job.request.if_match,
+      .range = job.request.range,
       .wait_for_multiplexing = options_.http2 && job.address.scheme == Address::Scheme::https && may_multiplex,
   });
   curl_easy_setopt(job.transfer->handle(), CURLOPT_PRIVATE, &job);

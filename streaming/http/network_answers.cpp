@@ -151,6 +151,7 @@ void Network::reply_answer(Job& job, const Verdict& verdict, int status, Transfe
   reply.last_modified = fields.last_modified;
   reply.expires_unix_s = expiry_unix_s(fields, unix_now_s());
   reply.no_store = fields.no_store;
+  if (fields.content_range) reply.file_bytes = fields.content_range->file_bytes;
   if (!verdict.why.empty()) {
     reply.why = fmt::format("{}: {}{}", shown(job.address), verdict.why, status_text(status));
     if (!transfer.certificate_fault().empty()) reply.why += fmt::format(": {}", transfer.certificate_fault());

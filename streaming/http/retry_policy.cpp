@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace terrella::http {
 namespace {
@@ -36,11 +37,36 @@ Verdict judge_client_error(int status) {
   }
 }
 
-Verdict judge_status(int status, bool conditional) {
+constexpr Verdict kGoodContent{Next::reply, HttpOutcome::content, {}};
+
+/// Statuses that mean something else for a request of a range; none for other statuses.
+std::optional<Verdict> judge_ranged(const Answer& answer) {
+  switch (answer.status) {
+    case 200:
+    case 203:
+      return refused(
+          "the server ignores byte ranges and sends the whole file; download the file and open it from disk");
+    case 206:
+      if (answer.range_fits) return kGoodContent;
+      return refused("the server sent other bytes than were requested (Content-Range)");
+    case 412:
+      return refused("the file has changed on the server since it was opened; open it again");
+    case 416:
+      return refused("the file on the server ends before the requested bytes; it is truncated or has changed");
+    default:
+      return std::nullopt;
+  }
+}
+
+Verdict judge_status(const Answer& answer) {
+  if (answer.ranged) {
+    if (const auto verdict = judge_ranged(answer)) return *verdict;
+  }
+  const int status = answer.status;
   switch (status) {
     case 200:
     case 203:
-      return {Next::reply, HttpOutcome::content, {}};
+      return kGoodContent;
     case 204:
     case 205:
       return nothing("the server says that there is nothing");
@@ -51,7 +77,7 @@ Verdict judge_status(int status, bool conditional) {
     case 308:
       return {Next::redirect, HttpOutcome::refused, "redirected to nowhere"};
     case 304:
-      if (conditional) return {Next::reply, HttpOutcome::not_modified, {}};
+      if (answer.conditional) return {Next::reply, HttpOutcome::not_modified, {}};
       return refused("answered \"not modified\" (304) to a request that was not conditional");
     case 503:
       return wait("the service is not available");
@@ -101,12 +127,13 @@ Verdict judge_cut(const Answer& answer) {
     case Cut::none:
       break;
   }
-  return judge_status(answer.status, answer.conditional);
+  return judge_status(answer);
 }
 
 /// True if the status alone decides, whatever happened to the body.
 bool is_told_by_status(const Answer& answer) {
-  const bool has_body_to_lose = answer.status == 0 || answer.status == 200 || answer.status == 203;
+  const bool whole = answer.status == 200 || answer.status == 203;
+  const bool has_body_to_lose = answer.status == 0 || (answer.ranged ? answer.status == 206 : whole);
   return answer.code == CURLE_OK || (!has_body_to_lose && answer.status >= 200);
 }
 
@@ -114,7 +141,7 @@ bool is_told_by_status(const Answer& answer) {
 
 Verdict judge(const Answer& answer) {
   if (answer.cut != Cut::none) return judge_cut(answer);
-  if (is_told_by_status(answer)) return judge_status(answer.status, answer.conditional);
+  if (is_told_by_status(answer)) return judge_status(answer);
   Verdict verdict = judge_failure(answer.code);
   if (verdict.why.empty()) verdict.why = curl_easy_strerror(answer.code);
   return verdict;

@@ -23,6 +23,8 @@ struct Answer {
   CURLcode code = CURLE_OK;
   int status = 0;            ///< 0: none
   bool conditional = false;  ///< validators were sent
+  bool ranged = false;       ///< a range was requested
+  bool range_fits = false;   ///< the answer's Content-Range and body are that range, or its part up to the file's end
   Cut cut = Cut::none;
 };
 

@@ -1,5 +1,7 @@
 #include "streaming/http/transfer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 
@@ -61,9 +63,28 @@ void Transfer::begin(const Question& question) {
   }
   if (!question.etag.empty()) add_header("If-None-Match: " + std::string(question.etag));
   if (!question.last_modified.empty()) add_header("If-Modified-Since: " + std::string(question.last_modified));
+  set_range(question);
   curl_easy_setopt(handle_.get(), CURLOPT_HTTPHEADER, headers_.get());
   curl_easy_setopt(handle_.get(), CURLOPT_URL, question.url->with_secrets().c_str());
   curl_easy_setopt(handle_.get(), CURLOPT_PIPEWAIT, question.wait_for_multiplexing ? 1L : 0L);
+}
+
+void Transfer::set_range(const Question& question) {
+  range_ = question.range;
+  std::string text;
+  if (range_) text = fmt::format("{}-{}", range_->offset, range_->offset + range_->length - 1);
+  curl_easy_setopt(handle_.get(), CURLOPT_RANGE, range_ ? text.c_str() : nullptr);
+  // A range counts the bytes of the encoding that is sent, so that encoding must be the file itself.
+  curl_easy_setopt(handle_.get(), CURLOPT_ACCEPT_ENCODING, range_ ? nullptr : "");
+  if (!question.if_match.empty()) add_header("If-Match: " + std::string(question.if_match));
+}
+
+bool Transfer::range_fits() const {
+  if (!range_ || !fields_.content_range) return false;
+  const ContentRange& got = *fields_.content_range;
+  const bool to_the_end = got.file_bytes == got.bytes.offset + got.bytes.length;
+  const bool as_requested = got.bytes.length == range_->length || (got.bytes.length < range_->length && to_the_end);
+  return got.bytes.offset == range_->offset && as_requested && body_.size() == got.bytes.length;
 }
 
 void Transfer::add_header(const std::string& line) {
@@ -76,7 +97,12 @@ void Transfer::add_header(const std::string& line) {
 // Other texts from curl may contain an address with its query, or a proxy's password.
 Answer Transfer::answer(CURLcode code) {
   if (code == CURLE_PEER_FAILED_VERIFICATION) certificate_fault_ = details_.data();
-  return {.code = code, .status = static_cast<int>(status()), .conditional = conditional_, .cut = cut_};
+  return {.code = code,
+          .status = static_cast<int>(status()),
+          .conditional = conditional_,
+          .ranged = range_.has_value(),
+          .range_fits = range_fits(),
+          .cut = cut_};
 }
 
 long Transfer::status() const {
@@ -98,7 +124,11 @@ bool Transfer::multiplexed() const {
 }
 
 bool Transfer::take(std::string_view bytes) {
-  if (const long code = status(); code == 200 || code == 203) return take_of_content(bytes);
+  const long code = status();
+  const bool whole = code == 200 || code == 203;
+  if (range_ ? code == 206 : whole) return take_of_content(bytes);
+  // The whole file in place of a range may be huge.
+  if (range_ && whole) error_body_bytes_ = kMaxErrorBody;
   error_body_bytes_ += bytes.size();
   if (error_body_bytes_ <= kMaxErrorBody) return true;
   cut_ = Cut::error_body;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ class Transfer {
     const std::vector<std::string>* headers = nullptr;  ///< already checked; null: none
     std::string_view etag;
     std::string_view last_modified;
+    std::string_view if_match;
+    std::optional<ByteRange> range;
     bool wait_for_multiplexing = false;  ///< waits for a multiplexed connection instead of opening another
   };
 
@@ -53,6 +56,8 @@ class Transfer {
 
   void set_limits(const HttpOptions& options);
   void add_header(const std::string& line);
+  void set_range(const Question& question);
+  [[nodiscard]] bool range_fits() const;
   [[nodiscard]] bool take(std::string_view bytes);
   [[nodiscard]] bool take_of_content(std::string_view bytes);
   [[nodiscard]] long status() const;
@@ -68,6 +73,7 @@ class Transfer {
   std::size_t error_body_bytes_ = 0;
   std::string_view certificate_fault_;
   bool conditional_ = false;
+  std::optional<ByteRange> range_;
   Cut cut_ = Cut::none;
 };
 

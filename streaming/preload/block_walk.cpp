@@ -77,9 +77,9 @@ MapRect BlockWalk::rect(const Node& node) const {
   const auto degrees = [&](std::int64_t tiles) { return static_cast<double>(tiles) * span_deg; };
   const double top = top_row_deg(grid_);
   const auto latitude = [&](double row_deg) { return latitude_of_row(grid_, ellipsoid_, row_deg).deg(); };
-  return {.west_deg = degrees(columns.first) - 180.0 + sliver_deg_,
-          .south_deg = latitude(std::max(-top, top - degrees(rows.last + 1) + sliver_deg_)),
-          .east_deg = std::min(180.0, degrees(columns.last + 1) - 180.0 - sliver_deg_),
+  return {.west_deg = std::max(-180.0, grid_.west_deg + degrees(columns.first)) + sliver_deg_,
+          .south_deg = latitude(std::max(bottom_row_deg(grid_), top - degrees(rows.last + 1) + sliver_deg_)),
+          .east_deg = std::min(180.0, grid_.west_deg + degrees(columns.last + 1) - sliver_deg_),
           .north_deg = latitude(top - degrees(rows.first) - sliver_deg_)};
 }
 

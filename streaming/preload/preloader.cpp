@@ -8,7 +8,7 @@
 
 #include "streaming/preload/store_tally.h"
 #include "streaming/preload/wanted_tiles.h"
-#include "streaming/sets/tile_check.h"
+#include "streaming/remote/reply_rules.h"
 
 namespace terrella {
 namespace {
@@ -118,6 +118,7 @@ class Run {
       const auto asked = asked_.find(reply.id);
       if (asked == asked_.end()) continue;
       const Asked about = asked->second;
+      apply_reply_rules(options_.set, reply);
       asked_.erase(asked);
       failures_in_a_row_ = reply.outcome == HttpOutcome::failed ? failures_in_a_row_ + 1 : 0;
       settle(about, std::move(reply));
@@ -150,7 +151,7 @@ class Run {
     if (reply.no_store)
       return note_missing(id, PreloadMissing::refused, "the server forbids storing it (Cache-Control: no-store)");
     if (reply.body.empty()) return note_missing(asked, MissingKind::blank, std::move(reply));
-    if (const Status good = check_tile(reply.body, options_.tile_px); !good) {
+    if (const Status good = check_answer(options_.set.info, id, reply.body); !good) {
       return note_missing(id, PreloadMissing::broken, good.error().message);
     }
     const std::size_t bytes = reply.body.size();

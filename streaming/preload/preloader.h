@@ -11,6 +11,7 @@
 #include "streaming/cache/tile_cache.h"
 #include "streaming/preload/tile_origin.h"
 #include "streaming/preload/tile_plan.h"
+#include "streaming/remote/remote_tile_set.h"
 
 namespace terrella {
 
@@ -41,7 +42,7 @@ struct PreloadCounts {
 
 struct PreloadOptions {
   std::size_t window = 384;  ///< most requests in flight, [1, 1e5]
-  int tile_px = 256;
+  RemoteTileSet set{};
   std::optional<std::chrono::seconds> refresh_older_than{};  ///< none: only expired tiles are requested again
   std::chrono::seconds tile_life{7 * 24 * 3600};             ///< used if the server gives no expiry
   std::chrono::seconds missing_life{24 * 3600};              ///< used if the server gives no expiry

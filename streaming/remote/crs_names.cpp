@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/number.h"
 #include "geo/body.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wmts/xml_names.h"

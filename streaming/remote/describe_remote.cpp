@@ -6,12 +6,16 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
+#include "streaming/other_formats.h"
+#include "streaming/remote/gdal_wms/gdal_wms.h"
 #include "streaming/remote/remote_tms.h"
 #include "streaming/remote/source_json.h"
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
+#include "streaming/remote/wms/wms.h"
 #include "streaming/remote/wmts/wmts.h"
 #include "streaming/remote/wmts/xml_names.h"
 #include "streaming/sets/tileset_json.h"
@@ -20,7 +24,7 @@
 namespace terrella {
 namespace {
 
-enum class Kind { url_template, json, wmts, tms, unknown };
+enum class Kind { url_template, json, wmts, wms, gdal_wms, tms, unknown };
 
 std::string_view file_name(std::string_view path) { return path.substr(path.find_last_of('/') + 1); }
 
@@ -30,6 +34,7 @@ Kind kind_of_name(std::string_view tile_set) {
   if (tile_set.find('{') != std::string_view::npos) return Kind::url_template;
   const std::string lowered = lower_case(tile_set);
   const std::string_view path = path_of(lowered);
+  if (is_wms_address(tile_set)) return Kind::wms;
   if (lowered.find("wmtscapabilities") != std::string::npos ||
       lowered.find("request=getcapabilities") != std::string::npos)
     return Kind::wmts;
@@ -40,9 +45,13 @@ Kind kind_of_name(std::string_view tile_set) {
 Kind kind_of_document(std::string_view text) {
   if (trimmed(text).starts_with('{')) return Kind::json;
   pugi::xml_document document;
-  if (text.size() > kMaxCapabilitiesBytes || !document.load_buffer(text.data(), text.size())) return Kind::unknown;
+  if (text.size() > kMaxCapabilitiesBytes) return Kind::unknown;
+  // A damaged document keeps its root, and its reader names the damage.
+  static_cast<void>(document.load_buffer(text.data(), text.size()));
   const std::string_view root = local_name(document.document_element().name());
   if (root == "TileMap") return Kind::tms;
+  if (same_letters(root, "GDAL_WMS")) return Kind::gdal_wms;
+  if (root == "WMS_Capabilities" || root == "WMT_MS_Capabilities" || root == "ServiceExceptionReport") return Kind::wms;
   return root == "Capabilities" || root == "ExceptionReport" ? Kind::wmts : Kind::unknown;
 }
 
@@ -92,12 +101,20 @@ class Describing {
   Result<RemoteTileSet> describe(const Url& address, const RemoteOptions& options) {
     const Kind kind = kind_of_name(address.with_secrets());
     if (kind == Kind::url_template) return template_tile_set(address, options, true, "tile set");
-    const Result<std::string> text = read(address, options);
+    const Result<std::string> text =
+        read(kind == Kind::wms ? read_wms_address(address).capabilities : address, options);
     if (!text) return text.error();
-    return interpret(kind == Kind::unknown ? kind_of_document(*text) : kind, *text, address, options);
+    return interpret(told_by_document(kind, *text), *text, address, options);
   }
 
  private:
+  /// An address that asks for capabilities may not say of which service.
+  static Kind told_by_document(Kind kind, const std::string& text) {
+    if (kind != Kind::unknown && kind != Kind::wmts) return kind;
+    const Kind told = kind_of_document(text);
+    return kind == Kind::unknown || told == Kind::wms ? told : kind;
+  }
+
   Result<std::string> read(const Url& address, const RemoteOptions& options) {
     if (Status fine = check_options(options, address.redacted()); !fine) return fine.error();
     if (!has_scheme(address.with_secrets())) {
@@ -120,14 +137,19 @@ class Describing {
     switch (kind) {
       case Kind::wmts:
         return checked(parse_wmts_capabilities(text, options, where), address);
+      case Kind::wms:
+        return checked(parse_wms_capabilities(text, read_wms_address(address), options, where), address);
+      case Kind::gdal_wms:
+        return checked(parse_gdal_wms(text, options, where), address);
       case Kind::tms:
         return parse_remote_tms(text, with_scheme(address), options, where);
       case Kind::json:
         return follow(text, address, options);
       default:
+        if (const std::string hint = local_hint(address, text); !hint.empty()) return Error{where + ": " + hint};
         return Error{where +
-                     ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS "
-                     "capabilities, tilemapresource.xml or JSON"};
+                     ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS or WMS "
+                     "capabilities, tilemapresource.xml, <GDAL_WMS> or JSON"};
     }
   }
 
@@ -140,7 +162,7 @@ class Describing {
     Result<RemoteTileSet> set = follow(*source, address, merged, options);
     if (!set || !merged.elevation) return set;
     if (set->info.format != ImageFormat::png) {
-      return Error{where + ": its tiles are JPEG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
+      return Error{where + ": its tiles are no PNG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
     }
     set->info.elevation = merged.elevation;
     return set;
@@ -157,10 +179,18 @@ class Describing {
       return checked(std::move(set), address);
     }
     if (Status pointed = check_pointer(address, source.address, options); !pointed) return pointed.error();
-    const Result<std::string> document = read(source.address, merged);
+    const bool is_wms = source.kind == SourceDescription::Kind::wms;
+    const Result<std::string> document =
+        read(is_wms ? read_wms_address(source.address).capabilities : source.address, merged);
     if (!document) return Error{where + ": " + document.error().message};
-    const Kind kind = source.kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
+    const Kind kind = is_wms ? Kind::wms : source.kind == SourceDescription::Kind::wmts ? Kind::wmts : Kind::tms;
     return interpret(kind, *document, source.address, merged);
+  }
+
+  /// Advice for a label of a planetary archive (PDS4) on disk, which is XML too.
+  static std::string local_hint(const Url& address, std::string_view text) {
+    if (has_scheme(address.with_secrets())) return {};
+    return convert_hint(address.with_secrets(), text.substr(0, kFormatHeadBytes));
   }
 
   static Url with_scheme(const Url& address) {
@@ -178,7 +208,8 @@ bool is_remote(const Url& tile_set) {
   const std::string_view text = tile_set.with_secrets();
   if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;
   const std::string name = lower_case(file_name(text));
-  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile);
+  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile) ||
+         name.ends_with(".wms");
 }
 
 Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options, const FetchDocument& fetch) {

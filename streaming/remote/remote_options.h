@@ -12,10 +12,10 @@ namespace terrella {
 /// User's options for a remote set, from the command line or a JSON description. Defaults come from the document that
 /// describes the set, else as noted.
 struct RemoteOptions {
-  std::string layer{};       ///< WMTS layer; empty: the only one
+  std::string layer{};       ///< WMTS or WMS layers; empty: the only one
   std::string matrix_set{};  ///< WMTS matrix set; empty: the layer's first that fits a grid
-  std::string style{};       ///< WMTS style; empty: its default
-  std::string time{};        ///< WMTS time, ISO 8601; empty: its default
+  std::string style{};       ///< WMTS or WMS style; empty: its default
+  std::string time{};        ///< WMTS or WMS time, ISO 8601; empty: its default
 
   std::optional<double> root_span_deg{};  ///< for a URL template; none: 180. For others: must agree with the document
   std::optional<int> tile_px{};           ///< for a URL template; none: 256. For others: must agree with the document

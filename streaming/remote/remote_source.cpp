@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "streaming/http/reply_queue.h"
-#include "streaming/sets/tile_check.h"
+#include "streaming/remote/reply_rules.h"
+#include "streaming/remote/tile_fetcher.h"
 
 namespace terrella {
 namespace {
@@ -20,9 +21,9 @@ using std::chrono::seconds;
 
 constexpr seconds kTileLife{7 * 24 * 3600};
 constexpr seconds kMissingLife{24 * 3600};
-// What a server sent by mistake is worth asking for again soon.
+// Broken tiles are requested again soon, because the server probably sent them by mistake.
 constexpr seconds kBrokenLife{3600};
-// Threads that bring replies to the cache and to who asked. One may wait for a disk while the other goes on.
+// Threads that check replies, store them in the cache and answer requests. If one waits for a disk, the other goes on.
 constexpr int kAnswerers = 2;
 
 std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr)); }
@@ -37,7 +38,7 @@ Encoded tile_of(CacheRecord&& record) {
 class RemoteSource : public TileSource, public RemoteTiles {
  public:
   RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
-      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(options, replies_) {
+      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(set_, options, replies_) {
     start_answering();
   }
   ~RemoteSource() override { replies_.close(); }
@@ -57,8 +58,6 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   void fetch(const TileId& id, double priority, Done done) override {
     HttpRequest request;
-    request.url = tile_url(set_, id);
-    request.headers = set_.headers;
     request.priority = priority;
     if (cache_ != nullptr) {
       if (const auto known = cache_->peek(id); known && *known) {
@@ -72,7 +71,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
       numbers_.insert_or_assign(id, request.id);
       asked_.emplace(request.id, Asked{id, std::move(done)});
     }
-    fetcher_.submit(std::move(request));
+    fetcher_.fetch(id, std::move(request));
   }
 
   void set_priority(const TileId& id, double priority) override {
@@ -108,7 +107,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
     const std::lock_guard lock(mutex_);
     auto asked = asked_.extract(number);
     if (asked.empty()) return std::nullopt;
-    // The same tile may have been asked for anew.
+    // Another request for the same tile may have followed.
     const auto latest = numbers_.find(asked.mapped().id);
     if (latest != numbers_.end() && latest->second == number) numbers_.erase(latest);
     return std::move(asked.mapped());
@@ -122,7 +121,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
         });
       } catch (const std::system_error&) {
         if (answerers_.empty()) throw;
-        return;  // the system has no more threads: one will do
+        return;  // the system has no more threads; one suffices
       }
     }
   }
@@ -139,11 +138,11 @@ class RemoteSource : public TileSource, public RemoteTiles {
     const std::optional<TileId> id = id_of_request(number);
     if (!id) return;
     Encoded encoded = answer_or_failure(*id, std::move(reply));
-    // The cache may have been slow, and the tile cancelled meanwhile.
+    // The cache may have been slow, and the request may have been cancelled meanwhile.
     if (const std::optional<Asked> asked = forget(number)) asked->done(std::move(encoded));
   }
 
-  /// An exception that leaves a thread would end the program.
+  /// Catches all exceptions, because an exception that leaves a thread ends the program.
   Encoded answer_or_failure(const TileId& id, HttpReply&& reply) {
     try {
       return answer(id, std::move(reply));
@@ -155,6 +154,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
+    apply_reply_rules(set_, reply);
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -177,7 +177,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_tile(reply.body, set_.info.grid.tile_px); !good) {
+    if (const Status good = check_answer(set_.info, id, reply.body); !good) {
       reply.why = good.error().message;
       reply.expires_unix_s.reset();
       return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
@@ -190,7 +190,7 @@ class RemoteSource : public TileSource, public RemoteTiles {
   Encoded missing(const TileId& id, MissingKind kind, HttpReply&& reply, seconds life) {
     TileFailure failure{kind, reply.why};
     if (cache_ == nullptr) return failure;
-    // The cache keeps a tile that it has (CacheRows::put()), and so does the picture.
+    // If the cache has the tile, the cache keeps it (CacheRows::put()) and the picture shows it.
     auto known = cached(id);
     const bool stored = known && !known->missing;
     if (reply.no_store) return stored ? tile_of(*std::move(known)) : Encoded(failure);
@@ -221,13 +221,13 @@ class RemoteSource : public TileSource, public RemoteTiles {
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the next three members
   std::uint64_t last_number_ = 0;
   std::unordered_map<std::uint64_t, Asked> asked_;
-  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< of the latest request for a tile
+  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< number of the latest request for each tile
   ReplyQueue replies_;
-  HttpFetcher fetcher_;
-  std::vector<std::jthread> answerers_;  ///< last: they use the rest
+  TileFetcher fetcher_;
+  std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "streaming/remote/remote_tile_set.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -7,6 +9,7 @@
 #include <string_view>
 
 #include "streaming/remote/web_address.h"
+#include "streaming/sets/gpkg_schema.h"
 
 namespace terrella {
 namespace {
@@ -25,11 +28,48 @@ std::string level_name(const RemoteTileSet& set, int level) {
   return index < set.level_names.size() ? percent_encode(set.level_names[index]) : std::to_string(level);
 }
 
+/// A number without exponent, 1e-12° or 1 µm exact. Some servers read no exponents.
+std::string plain_number(double number, bool is_degrees) {
+  std::string text = fmt::format("{:.{}f}", number, is_degrees ? 12 : 6);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string bbox_of(const RemoteTileSet& set, const TileId& id) {
+  const TileGrid& grid = set.info.grid;
+  const TileBounds bounds = tile_bounds(grid, id);
+  const GridUnits units = units_of(grid.projection, set.info.square);
+  const bool degrees = units.per_deg < 360.0;
+  const auto text = [&](double number) { return plain_number(number, degrees); };
+  const std::string west = text(units.x(bounds.west_deg)), east = text(units.x(bounds.east_deg));
+  const std::string south = text(units.y(bounds.south_deg)), north = text(units.y(bounds.north_deg));
+  if (set.northing_first) return fmt::format("{},{},{},{}", south, west, north, east);
+  return fmt::format("{},{},{},{}", west, south, east, north);
+}
+
+std::string quadkey_of(const TileId& id, int level) {
+  std::string key;
+  for (int bit = level - 1; bit >= 0; --bit) {
+    key += static_cast<char>('0' + static_cast<int>((id.x >> bit) & 1) + 2 * static_cast<int>((id.y >> bit) & 1));
+  }
+  return key;
+}
+
+/// Row from the south, of those that the server has.
+std::int64_t row_from_south(const RemoteTileSet& set, const TileId& id) {
+  const auto level = static_cast<std::size_t>(id.level);
+  const std::int64_t all = level < set.shifts.size() ? set.shifts[level].south_rows : 0;
+  return all > 0 ? all - 1 - shifted(set, id).y : rows(set.info.grid, id.level) - 1 - id.y;
+}
+
 std::string value_of(std::string_view name, const RemoteTileSet& set, const TileId& id) {
   if (name == "z") return level_name(set, id.level);
-  if (name == "-y") return std::to_string(rows(set.info.grid, id.level) - 1 - id.y);
+  if (name == "-y") return std::to_string(row_from_south(set, id));
   if (name == "s") return set.subdomains.empty() ? "" : set.subdomains[TileIdHash{}(id) % set.subdomains.size()];
+  if (name == "bbox") return bbox_of(set, id);
   const TileId moved = shifted(set, id);
+  if (name == "q") return quadkey_of(moved, id.level);
   return std::to_string(name == "x" || name == "col" ? moved.x : moved.y);
 }
 
@@ -76,7 +116,10 @@ std::string source_key(const RemoteTileSet& set) {
   key["subdomains"] = set.subdomains;
   key["levels"] = set.level_names;
   auto& shifts = key["shifts"] = nlohmann::ordered_json::array();
-  for (const TileShift& shift : set.shifts) shifts.push_back({shift.columns, shift.rows, shift.turn_columns});
+  for (const TileShift& shift : set.shifts) {
+    shifts.push_back({shift.columns, shift.rows, shift.turn_columns});
+    if (shift.south_rows != 0) shifts.back().push_back(shift.south_rows);
+  }
   return key.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
@@ -15,10 +16,11 @@ namespace {
 constexpr int kVersion = 1;
 constexpr int kMaxLife_s = 315'360'000;  // ten years; more is a mistake of units
 
-constexpr std::array kKnown = {"version", "name",      "attribution", "body",           "url",         "subdomains",
-                               "headers", "wmts",      "layer",       "matrix_set",     "style",       "time",
-                               "tms",     "min_level", "max_level",   "root_span_deg",  "tile_px",     "bounds",
-                               "format",  "latitude",  "projection",  "absence_life_s", "tile_life_s", "elevation"};
+constexpr std::array kKnown = {
+    "version",    "name",           "attribution",   "body",     "url",    "subdomains", "headers",
+    "wmts",       "layer",          "matrix_set",    "style",    "time",   "tms",        "wms",
+    "min_level",  "max_level",      "root_span_deg", "tile_px",  "bounds", "format",     "latitude",
+    "projection", "absence_life_s", "tile_life_s",   "elevation"};
 
 std::optional<std::string> text_if(JsonFields& fields, const char* field) {
   return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
@@ -49,9 +51,7 @@ void read_grid(JsonFields& fields, RemoteOptions& options) {
   options.min_level = integer_if(fields, "min_level", 0, kMaxTileLevel);
   options.max_level = integer_if(fields, "max_level", 0, kMaxTileLevel);
   if (fields.has("bounds")) options.bounds = fields.bounds("bounds");
-  if (fields.has("format")) {
-    options.format = fields.choice("format", "jpg", "png", 0) == 1 ? ImageFormat::png : ImageFormat::jpeg;
-  }
+  if (fields.has("format")) options.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, 0));
   if (fields.has("projection")) {
     options.projection = static_cast<Projection>(fields.choice("projection", kProjectionNames, 0));
   }
@@ -62,19 +62,28 @@ void read_grid(JsonFields& fields, RemoteOptions& options) {
 }
 
 void read_kind(JsonFields& fields, SourceDescription& source) {
-  const int kinds = fields.has("url") + fields.has("wmts") + fields.has("tms");
+  using SourceKind = SourceDescription::Kind;
+  constexpr std::array kKinds = {std::pair("url", SourceKind::url_template), std::pair("wmts", SourceKind::wmts),
+                                 std::pair("wms", SourceKind::wms), std::pair("tms", SourceKind::tms)};
+  int kinds = 0;
+  for (const auto& [field, kind] : kKinds) {
+    if (!fields.has(field)) continue;
+    ++kinds;
+    source.kind = kind;
+    source.address = fields.text(field);
+  }
   if (kinds != 1) {
-    fields.fail<int>("url", kinds == 0 ? "is missing (or \"wmts\", or \"tms\")"
-                                       : "cannot stand beside \"wmts\" or \"tms\": a source is one of the three");
+    fields.fail<int>("url", kinds == 0
+                                ? "is missing (or \"wmts\", or \"wms\", or \"tms\")"
+                                : "cannot stand beside \"wmts\", \"wms\" or \"tms\": a source is one of the four");
     return;
   }
-  using SourceKind = SourceDescription::Kind;
-  source.kind = fields.has("url") ? SourceKind::url_template : fields.has("wmts") ? SourceKind::wmts : SourceKind::tms;
-  for (const char* field : {"url", "wmts", "tms"}) {
-    if (fields.has(field)) source.address = fields.text(field);
-  }
-  for (const char* field : {"layer", "matrix_set", "style", "time"}) {
-    if (fields.has(field) && source.kind != SourceKind::wmts) fields.fail<int>(field, "is for a \"wmts\" alone");
+  const bool is_wmts = source.kind == SourceKind::wmts;
+  if (fields.has("matrix_set") && !is_wmts) fields.fail<int>("matrix_set", "is for a \"wmts\" alone");
+  for (const char* field : {"layer", "style", "time"}) {
+    if (fields.has(field) && !is_wmts && source.kind != SourceKind::wms) {
+      fields.fail<int>(field, "is for a \"wmts\" or a \"wms\" alone");
+    }
   }
 }
 
@@ -102,7 +111,7 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
   options.elevation = read_elevation(*object, fields, where);
-  if (options.elevation && options.format == ImageFormat::jpeg) {
+  if (options.elevation && options.format && options.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   if (fields.error()) return *fields.error();

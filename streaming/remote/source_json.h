@@ -13,7 +13,7 @@ inline constexpr std::size_t kMaxSourceJsonBytes = 1UL << 20;
 
 /// Content of a JSON source description (fields in streaming/remote/README.md).
 struct SourceDescription {
-  enum class Kind { url_template, wmts, tms };
+  enum class Kind { url_template, wmts, wms, tms };
   Kind kind = Kind::url_template;
   Url address;            ///< the template, or the address of the capabilities document or the tilemapresource.xml
   RemoteOptions options;  ///< all other fields

@@ -13,10 +13,11 @@
 namespace terrella {
 namespace {
 
-constexpr const char* kPlaceholders = "{z} {x} {y} {-y} {s} {row} {col}";
+constexpr const char* kPlaceholders = "{z} {x} {y} {-y} {s} {row} {col} {q} {bbox}";
 
 bool is_placeholder(std::string_view name) {
-  return name == "z" || name == "x" || name == "y" || name == "-y" || name == "s" || name == "row" || name == "col";
+  return name == "z" || name == "x" || name == "y" || name == "-y" || name == "s" || name == "row" || name == "col" ||
+         name == "q" || name == "bbox";
 }
 
 struct Scan {
@@ -54,6 +55,7 @@ std::string fault_of_host(std::string_view url, bool is_file) {
 }
 
 std::string fault_of_names(const Scan& found) {
+  if (found.names.contains("q") || found.names.contains("bbox")) return {};
   if (!found.names.contains("z")) return "has no {z}, so its level cannot be asked for";
   if (!found.names.contains("x") && !found.names.contains("col")) return "has no {x}, so no column can be asked for";
   const auto rows = found.names.count("y") + found.names.count("row") + found.names.count("-y");
@@ -108,6 +110,7 @@ Status fit_rows_from_south(TileGrid& grid, bool level_said, const std::string& w
 
 ImageFormat format_of_ending(const std::string& url) {
   const std::string path = lower_case(url.substr(0, url.find('?')));
+  if (path.ends_with(".webp")) return ImageFormat::webp;
   return path.ends_with(".png") ? ImageFormat::png : ImageFormat::jpeg;
 }
 
@@ -126,7 +129,8 @@ void apply_options(RemoteTileSet& set, const RemoteOptions& options) {
   info.body = options.body.value_or(info.body);
   info.grid.projection = options.projection.value_or(info.grid.projection);
   info.grid.latitude = options.latitude.value_or(info.grid.latitude);
-  info.grid.bounds = options.bounds.value_or(info.grid.bounds);
+  // Bounds in degrees say nothing about a projected square.
+  if (!info.square) info.grid.bounds = options.bounds.value_or(info.grid.bounds);
   set.headers = options.headers;
   if (options.tile_life) set.tile_life = options.tile_life;
   if (options.missing_life) set.missing_life = options.missing_life;

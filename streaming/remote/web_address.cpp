@@ -76,6 +76,13 @@ std::string percent_encode(std::string_view text) {
   return encoded;
 }
 
+std::string percent_decode(std::string_view text) {
+  int length = 0;
+  const std::unique_ptr<char, CleanUp> decoded(
+      curl_easy_unescape(nullptr, text.data(), static_cast<int>(std::min<std::size_t>(text.size(), 1 << 20)), &length));
+  return decoded ? std::string(decoded.get(), static_cast<std::size_t>(length)) : std::string(text);
+}
+
 std::string encode_braces(std::string_view url) {
   std::string encoded;
   for (const char c : url) {

@@ -29,6 +29,8 @@ struct WebAddress {
 
 /// Encodes all but letters, digits and "-._~:,". thread: any
 [[nodiscard]] std::string percent_encode(std::string_view text);
+/// Decodes "%20" and the like. Returns the text unchanged if it cannot be decoded. thread: any
+[[nodiscard]] std::string percent_decode(std::string_view text);
 /// Encodes only braces, so that an address is not taken for a URL template. thread: any
 [[nodiscard]] std::string encode_braces(std::string_view url);
 

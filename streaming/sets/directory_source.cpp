@@ -159,7 +159,7 @@ Result<std::unique_ptr<TileSource>> open_json(const fs::path& root, const fs::pa
   if (!bytes) return Error{bytes.error().message};
   Result<TileSetInfo> info = parse_tileset_json(as_text(*bytes), description.string());
   if (!info) return info.error();
-  DirectoryLayout layout{.root = root, .folder = {}, .extension = info->format == ImageFormat::png ? "png" : "jpg"};
+  DirectoryLayout layout{.root = root, .folder = {}, .extension = extension_of(info->format)};
   for (int level = info->grid.min_level; level <= info->grid.max_level; ++level) {
     layout.folder[level] = std::to_string(level);
   }
@@ -189,13 +189,13 @@ Result<std::unique_ptr<TileSource>> open_directory(const fs::path& path) {
   if (fs::exists(path / kTileSetFile, ignored)) return open_json(path, path / kTileSetFile);
   if (fs::exists(path / kTmsFile, ignored)) return open_tms(path, path / kTmsFile);
   const bool empty = fs::is_empty(path, ignored);
-  return Error{
-      fmt::format("{}: {}, so it is not a tile set. A directory must hold tiles as {{z}}/{{x}}/{{y}}.jpg or .png and "
-                  "beside them {} (written "
-                  "by `terrella cut`) or the {} of a geodetic TMS",
-                  path.string(),
-                  empty ? "the directory is empty" : "the directory holds no tileset.json and no tilemapresource.xml",
-                  kTileSetFile, kTmsFile)};
+  return Error{fmt::format(
+      "{}: {}, so it is not a tile set. A directory must hold tiles as {{z}}/{{x}}/{{y}}.jpg, .png or .webp and "
+      "beside them {} (written "
+      "by `terrella cut`) or the {} of a geodetic TMS",
+      path.string(),
+      empty ? "the directory is empty" : "the directory holds no tileset.json and no tilemapresource.xml", kTileSetFile,
+      kTmsFile)};
 }
 
 }  // namespace terrella

@@ -1,5 +1,8 @@
 #include "streaming/sets/elevation_json.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace terrella {
@@ -11,12 +14,20 @@ std::optional<ElevationInfo> read_elevation(const nlohmann::json& object, JsonFi
   if (!value.is_object()) return fields.fail<std::optional<ElevationInfo>>("elevation", "must be an object");
   JsonFields inner(value, where);
   ElevationInfo info{.scale = inner.number("scale"), .offset = inner.number("offset"), .nodata = {}};
-  if (inner.has("nodata")) info.nodata = inner.integer("nodata", 0);
+  constexpr std::array kNumbers = {"unsigned", "signed", "float"};
+  const int numbers = inner.choice("numbers", kNumbers, 0);
+  info.is_signed = numbers == 1;
+  info.floats = numbers == 2;
+  if (inner.has("nodata")) info.nodata = info.floats ? inner.number("nodata") : inner.integer("nodata", 0);
   if (inner.error())
-    return fields.fail<std::optional<ElevationInfo>>("elevation", "takes the numbers scale, offset, nodata");
+    return fields.fail<std::optional<ElevationInfo>>(
+        "elevation", "takes the numbers scale, offset, nodata, and as \"numbers\": unsigned, signed or float");
   if (info.scale == 0.0) return fields.fail<std::optional<ElevationInfo>>("elevation", "has a scale of 0");
-  const double nodata = info.nodata.value_or(0.0);
-  if (nodata < 0.0 || nodata > 65535.0) fields.fail<int>("elevation", "has a nodata beyond 0 to 65535");
+  const double least = info.is_signed ? -32768.0 : 0.0;
+  const double nodata = info.nodata.value_or(least);
+  if (!info.floats && (nodata < least || nodata > least + 65535.0)) {
+    fields.fail<int>("elevation", fmt::format("has a nodata beyond {} to {}", least, least + 65535.0));
+  }
   return info;
 }
 

@@ -117,9 +117,9 @@ std::optional<std::int64_t> whole_tiles(double offset_deg, const TileMatrix& mat
   return std::abs(tiles - whole) * matrix.tile_px <= kSlackTexels ? std::optional(std::llround(whole)) : std::nullopt;
 }
 
-std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& extent, double top_deg) {
-  const auto first_column = whole_tiles(extent.west + 180.0, matrix);
-  const auto first_row = whole_tiles(top_deg - extent.north, matrix);
+std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& extent, const TileGrid& grid) {
+  const auto first_column = whole_tiles(extent.west - grid.west_deg, matrix);
+  const auto first_row = whole_tiles(top_row_deg(grid) - extent.north, matrix);
   if (!first_column || !first_row) return std::nullopt;
   return GeoPackageLevel{.zoom = matrix.zoom,
                          .columns = matrix.columns,
@@ -127,6 +127,20 @@ std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& ext
                          .first_column = *first_column,
                          .first_row = *first_row,
                          .turn_columns = whole_tiles(360.0, matrix).value_or(0)};
+}
+
+/// Moves the grid's origin to a corner of the tiles, if the tiles of a region do not begin a whole number of tiles from
+/// the planet's corner. All levels share the corner.
+void place_origin(const std::vector<TileMatrix>& matrices, const Extent& extent, TileGrid& grid) {
+  if (grid.projection == Projection::web_mercator) return;
+  const double step = matrices.back().span_deg;
+  if (!whole_tiles(grid.north_deg - extent.north, matrices.front())) {
+    grid.north_deg = extent.north + std::ceil((90.0 - extent.north) / step) * step;
+  }
+  const bool is_region = extent.east - extent.west < 360.0 && extent.east <= 180.0;
+  if (is_region && !whole_tiles(extent.west - grid.west_deg, matrices.front())) {
+    grid.west_deg = extent.west - std::ceil((extent.west + 180.0) / step) * step;
+  }
 }
 
 Error between_tiles(const Extent& extent, const TileMatrix& finest, double top_deg, const std::string& where) {
@@ -137,8 +151,8 @@ Error between_tiles(const Extent& extent, const TileMatrix& finest, double top_d
         where)};
   }
   return Error{fmt::format(
-      "{}: its tiles begin at ({}°, {}°), which is no whole number of tiles ({}°) from (-180°, 90°). Write it again "
-      "with "
+      "{}: its tiles go round the planet and begin at ({}°, {}°), which is no whole number of tiles ({}°) from "
+      "(-180°, 90°). Write it again with "
       "gdal_translate -of GPKG -co TILING_SCHEME=InspireCRS84Quad, or cut the picture itself with `terrella cut`",
       where, extent.west, extent.north, finest.span_deg)};
 }
@@ -186,8 +200,9 @@ Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const Matrix
 Status place_on_grid(const std::vector<TileMatrix>& matrices, const Extent& extent, GeoPackageTiles& tiles,
                      const std::string& where) {
   std::vector<std::pair<int, GeoPackageLevel>> placed;  // halvings to the finest, finest first
+  place_origin(matrices, extent, tiles.info.grid);
   for (const TileMatrix& matrix : matrices) {
-    const auto level = place(matrix, extent, top_row_deg(tiles.info.grid));
+    const auto level = place(matrix, extent, tiles.info.grid);
     if (!level) break;  // a tile of twice the span does not fit either
     placed.emplace_back(*halvings(matrix, matrices.front()), *level);
   }
@@ -228,7 +243,7 @@ Status match_grid(const std::vector<TileMatrix>& matrices, const Extent& extent,
                       "such",
                       where, level, span_deg, grid.tile_px)};
     }
-    const auto placed = place(*found, extent, top_row_deg(grid));
+    const auto placed = place(*found, extent, grid);
     if (!placed) return between_tiles(extent, *found, top_row_deg(grid), where);
     tiles.levels[level] = *placed;
   }

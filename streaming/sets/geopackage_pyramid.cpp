@@ -28,19 +28,17 @@ struct TileTable {
   std::optional<Extent> data;
   bool is_coverage = false;
   Projection projection = Projection::equirectangular;
+  GridUnits units = {};  ///< of its reference system
 };
 
-/// Degrees in a unit of the table's reference system. Metres of Web Mercator count as degrees of its rows.
-double degrees_a_unit(const TileTable& table) {
-  return table.projection == Projection::web_mercator ? 1.0 / kMercatorDegree_m : 1.0;
-}
-
-std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, double unit_deg) {
+std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, const GridUnits& units) {
   std::array<double, 4> sides{};
   for (int i = 0; i < 4; ++i) {
     const std::optional<double> side = query.number(first_column + i);
-    if (!side || !(std::abs(*side * unit_deg) <= kMaxCoordinateDeg)) return std::nullopt;
-    sides[static_cast<std::size_t>(i)] = *side * unit_deg;
+    if (!side) return std::nullopt;
+    const double degrees = (*side - (i % 2 == 0 ? units.x_of_0 : units.y_of_0)) / units.per_deg;
+    if (!(std::abs(degrees) <= kMaxCoordinateDeg)) return std::nullopt;
+    sides[static_cast<std::size_t>(i)] = degrees;
   }
   const Extent extent{sides[0], sides[1], sides[2], sides[3]};
   return extent.west < extent.east && extent.south < extent.north ? std::optional(extent) : std::nullopt;
@@ -64,7 +62,8 @@ bool is_epsg(SqliteReader& reader, std::int64_t srs_id, int code) {
   return srs_id == code || srs_name(reader, srs_id) == fmt::format("EPSG:{}", code);
 }
 
-Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, const std::string& where) {
+Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, const TileSetInfo* ours,
+                            const std::string& where) {
   const std::optional<std::string> name = query.text(0);
   if (!name) return Error{where + ": gpkg_contents: a table_name is not a text"};
   const std::optional<std::int64_t> srs_id = query.integer(3);
@@ -78,7 +77,9 @@ Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, cons
                   .data = {},
                   .is_coverage = query.text(12) == kCoverageDataType};
   if (is_epsg(reader, *srs_id, kSrsWebMercator)) table.projection = Projection::web_mercator;
-  const std::optional<Extent> set = get_extent(query, 8, degrees_a_unit(table));
+  if (ours != nullptr && ours->square) table.projection = Projection::projected;
+  table.units = units_of(table.projection, ours != nullptr ? ours->square : std::nullopt);
+  const std::optional<Extent> set = get_extent(query, 8, table.units);
   if (!set) {
     return Error{
         fmt::format("{}: gpkg_tile_matrix_set: min_x, min_y, max_x, max_y of \"{}\" are not the corners of a "
@@ -86,13 +87,13 @@ Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, cons
                     where, *name)};
   }
   table.set = *set;
-  table.data = get_extent(query, 4, degrees_a_unit(table));
+  table.data = get_extent(query, 4, table.units);
   return table;
 }
 
-/// First usable tile table, pictures before heights. With `any_srs` (a file of Terrella's) any reference system is
-/// usable, else EPSG:4326 and EPSG:3857.
-Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::string& where) {
+/// First usable tile table, pictures before heights. In a file of Terrella's, whose description is `ours`, any
+/// reference system is usable, else EPSG:4326 and EPSG:3857.
+Result<TileTable> find_table(SqliteReader& reader, const TileSetInfo* ours, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
       "m.min_y, "
@@ -104,10 +105,10 @@ Result<TileTable> find_table(SqliteReader& reader, bool any_srs, const std::stri
     const Result<bool, SqlError> more = query->step();
     if (!more) return Error{fmt::format("{}: gpkg_contents: {}", where, more.error().message)};
     if (!*more) break;
-    Result<TileTable> table = get_table(reader, *query, where);
+    Result<TileTable> table = get_table(reader, *query, ours, where);
     if (!table) return table;
     const bool mercator = table->projection == Projection::web_mercator && !table->is_coverage;
-    if (any_srs || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
+    if (ours != nullptr || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
     if (!refused) {
       refused =
           Error{fmt::format("{}: the {} of \"{}\" are in {}, they must be in EPSG:4326{} (gdalwarp -t_srs "
@@ -207,18 +208,20 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   const Result<std::optional<std::string>> description = read_description(reader, where);
   if (!description) return description.error();
   const bool ours = description->has_value();
-  const Result<TileTable> table = find_table(reader, ours, where);
-  if (!table) return table.error();
-  const auto matrices = read_matrices(reader, {table->name, degrees_a_unit(*table)}, table->set, where);
-  if (!matrices) return matrices.error();
-
   GeoPackageTiles tiles;
-  tiles.table = table->name;
-  tiles.is_coverage = table->is_coverage;
   if (ours) {
     Result<TileSetInfo> info = parse_tileset_json(**description, fmt::format("{}: {}", where, kTileSetTable));
     if (!info) return info.error();
     tiles.info = *std::move(info);
+  }
+  const Result<TileTable> table = find_table(reader, ours ? &tiles.info : nullptr, where);
+  if (!table) return table.error();
+  const auto matrices = read_matrices(reader, {table->name, 1.0 / table->units.per_deg}, table->set, where);
+  if (!matrices) return matrices.error();
+
+  tiles.table = table->name;
+  tiles.is_coverage = table->is_coverage;
+  if (ours) {
     const bool mercator = tiles.info.grid.projection == Projection::web_mercator;
     if (mercator != (table->projection == Projection::web_mercator)) {
       return Error{fmt::format(

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "streaming/georeference/crs_text.h"
 #include "streaming/sets/tileset_json.h"
 
 namespace terrella {
@@ -26,10 +27,17 @@ constexpr const char* kTables[] = {
     "CONSTRAINT fk_tmm_table_name FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name))",
 };
 
+/// OGC 12-128r18, table 23.
+constexpr const char* kExtensionsTable =
+    "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
+    "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))";
+/// OGC 12-128r18, annex F.7.
+constexpr const char* kWebpExtension =
+    "INSERT INTO gpkg_extensions VALUES ('tiles', 'tile_data', 'gpkg_webp', 'http://www.geopackage.org/spec/#extension_tiles_webp', "
+    "'read-write')";
+
 /// Tables of the extension, OGC 17-066r1, tables 1 to 3.
 constexpr const char* kCoverageTables[] = {
-    "CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL, "
-    "scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name))",
     "CREATE TABLE gpkg_2d_gridded_coverage_ancillary (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
     "tile_matrix_set_name TEXT NOT NULL UNIQUE, datatype TEXT NOT NULL DEFAULT 'integer', scale REAL NOT NULL DEFAULT 1.0, "
     "offset REAL NOT NULL DEFAULT 0.0, precision REAL DEFAULT 1.0, data_null REAL, "
@@ -69,16 +77,48 @@ constexpr const char* kWebMercator =
     "\"EPSG\",\"3857\"]]', 'Web Mercator')";
 // clang-format on
 
+/// srs_id of a system without a number of its own.
+constexpr int kSrsOther = 100'000;
+
 bool is_mercator(const TileGrid& grid) { return grid.projection == Projection::web_mercator; }
 
-double units_a_degree(const TileGrid& grid) { return is_mercator(grid) ? kMercatorDegree_m : 1.0; }
+GridUnits units_of(const TileSetInfo& info) { return terrella::units_of(info.grid.projection, info.square); }
+
+CrsIdentity identity_of(const CrsSquare& square) {
+  const Result<CrsIdentity> known = identify_crs(square.crs);
+  CrsIdentity identity = known ? *known : CrsIdentity{.name = "Unknown"};
+  if (identity.code == 0) identity.code = kSrsOther;
+  return identity;
+}
+
+int srs_of(const TileSetInfo& info) {
+  if (info.square) return identity_of(*info.square).code;
+  return is_mercator(info.grid) ? kSrsWebMercator : kSrsGeodetic;
+}
+
+SqlStatement reference_system(const CrsSquare& square) {
+  const CrsIdentity identity = identity_of(square);
+  return {.sql =
+              "INSERT OR IGNORE INTO gpkg_spatial_ref_sys VALUES (?1, CAST(?4 AS INTEGER), ?2, CAST(?4 AS INTEGER), "
+              "?3, NULL)",
+          .texts = {identity.name, identity.authority, identity.wkt},
+          .numbers = {static_cast<double>(identity.code)}};
+}
 
 }  // namespace
 
-SqlStatement tile_matrix_row(const TileGrid& grid, int level) {
+GridUnits units_of(Projection projection, const std::optional<CrsSquare>& square) {
+  if (projection == Projection::web_mercator) return {.per_deg = kMercatorDegree_m};
+  if (!square) return {};
+  const double half = 180.0 * square->unit_per_deg;
+  return {.per_deg = square->unit_per_deg, .x_of_0 = square->west + half, .y_of_0 = square->north - half};
+}
+
+SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
+  const TileGrid& grid = info.grid;
   const double columns_of_level = std::ldexp(static_cast<double>(columns(grid, 0)), level);
   const double rows_of_level = std::ldexp(static_cast<double>(rows(grid, 0)), level);
-  const double pixel = tile_span_deg(grid, level) / grid.tile_px * units_a_degree(grid);
+  const double pixel = tile_span_deg(grid, level) / grid.tile_px * units_of(info).per_deg;
   return {.sql =
               "INSERT INTO gpkg_tile_matrix VALUES ('tiles', CAST(?1 AS INTEGER), CAST(?2 AS INTEGER), "
               "CAST(?3 AS INTEGER), CAST(?4 AS INTEGER), CAST(?4 AS INTEGER), ?5, ?5)",
@@ -89,33 +129,38 @@ SqlStatement tile_matrix_row(const TileGrid& grid, int level) {
 
 namespace {
 
+/// The extension knows no two's complement numbers. Other programs see gray pictures of them.
+bool is_coverage(const TileSetInfo& info) { return info.elevation && !info.elevation->is_signed; }
+
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
   const bool crosses = bounds.east < bounds.west;
   const bool mercator = is_mercator(info.grid);
-  const double unit = units_a_degree(info.grid);
+  const GridUnits units = units_of(info);
   const RowLatitudes rows = row_bounds(info.grid);
-  return {.sql =
-              "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
-              "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
-              "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, CAST(?9 AS INTEGER))",
-          .texts = {info.elevation ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
-                    info.attribution, last_change},
-          .numbers = {unit * (crosses ? -180.0 : tidy_degrees(bounds.west)),
-                      mercator ? unit * rows.south_deg : tidy_degrees(bounds.south),
-                      unit * (crosses ? 180.0 : tidy_degrees(bounds.east)),
-                      mercator ? unit * rows.north_deg : tidy_degrees(bounds.north),
-                      static_cast<double>(mercator ? kSrsWebMercator : kSrsGeodetic)}};
+  return {
+      .sql =
+          "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
+          "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
+          "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, CAST(?9 AS INTEGER))",
+      .texts = {is_coverage(info) ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
+                info.attribution, last_change},
+      .numbers = {units.x(crosses ? -180.0 : tidy_degrees(bounds.west)),
+                  units.y(mercator ? rows.south_deg : tidy_degrees(bounds.south)),
+                  units.x(crosses ? 180.0 : tidy_degrees(bounds.east)),
+                  units.y(mercator ? rows.north_deg : tidy_degrees(bounds.north)), static_cast<double>(srs_of(info))}};
 }
 
-SqlStatement matrix_set(const TileGrid& grid) {
-  const double unit = units_a_degree(grid);
+SqlStatement matrix_set(const TileSetInfo& info) {
+  const TileGrid& grid = info.grid;
+  const GridUnits units = units_of(info);
   const double top = top_row_deg(grid);
-  return {.sql = "INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', CAST(?1 AS INTEGER), ?2, ?3, ?4, ?5)",
-          .texts = {},
-          .numbers = {static_cast<double>(is_mercator(grid) ? kSrsWebMercator : kSrsGeodetic), unit * -180.0,
-                      unit * (top - static_cast<double>(rows(grid, 0)) * grid.root_span_deg),
-                      unit * (-180.0 + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), unit * top}};
+  return {
+      .sql = "INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', CAST(?1 AS INTEGER), ?2, ?3, ?4, ?5)",
+      .texts = {},
+      .numbers = {static_cast<double>(srs_of(info)), units.x(grid.west_deg),
+                  units.y(top - static_cast<double>(rows(grid, 0)) * grid.root_span_deg),
+                  units.x(grid.west_deg + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), units.y(top)}};
 }
 
 void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {
@@ -125,7 +170,8 @@ void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>&
   // GDAL rounds to the precision. The schema's default is one metre.
   if (elevation.nodata) numbers.push_back(*elevation.nodata);
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
-                             "offset, precision, data_null, uom) VALUES ('tiles', 'integer', ?1, ?2, abs(?1), ") +
+                             "offset, precision, data_null, uom) VALUES ('tiles', " +
+                             std::string(elevation.floats ? "'float'" : "'integer'") + ", ?1, ?2, abs(?1), ") +
                      (elevation.nodata ? "?3" : "NULL") + ", 'm')",
                  {},
                  std::move(numbers)});
@@ -150,13 +196,17 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back({tile_table_sql("tiles"), {}});
   all.push_back({kReferenceSystems, {}});
   if (is_mercator(grid)) all.push_back({kWebMercator, {}});
+  if (info.square) all.push_back(reference_system(*info.square));
   all.push_back(contents(info, last_change));
-  all.push_back(matrix_set(grid));
-  for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix_row(grid, level));
+  all.push_back(matrix_set(info));
+  for (int level = grid.min_level; level <= grid.max_level; ++level) all.push_back(tile_matrix_row(info, level));
   all.push_back({std::string("CREATE TABLE ") + kTileSetTable + " (key TEXT PRIMARY KEY, value TEXT)", {}});
   all.push_back({std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)",
                  {kTileSetKey, to_tileset_json(info, cut_key)}});
-  if (info.elevation) describe_heights(*info.elevation, all);
+  const bool webp = info.format == ImageFormat::webp;
+  if (info.elevation || webp) all.push_back({kExtensionsTable, {}});
+  if (webp) all.push_back({kWebpExtension, {}});
+  if (is_coverage(info)) describe_heights(*info.elevation, all);
   if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;
 }

@@ -234,7 +234,7 @@ Status look_at_tile(SqliteReader& reader, TileSetInfo& info, const std::string& 
   if (!blob) return Error{where + ": an MBTiles file that holds no tiles"};
   info.format = sniff_format(*blob);
   if (info.format == ImageFormat::unknown) {
-    return Error{where + ": its tiles are neither JPEG nor PNG pictures (vector tiles and WebP are not read)"};
+    return Error{where + ": its tiles are not JPEG, PNG or WebP pictures (vector tiles are not read)"};
   }
   const Result<Image> tile = decode_image(*blob);
   if (!tile) return Error{fmt::format("{}: its first tile: {}", where, tile.error().message)};

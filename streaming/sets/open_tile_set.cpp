@@ -2,6 +2,7 @@
 
 #include "streaming/file_bytes.h"
 #include "streaming/other_formats.h"
+#include "streaming/pmtiles/pmtiles_set.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sets/geopackage_source.h"
 #include "streaming/sets/open_tile_set.h"
@@ -22,12 +23,13 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   const auto head = read_head(path, kFormatHeadBytes);
   if (!head) return Error{head.error().message};
   if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
+  if (begins_as_pmtiles(*head)) return open_pmtiles(path);
   const std::string hint = convert_hint(path, {reinterpret_cast<const char*>(head->data()), head->size()});
   if (!hint.empty()) return Error{fmt::format("{}: {}", path.string(), hint)};
-  return Error{
-      fmt::format("{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, TIFF), a GeoPackage in "
-                  "EPSG:4326 or EPSG:3857, MBTiles, and a directory of tiles with tileset.json or tilemapresource.xml",
-                  path.string())};
+  return Error{fmt::format(
+      "{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, WebP, TIFF), a GeoPackage in "
+      "EPSG:4326 or EPSG:3857, MBTiles, PMTiles, and a directory of tiles with tileset.json or tilemapresource.xml",
+      path.string())};
 }
 
 Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {

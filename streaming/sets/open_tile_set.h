@@ -9,10 +9,9 @@
 namespace terrella {
 
 /// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), or a GeoPackage in EPSG:4326 or
-/// EPSG:3857 (ours, GDAL's), or MBTiles; `geodetic_mbtiles` says that the latter's profile is, whatever it says. Sets
-/// in Web Mercator become geodetic ones (streaming/warp/web_mercator.h). The error names the path, what is
-/// wrong, and what to do. Image files are cut first (streaming/cut.h). Blocks for
-/// the disk. thread: any
+/// EPSG:3857 (ours, GDAL's), PMTiles, or MBTiles; `geodetic_mbtiles` says that the latter's profile is, whatever it
+/// says. Sets in Web Mercator become geodetic ones (streaming/warp/web_mercator.h). The error names the path,
+/// what is wrong, and what to do. Image files are cut first (streaming/cut.h). Blocks for the disk. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,
                                                                 bool geodetic_mbtiles = false);
 

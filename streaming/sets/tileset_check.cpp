@@ -18,15 +18,21 @@ bool within(double value, double low, double high) {
   return value >= low - kAngleSlackDeg && value <= high + kAngleSlackDeg;
 }
 
-Status check_bounds(const GeoRect& bounds, const std::string& where) {
+Status check_bounds(const TileGrid& grid, const std::string& where) {
+  const GeoRect& bounds = grid.bounds;
+  const double top = grid.projection == Projection::projected ? 180.0 : 90.0;
   for (const double lon : {bounds.west.deg(), bounds.east.deg()}) {
     if (!within(lon, -180.0, 180.0)) return field_error(where, "bounds: a longitude", lon, "in [-180, 180]");
   }
   for (const double lat : {bounds.south.deg(), bounds.north.deg()}) {
-    if (!within(lat, -90.0, 90.0)) return field_error(where, "bounds: a latitude", lat, "in [-90, 90]");
+    if (!within(lat, -top, top))
+      return field_error(where, "bounds: a latitude", lat, fmt::format("in [-{0}, {0}]", top));
   }
   if (!(bounds.south < bounds.north)) {
     return field_error(where, "bounds: south", bounds.south.deg(), fmt::format("under north, {}", bounds.north.deg()));
+  }
+  if (grid.projection == Projection::projected && !(bounds.west < bounds.east)) {
+    return field_error(where, "bounds: west", bounds.west.deg(), "under east");
   }
   if (bounds.west == bounds.east) return field_error(where, "bounds: west", bounds.west.deg(), "other than east");
   return Done{};
@@ -43,6 +49,23 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
     return field_error(where, "tile_px", grid.tile_px, fmt::format("at most {} in Web Mercator", kMaxMercatorTilePx));
   }
   if (grid.reduced) return Error{where + ": polar_rows are not squeezed in Web Mercator, which has no poles"};
+  return Done{};
+}
+
+Status check_origin(const TileGrid& grid, const std::string& where) {
+  if (begins_at_planet(grid)) return Done{};
+  if (!(grid.west_deg <= -180.0 && grid.west_deg > -180.0 - grid.root_span_deg)) {
+    return field_error(where, "origin_west_deg", grid.west_deg, "-180 or less, by under one root_span_deg");
+  }
+  if (!(grid.north_deg >= 90.0 && grid.north_deg < 90.0 + grid.root_span_deg)) {
+    return field_error(where, "origin_north_deg", grid.north_deg, "90 or more, by under one root_span_deg");
+  }
+  const bool crosses = grid.bounds.east < grid.bounds.west && grid.west_deg != -180.0;
+  if (grid.projection == Projection::web_mercator || grid.reduced || crosses) {
+    return Error{where +
+                 ": an origin other than (-180, 90) is not for Web Mercator, nor for grids with polar_rows or bounds "
+                 "that cross 180 degrees"};
+  }
   return Done{};
 }
 
@@ -63,7 +86,8 @@ Status check_grid(const TileGrid& grid, const std::string& where) {
     return field_error(where, "min_level", grid.min_level, fmt::format("in [0, max_level = {}]", grid.max_level));
   }
   if (Status square = check_mercator(grid, where); !square) return square.error();
-  return check_bounds(grid.bounds, where);
+  if (Status origin = check_origin(grid, where); !origin) return origin.error();
+  return check_bounds(grid, where);
 }
 
 }  // namespace terrella

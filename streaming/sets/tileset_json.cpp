@@ -19,7 +19,22 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr const char* kCutKeyField = "cut_key";
 
-const char* name_of(ImageFormat format) { return format == ImageFormat::png ? "png" : "jpg"; }
+/// Reads the square of a `projected` grid.
+std::optional<CrsSquare> read_square(const json& object, JsonFields& fields, const std::string& where) {
+  if (!fields.has("square")) return {};
+  const json& value = object["square"];
+  if (!value.is_object()) return fields.fail<std::optional<CrsSquare>>("square", "must be an object");
+  JsonFields inner(value, where);
+  CrsSquare square{.crs = inner.text("crs"),
+                   .west = inner.number("west"),
+                   .north = inner.number("north"),
+                   .unit_per_deg = inner.number("unit_per_deg")};
+  if (inner.error() || square.crs.empty() || !(square.unit_per_deg > 0.0)) {
+    return fields.fail<std::optional<CrsSquare>>("square",
+                                                 "takes the text crs and the numbers west, north, unit_per_deg");
+  }
+  return square;
+}
 
 Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   JsonFields fields(object, where);
@@ -40,11 +55,17 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.grid.latitude =
       fields.choice("latitude", "graphic", "centric", 0) == 1 ? LatitudeKind::centric : LatitudeKind::graphic;
   info.grid.bounds = fields.bounds("bounds");
+  if (fields.has("origin_west_deg")) info.grid.west_deg = fields.number("origin_west_deg");
+  if (fields.has("origin_north_deg")) info.grid.north_deg = fields.number("origin_north_deg");
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
-  info.format = fields.choice("format", "jpg", "png", std::nullopt) == 1 ? ImageFormat::png : ImageFormat::jpeg;
+  info.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
   info.elevation = read_elevation(object, fields, where);
   if (info.elevation && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
+  }
+  info.square = read_square(object, fields, where);
+  if (info.square.has_value() != (info.grid.projection == Projection::projected)) {
+    fields.fail<int>("square", "and the projection \"projected\" need each other");
   }
   if (fields.error()) return *fields.error();
   if (Status grid = check_grid(info.grid, where); !grid) return grid.error();
@@ -74,11 +95,24 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   object["latitude"] = grid.latitude == LatitudeKind::centric ? "centric" : "graphic";
   object["bounds"] = {tidy_degrees(grid.bounds.west), tidy_degrees(grid.bounds.south), tidy_degrees(grid.bounds.east),
                       tidy_degrees(grid.bounds.north)};
+  if (!begins_at_planet(grid)) {
+    object["origin_west_deg"] = grid.west_deg;
+    object["origin_north_deg"] = grid.north_deg;
+  }
   if (grid.reduced) object["polar_rows"] = "squeezed too";
-  object["format"] = name_of(info.format);
+  object["format"] = extension_of(info.format);
   if (info.elevation) {
     object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
-    if (info.elevation->nodata) object["elevation"]["nodata"] = static_cast<int>(*info.elevation->nodata);
+    auto& elevation = object["elevation"];
+    if (info.elevation->nodata && info.elevation->floats) elevation["nodata"] = *info.elevation->nodata;
+    if (info.elevation->nodata && !info.elevation->floats)
+      elevation["nodata"] = static_cast<int>(*info.elevation->nodata);
+    if (info.elevation->is_signed) elevation["numbers"] = "signed";
+    if (info.elevation->floats) elevation["numbers"] = "float";
+  }
+  if (const auto& square = info.square) {
+    object["square"] = {
+        {"crs", square->crs}, {"west", square->west}, {"north", square->north}, {"unit_per_deg", square->unit_per_deg}};
   }
   if (!cut_key.empty()) object[kCutKeyField] = cut_key;
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -151,6 +151,13 @@ Status assign_levels(std::vector<TmsLevel> levels, TmsDescription& tms, const st
   return Done{};
 }
 
+std::optional<ImageFormat> format_of_extension(std::string_view extension) {
+  if (extension == "jpeg") return ImageFormat::jpeg;
+  const auto* const found = std::ranges::find(kImageFormatNames, extension);
+  if (found == kImageFormatNames.end()) return std::nullopt;
+  return static_cast<ImageFormat>(found - kImageFormatNames.begin());
+}
+
 }  // namespace
 
 Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& where) {
@@ -163,19 +170,19 @@ Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& w
   if (const auto refused = refuse_reference_system(map)) return Error{where + ": " + *refused};
 
   TmsDescription tms;
-  const pugi::xml_node format = map.child("TileFormat");
-  const double width = number(format, "width");
-  if (!(width >= kMinTilePx && width <= kMaxTilePx) || width != number(format, "height") ||
-      width != std::floor(width)) {
+  const pugi::xml_node tile = map.child("TileFormat");
+  const double width = number(tile, "width");
+  if (!(width >= kMinTilePx && width <= kMaxTilePx) || width != number(tile, "height") || width != std::floor(width)) {
     return Error{fmt::format("{}: <TileFormat> must have a width in [{}, {}] and a height that equals it", where,
                              kMinTilePx, kMaxTilePx)};
   }
-  tms.extension = format.attribute("extension").value();
-  if (tms.extension != "jpg" && tms.extension != "jpeg" && tms.extension != "png") {
-    return Error{fmt::format("{}: tiles are \"{}\" files; jpg and png can be read", where, tms.extension)};
+  tms.extension = tile.attribute("extension").value();
+  const auto format = format_of_extension(tms.extension);
+  if (!format) {
+    return Error{fmt::format("{}: tiles are \"{}\" files; jpg, png and webp can be read", where, tms.extension)};
   }
   tms.info.name = map.child_value("Title");
-  tms.info.format = tms.extension == "png" ? ImageFormat::png : ImageFormat::jpeg;
+  tms.info.format = *format;
   tms.info.grid.tile_px = static_cast<int>(width);
   tms.info.grid.bounds = read_bounds(map);
   if (is_mercator(map)) tms.info.grid.projection = Projection::web_mercator;

@@ -24,8 +24,9 @@ namespace terrella {
 /// stored tiles are a raster in EPSG:3857 (warp_source.h describes missing tiles). Tiles beyond ±85.05° are
 /// transparent: the layer below shows, or the globe's plain colour. The reason of a missing tile names the stored tile.
 ///
-/// Returns a source in another projection unchanged. Fails for bounds beyond the end of Web Mercator; the error begins
-/// with `where`. thread: any; the tiles' as TileSource says
+/// A set in a `projected` grid becomes one in the grid of warp_grid(). Returns a source in another projection
+/// unchanged. Fails for bounds beyond the end of Web Mercator; the error begins with `where`. thread: any; the tiles'
+/// as TileSource says
 [[nodiscard]] Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored,
                                                               const std::string& where);
 

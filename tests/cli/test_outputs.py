@@ -39,7 +39,7 @@ class NotWritable(ProgramTest):
 
     def test_the_cache_is_a_file(self):
         done = self.assert_done("render", self.picture, "--cache", "file", "-o", "x.png")
-        self.assertIn("file: cannot be made: Not a directory; going on without a cache", done.stderr)
+        self.assertIn("file: cannot be made: Not a directory; continuing without a cache", done.stderr)
 
 
 class DiskFull(ProgramTest):

@@ -16,11 +16,36 @@ class Program(ProgramTest):
                 text = self.assert_done(command, "--help").stdout
                 self.assertRegex(text, rf"(?is)example.*terrella {command}")
 
-    def test_no_subcommand(self):
-        self.assert_fails(WRONG_USAGE, says=["subcommand", "terrella --help"])
+    def test_no_subcommand_prints_the_help(self):
+        done = self.assert_fails(WRONG_USAGE, says=["Usage: terrella", "Subcommands:", "Examples:", "terrella view"])
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr, self.assert_done("--help").stdout)
+
+    def test_help_is_a_command_too(self):
+        self.assertEqual(self.assert_done("help").stdout, self.assert_done("--help").stdout)
+        for command in subcommands():
+            self.assertEqual(self.assert_done("help", command).stdout, self.assert_done(command, "--help").stdout)
 
     def test_unknown_subcommand(self):
-        self.assert_fails(WRONG_USAGE, "paint", says=["paint"])
+        done = self.assert_fails(WRONG_USAGE, "paint", says=["terrella: there is no command paint", "terrella --help"])
+        self.assertNotIn("did you mean", done.stderr)
+
+    def test_mistyped_subcommands_and_options_are_suggested(self):
+        for typed, meant in [("rendr", "render"), ("veiw", "view"), ("Cut", "cut"), ("prelaod", "preload")]:
+            with self.subTest(typed):
+                self.assert_fails(WRONG_USAGE, typed, "a.jpg", "-o", "b.png",
+                                  says=[f"there is no command {typed}; did you mean {meant}?"])
+        self.assert_fails(WRONG_USAGE, "view", "--exageration=2",
+                          says=["there is no option --exageration; did you mean --exaggeration?"])
+
+    def test_a_picture_or_tile_set_without_a_subcommand(self):
+        (self.folder / "tiles").mkdir()
+        for shown in ("picture.jpg", "planet.gpkg", "tiles", "https://tiles.example/{z}/{x}/{y}.jpg"):
+            with self.subTest(shown):
+                self.assert_fails(WRONG_USAGE, shown, says=[f"to show it: terrella view {shown}"])
+
+    def test_an_argument_too_many(self):
+        self.assert_fails(WRONG_USAGE, "info", "a.gpkg", "b.gpkg", says=["unexpected argument b.gpkg"])
 
     def test_unknown_option(self):
         for command in subcommands():

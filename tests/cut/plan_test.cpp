@@ -69,15 +69,33 @@ TEST(CutPlanTest, PixelsThatAreNotSquareAreRefused) {
   EXPECT_NE(made.error().message.find("not square"), std::string::npos);
 }
 
-TEST(CutPlanTest, BoundsOffTheGridAreRefusedAndTheNearestOnesFit) {
+TEST(CutPlanTest, ARegionOffTheGridMovesTheOrigin) {
   const auto made = plan(120, 60, degrees(5.03, 43.04, 17.03, 49.04));
-  ASSERT_FALSE(made);
-  const std::string& said = made.error().message;
-  const auto at = said.rfind(' ');
-  double west = 0, south = 0, east = 0, north = 0;
-  ASSERT_EQ(std::sscanf(said.c_str() + at, "%lf,%lf,%lf,%lf", &west, &south, &east, &north), 4) << said;
-  EXPECT_TRUE(plan(120, 60, degrees(west, south, east, north))) << said;
-  EXPECT_NEAR(west, 5.0, 0.05);
+  ASSERT_TRUE(made) << made.error().message;
+  const TileGrid& grid = made->grid;
+  EXPECT_GT(grid.west_deg, -180.0 - made->pixel_deg);
+  EXPECT_LT(grid.west_deg, -180.0);
+  EXPECT_GT(grid.north_deg, 90.0);
+  EXPECT_LT(grid.north_deg, 90.0 + made->pixel_deg);
+  EXPECT_NEAR(grid.west_deg + static_cast<double>(made->finest.x0) * made->pixel_deg, 5.03, 1e-9);
+  EXPECT_NEAR(grid.north_deg - static_cast<double>(made->finest.y1) * made->pixel_deg, 43.04, 1e-9);
+  EXPECT_NEAR(grid.bounds.west.deg(), 5.03, 1e-9);
+  EXPECT_NEAR(grid.bounds.north.deg(), 49.04, 1e-9);
+}
+
+TEST(CutPlanTest, AnOriginBeside180IsRefusedForPicturesOverIt) {
+  for (const GeoRect& bounds : {degrees(170.03, 43.0, -177.97, 49.0), degrees(-179.97, -60.0, 180.03, 60.0)}) {
+    const auto made = plan(bounds.east < bounds.west ? 120 : 3600, bounds.east < bounds.west ? 60 : 1200, bounds);
+    ASSERT_FALSE(made);
+    EXPECT_NE(made.error().message.find("180"), std::string::npos) << made.error().message;
+  }
+  // The rows may begin anywhere, also round the whole planet.
+  const auto band = plan(3600, 1200, degrees(-180.0, -60.04, 180.0, 59.96));
+  ASSERT_TRUE(band) << band.error().message;
+  EXPECT_TRUE(band->wraps);
+  EXPECT_EQ(band->grid.west_deg, -180.0);
+  EXPECT_NEAR(band->grid.north_deg, 90.06, 1e-9);
+  EXPECT_FALSE(band->grid.reduced);
 }
 
 TEST(CutPlanTest, BoundsWithFewDecimalsFit) {

@@ -109,6 +109,20 @@ constexpr const char* kCoverage =
     "INSERT INTO gpkg_2d_gridded_tile_ancillary VALUES ('t', 1, 2.0, 1.0);"
     "ALTER TABLE t ADD COLUMN id; UPDATE t SET id = rowid;";
 
+constexpr const char* kGdalWms =
+    "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://a/${z}/${x}/${y}.png</ServerUrl></Service><DataWindow><UpperLeftX>"
+    "-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX><LowerRightY>-90</LowerRightY><TileLevel>3"
+    "</TileLevel><TileCountX>2</TileCountX><TileCountY>1</TileCountY><YOrigin>top</YOrigin></DataWindow><Projection>"
+    "EPSG:4326</Projection><BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>1</BandsCount><DataType>"
+    "Int16</DataType><DataValues NoData=\"-1\"/><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>";
+
+constexpr const char* kWms =
+    "<WMS_Capabilities version=\"1.3.0\"><Service><MaxWidth>2048</MaxWidth></Service><Capability><Request><GetMap><Format>"
+    "image/png</Format><DCPType><HTTP><Get><OnlineResource xlink:href=\"http://a/?\"/></Get></HTTP></DCPType></GetMap>"
+    "</Request><Layer><Name>l</Name><CRS>EPSG:4326</CRS><CRS>EPSG:3413</CRS><BoundingBox CRS=\"EPSG:3413\" minx=\"-1\" "
+    "miny=\"-1\" maxx=\"1\" maxy=\"1\"/><MinScaleDenominator>9</MinScaleDenominator><Dimension name=\"time\" default=\"2004"
+    "\">2003,2004</Dimension></Layer></Capability></WMS_Capabilities>";
+
 constexpr const char* kCapabilities =
     "<Capabilities><Contents><Layer><Title>t</Title><Identifier>l</Identifier><Style isDefault=\"true\"><Identifier>d"
     "</Identifier></Style><Format>image/png</Format><WGS84BoundingBox><LowerCorner>-180 -90</LowerCorner><UpperCorner>"
@@ -154,6 +168,70 @@ void write_float_tiff(const fs::path& path) {
   TIFFClose(tiff);
 }
 
+/// One directory of a seed for fuzz_raster: 48 × 48 pixels, or 24 × 24 if it is reduced.
+struct RasterSeed {
+  int bits = 8;
+  int format = SAMPLEFORMAT_UINT;
+  int samples = 1;
+  int photometric = PHOTOMETRIC_MINISBLACK;
+  int planes = PLANARCONFIG_CONTIG;
+  int compression = COMPRESSION_ADOBE_DEFLATE;
+  bool tiled = true;
+  int kind = 0;  ///< FILETYPE_REDUCEDIMAGE, FILETYPE_MASK
+};
+
+void write_directory(TIFF* tiff, const RasterSeed& seed) {
+  const int side = (seed.kind & FILETYPE_REDUCEDIMAGE) != 0 ? 24 : 48;
+  const auto set = [tiff](std::uint32_t tag, int value) { TIFFSetField(tiff, tag, value); };
+  set(TIFFTAG_SUBFILETYPE, seed.kind);
+  set(TIFFTAG_IMAGEWIDTH, side);
+  set(TIFFTAG_IMAGELENGTH, side);
+  set(TIFFTAG_BITSPERSAMPLE, seed.bits);
+  set(TIFFTAG_SAMPLEFORMAT, seed.format);
+  set(TIFFTAG_SAMPLESPERPIXEL, seed.samples);
+  set(TIFFTAG_PHOTOMETRIC, seed.photometric);
+  set(TIFFTAG_PLANARCONFIG, seed.planes);
+  set(TIFFTAG_COMPRESSION, seed.compression);
+  if (seed.tiled) set(TIFFTAG_TILEWIDTH, 16);
+  if (seed.tiled) set(TIFFTAG_TILELENGTH, 16);
+  if (!seed.tiled) set(TIFFTAG_ROWSPERSTRIP, 10);
+  if (seed.compression == COMPRESSION_JPEG) set(TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
+  std::vector<std::uint8_t> block(static_cast<std::size_t>(seed.tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff)));
+  for (std::size_t i = 0; i < block.size(); ++i) block[i] = static_cast<std::uint8_t>(i * i / 7);
+  const std::uint32_t blocks = seed.tiled ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  for (std::uint32_t i = 0; i < blocks; ++i) {
+    const auto bytes = static_cast<tmsize_t>(block.size());
+    seed.tiled ? TIFFWriteEncodedTile(tiff, i, block.data(), bytes)
+               : TIFFWriteEncodedStrip(tiff, i, block.data(), bytes);
+  }
+  TIFFWriteDirectory(tiff);
+}
+
+void write_raster(const fs::path& path, const char* mode, const std::vector<RasterSeed>& directories) {
+  fs::create_directories(path.parent_path());
+  TIFF* tiff = TIFFOpen(path.c_str(), mode);
+  for (const RasterSeed& seed : directories) write_directory(tiff, seed);
+  TIFFClose(tiff);
+}
+
+void write_rasters(const fs::path& folder) {
+  const RasterSeed rgb{.samples = 3, .photometric = PHOTOMETRIC_RGB};
+  RasterSeed small = rgb, mask{.bits = 1, .photometric = PHOTOMETRIC_MASK, .kind = FILETYPE_MASK};
+  small.kind = FILETYPE_REDUCEDIMAGE;
+  write_raster(folder / "rgb.tif", "w", {rgb, small, mask});
+  write_raster(folder / "planes.tif", "w8", {{.bits = 16, .samples = 2, .planes = PLANARCONFIG_SEPARATE}});
+  write_raster(folder / "float.tif", "wb", {{.bits = 32, .format = SAMPLEFORMAT_IEEEFP, .tiled = false}});
+  write_raster(folder / "int.tif", "w", {{.bits = 16, .format = SAMPLEFORMAT_INT, .compression = COMPRESSION_LZW}});
+  write_raster(folder / "jpeg.tif", "w",
+               {{.samples = 3, .photometric = PHOTOMETRIC_YCBCR, .compression = COMPRESSION_JPEG}});
+  for (const int scheme : {COMPRESSION_ZSTD, COMPRESSION_WEBP, COMPRESSION_LERC, COMPRESSION_PACKBITS}) {
+    RasterSeed other = rgb;
+    other.compression = scheme;
+    if (TIFFIsCODECConfigured(static_cast<std::uint16_t>(scheme)) == 0) continue;
+    write_raster(folder / (std::to_string(scheme) + ".tif"), "w", {other});
+  }
+}
+
 /// A tile as SQL writes a blob.
 std::string blob_of(const std::vector<std::byte>& bytes) {
   constexpr const char* kDigits = "0123456789ABCDEF";
@@ -194,6 +272,31 @@ void write_geo_keys(const fs::path& folder) {
              {3396190.0, 3396190.0, 0.0}, ""));
 }
 
+/// One tile, in a leaf directory, nothing compressed.
+void write_pmtiles(const fs::path& path) {
+  const auto tile = *encode_png(picture(255));
+  std::string bytes = "PMTiles\3";
+  const auto number = [&bytes](std::uint64_t value, int length) {
+    for (int i = 0; i < length; ++i, value >>= 8) bytes += static_cast<char>(value & 255);
+  };
+  constexpr std::uint64_t kRoot = 127, kDirectory = 6, kMetadata = 2;
+  number(kRoot, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory, 8), number(kMetadata, 8);
+  number(kRoot + kDirectory + kMetadata, 8), number(kDirectory, 8);
+  number(kRoot + kDirectory + kMetadata + kDirectory, 8), number(tile.size(), 8);
+  number(1, 8), number(1, 8), number(1, 8);
+  for (const int flag : {1, 1, 1, 2, 0, 0}) number(static_cast<std::uint64_t>(flag), 1);
+  number(0, 25);
+  const auto directory = [&](std::uint64_t length, char run) {
+    bytes += {1, 0, run, static_cast<char>((length & 127) | 128), static_cast<char>(length >> 7), 1};
+  };
+  directory(kDirectory, 0);
+  bytes += "{}";
+  directory(tile.size(), 1);
+  bytes.append(reinterpret_cast<const char*>(tile.data()), tile.size());
+  write(path, bytes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -206,10 +309,14 @@ int main(int argc, char** argv) {
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));
+  write(folder / "image/a.webp", *encode_webp(picture(255), 80));
+  write(folder / "image/b.webp", *encode_webp(picture(100), 80));
+  write_pmtiles(folder / "pmtiles/a.pmtiles");
   std::vector<std::uint16_t> heights;
   for (int i = 0; i < 256; ++i) heights.push_back(static_cast<std::uint16_t>(i * 257));
   write(folder / "heights/a.png", *encode_gray16_png(heights, 16));
   write_float_tiff(folder / "heights/a.tif");
+  write_rasters(folder / "raster");
   write(folder / "http_headers/content", kFields);
   write(folder / "http_headers/refusal", kRefusal);
   write(folder / "http_headers/header", "X-Key: value");
@@ -217,6 +324,8 @@ int main(int argc, char** argv) {
   write(folder / "tileset_json/a.json", to_tileset_json(info()));
   write(folder / "tms_xml/a.xml", kTms);
   write(folder / "capabilities/a.xml", kCapabilities);
+  write(folder / "gdal_wms" / "a.xml", kGdalWms);
+  write(folder / "gdal_wms" / "b.xml", kWms);
   write(folder / "source_json/a.json", kSource);
   const std::string mbtiles =
       std::string(kMbtiles) + "INSERT INTO tiles VALUES (1, 3, 1, " + blob_of(*encode_jpeg(picture(255), 50)) + ");";

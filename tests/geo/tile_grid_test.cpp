@@ -255,13 +255,18 @@ TEST(TileGrid, ParentsAndAncestors) {
 TEST(TileGrid, TileCoordinatesAndBoundsAgree) {
   Draw draw(44);
   for (int k = 0; k < 1000; ++k) {
-    const TileGrid grid = grid_of(draw.between(100.0, 400.0));
+    TileGrid grid = grid_of(draw.between(100.0, 400.0));
+    if (k % 2 == 1) {
+      grid.west_deg -= draw.between(0.0, 90.0);
+      grid.north_deg += draw.between(0.0, 90.0);
+    }
     const int level = draw.whole(0, kMaxTileLevel);
     const double lat = draw.between(-90.0, 90.0);
     const double lon = draw.between(-180.0, 180.0);
     const TileXY at = tile_xy(grid, level, lat, lon);
     const TileBounds b = tile_bounds(grid, {level, static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y)});
     const double rounding_deg = 8.0 * kEpsilon * 360.0;
+    EXPECT_TRUE(exists(grid, {level, static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y)}));
     EXPECT_TRUE(b.west_deg <= lon + rounding_deg && lon <= b.east_deg + rounding_deg);
     EXPECT_TRUE(b.south_deg <= lat + rounding_deg && lat <= b.north_deg + rounding_deg);
     EXPECT_NEAR(b.east_deg - b.west_deg, tile_span_deg(grid, level), rounding_deg);
@@ -369,6 +374,9 @@ TEST(TileGrid, EqualityLooksAtEveryField) {
   EXPECT_FALSE(grid == other);
   other = grid;
   other.root_span_deg = 288.0;
+  EXPECT_FALSE(grid == other);
+  other = grid;
+  other.west_deg = -180.5;
   EXPECT_FALSE(grid == other);
 }
 

@@ -28,6 +28,7 @@ http {{
     ssl_certificate {work}/server.pem; ssl_certificate_key {work}/key.pem;
     root "{root}";
     {expires}
+    {passing}
   }}
 }}
 """
@@ -45,12 +46,12 @@ def certificate(work):
                     "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"], check=True, stderr=subprocess.DEVNULL)
 
 
-def start(work, root, log, expires):
+def start(work, root, log, expires, passing):
     """A free port may be taken by another program before nginx has it; then another is tried."""
     for _ in range(10):
         port, tls_port = free_port(), free_port()
         text = CONFIGURATION.format(work=work, port=port, tls_port=tls_port, root=root.resolve(), log=log,
-                                    expires=expires)
+                                    expires=expires, passing=passing)
         (work / "nginx.conf").write_text(text)
         process = subprocess.Popen(["nginx", "-p", f"{work}/", "-c", work / "nginx.conf", "-e", f"{work}/error.log"],
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
@@ -68,6 +69,8 @@ def main():
     parser.add_argument("root", type=pathlib.Path, help="folder to serve")
     parser.add_argument("--no-log", action="store_true", help="keep no access log")
     parser.add_argument("--no-expiry", action="store_true", help="do not say how long a file may be kept: else 1 h")
+    parser.add_argument("--pass", dest="passed_to", type=int, metavar="PORT",
+                        help="answer with what another server on loopback answers")
     options = parser.parse_args()
     work = pathlib.Path(tempfile.mkdtemp(prefix="terrella-nginx-"))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
@@ -75,7 +78,9 @@ def main():
     try:
         certificate(work)
         log = "off" if options.no_log else f"{work}/access.log lines"
-        process, port, tls_port = start(work, options.root, log, "" if options.no_expiry else "expires 1h;")
+        passing = (f"location / {{ proxy_set_header Host $http_host; proxy_pass http://127.0.0.1:{options.passed_to}; }}"
+                   if options.passed_to else "")
+        process, port, tls_port = start(work, options.root, log, "" if options.no_expiry else "expires 1h;", passing)
         print(json.dumps({"port": port, "tls_port": tls_port, "ca_file": str(work / "server.pem"),
                           "access_log": str(work / "access.log")}), flush=True)
         sys.stdin.read()

@@ -92,6 +92,24 @@ class Nginx:
 
 
 @contextlib.contextmanager
+def wms(*options):
+    """The WMS of tests/http/wms_server.py behind nginx."""
+    with running(HTTP / "wms_server.py", *options) as told:
+        with running(HTTP / "nginx.py", HTTP, "--pass", str(told["port"])) as front:
+            yield Wms(front["port"])
+
+
+class Wms:
+    def __init__(self, port):
+        self.address = f"http://127.0.0.1:{port}"
+
+    def log(self):
+        """The requests so far, path and query."""
+        with DIRECT.open(self.address + "/log") as answer:
+            return json.load(answer)
+
+
+@contextlib.contextmanager
 def misbehaving(root, faults, *options):
     """`faults`: path under root to what goes wrong with it (tests/http/README.md)."""
     faults_file = root.parent / "faults.json"

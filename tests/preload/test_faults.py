@@ -12,7 +12,7 @@ FAULTS = {  # a tile of level 2, what the server does, what becomes of it, what 
     "2/0/2.jpg": ("403", "refused", "403"),
     "2/0/3.jpg": ("500", "failed", "500"),
     "2/1/0.jpg": ("html200", "broken", "HTML"),
-    "2/1/1.jpg": ("wrongtype", "broken", "neither JPEG nor PNG"),
+    "2/1/1.jpg": ("wrongtype", "broken", "not a JPEG, PNG or WebP"),
     "2/1/2.jpg": ("truncated_jpeg", "broken", ""),
     "2/1/3.jpg": ("reset", "failed", ""),
     "2/2/0.jpg": ("loop", "refused", "redirect"),

@@ -18,7 +18,7 @@ TEST(SourceJson, SaysAllThatTheOptionsCan) {
   const auto source = parse_source_json(R"({"version": 1, "url": "https://{s}.example.com/{z}/{x}/{y}.png",
       "name": "n", "attribution": "a", "body": "mars", "subdomains": ["p", "q"], "headers": ["A: b"],
       "root_span_deg": 288, "tile_px": 512, "min_level": 1, "max_level": 7, "bounds": [-10, -20, 30, 40],
-      "format": "png", "projection": "equal-area", "latitude": "centric", "tile_life_s": 60, "missing_life_s": 5})",
+      "format": "png", "projection": "equal-area", "latitude": "centric", "tile_life_s": 60, "absence_life_s": 5})",
                                         "a.json");
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_EQ(source->kind, SourceDescription::Kind::url_template);
@@ -63,7 +63,7 @@ TEST(SourceJson, RefusesByFileAndField) {
   expect_json_refused(R"({"url": "u", "format": "jpg", "elevation": {"scale": 1, "offset": 0}})", "\"png\"");
   expect_json_refused("[]", "one JSON object");
   expect_json_refused("{}", "\"url\" is missing");
-  expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the three");
+  expect_json_refused(R"({"url": "a", "wmts": "b"})", "one of the four");
   expect_json_refused(R"({"url": "a", "layer": "b"})", "\"layer\"");
   expect_json_refused(R"({"url": "a", "attributions": "b"})", "\"attributions\" is not known");
   expect_json_refused(R"({"url": 5})", "\"url\" must be a text");
@@ -74,7 +74,7 @@ TEST(SourceJson, RefusesByFileAndField) {
   expect_json_refused(R"({"url": "a", "root_span_deg": 0})", "\"root_span_deg\"");
   expect_json_refused(R"({"url": "a", "tile_life_s": -1})", "\"tile_life_s\"");
   expect_json_refused(R"({"url": "a", "bounds": [0, 0, 0, 1000]})", "bounds");
-  expect_json_refused(R"({"url": "a", "format": "webp"})", "\"format\"");
+  expect_json_refused(R"({"url": "a", "format": "gif"})", "\"format\"");
   expect_json_refused(R"({"url": "a", "headers": "A: b"})", "\"headers\"");
   expect_json_refused(R"({"url": "a", "headers": ["no colon"]})", "header 1");
   expect_json_refused(R"({"url": "a", "subdomains": ["a b"]})", "sub-domain");

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "gl_context_test.h"
 #include "render/gl/frame_block.h"
 #include "render/objects/object_pass.h"
+#include "tests/gl/gl_context_test.h"
 
 namespace terrella::test {
 

@@ -208,6 +208,32 @@ TEST_P(HeightFieldGrids, RangesHoldEveryHeight) {
 // WorldCRS84Quad, GIBS, one root, a picture whose coarse levels have no whole number of pixels in 360°.
 INSTANTIATE_TEST_SUITE_P(RootSpans, HeightFieldGrids, testing::Values(180.0, 288.0, 360.0, 80.0 * 360.0 / 90.0));
 
+TEST(HeightField, AnOriginBesideThePlanetsCornerMovesTiles) {
+  TileGrid moved = grid_of(180.0, 1);
+  const TileGrid usual = moved;
+  moved.west_deg = -270.0;
+  moved.north_deg = 180.0;
+  HeightField there(kEarth, moved);
+  HeightField expected(kEarth, usual);
+  for (const TileId& id : tiles_of(usual, 1)) {
+    HeightTile tile = tile_at(usual, id);
+    expected.add(tile);
+    tile.id = {.level = 1, .x = id.x + 1, .y = id.y + 1};
+    there.add(std::move(tile));
+  }
+  Draw draw(17);
+  for (int i = 0; i < 500; ++i) {
+    const double row = draw.between(-85.0, 80.0);
+    const double lon = draw.between(-170.0, 165.0);  // pixels of 4.5° and boxes of 3° stay off ±180°
+    ASSERT_NEAR(there.height_at_row_m(row, lon), expected.height_at_row_m(row, lon), kSum_m) << row << ' ' << lon;
+    const GeoRect box{.west = Angle::degrees(lon),
+                      .south = Angle::degrees(row),
+                      .east = Angle::degrees(lon + 3.0),
+                      .north = Angle::degrees(row + 3.0)};
+    EXPECT_EQ(there.range_m(box, 1.0).max_m, expected.range_m(box, 1.0).max_m) << row << ' ' << lon;
+  }
+}
+
 TEST(HeightField, RowsCountAsTheGridSays) {
   const Ellipsoid mars = parse_body("mars")->ellipsoid;
   for (const Projection projection : {Projection::equirectangular, Projection::equal_area}) {

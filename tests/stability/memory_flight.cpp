@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/render/painted_heights.h"
+#include "tests/gl/painted_heights.h"
 #include "view/flight.h"
 
 namespace terrella::test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "memory_flight.h"
-#include "tests/render/gl_context_test.h"
+#include "tests/gl/gl_context_test.h"
 
 namespace terrella::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "apps/bench/stability/check.h"
-#include "tests/render/gl_context_test.h"
+#include "tests/gl/gl_context_test.h"
 
 namespace terrella::bench {
 namespace {

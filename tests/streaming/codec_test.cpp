@@ -112,7 +112,7 @@ TEST(Decoder, TruncatedIsAnError) {
 
 TEST(Decoder, SaysWhatIsWrong) {
   EXPECT_NE(decode_image({}).error().message.find("no bytes"), std::string::npos);
-  EXPECT_NE(decode_image(bytes_of("<html>not found</html>")).error().message.find("neither a JPEG nor a PNG"),
+  EXPECT_NE(decode_image(bytes_of("<html>not found</html>")).error().message.find("no JPEG, PNG or WebP picture"),
             std::string::npos);
 }
 

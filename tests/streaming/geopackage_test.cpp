@@ -216,16 +216,29 @@ TEST(GeoPackage, TooManyRootTilesAskForOverviews) {
   expect_package_refused(folder / "flat.gpkg", "gdaladdo");
 }
 
+TEST(GeoPackage, TilesOfARegionBeginAnywhere) {
+  const ScratchFolder folder;
+  write_geopackage(folder / "shifted.gpkg",
+                   {.west = -100, .south = -40, .east = 80, .north = 50, .zooms = {{0, 90, 2, 1}, {1, 45, 4, 2}}});
+  const auto source = open(folder / "shifted.gpkg");
+  const TileGrid& grid = source->info().grid;
+  EXPECT_EQ(grid.west_deg, -190.0);
+  EXPECT_EQ(grid.north_deg, 140.0);
+  // The table's first tile is the second column and the second row from the origin, in steps of 90°.
+  const TileBounds first = tile_bounds(grid, {grid.min_level, 1, 1});
+  EXPECT_EQ(first.west_deg, -100.0);
+  EXPECT_EQ(first.north_deg, 50.0);
+  EXPECT_TRUE(exists(grid, {grid.min_level, 1, 1}));
+  EXPECT_FALSE(exists(grid, {grid.min_level, 0, 1}));
+}
+
 TEST(GeoPackage, SetsThatNoGridDescribesAreRefusedWithTheReason) {
   const ScratchFolder folder;
   write_geopackage(folder / "thirds.gpkg", {.zooms = {{0, 180, 2, 1}, {1, 60, 6, 3}}});
   expect_package_refused(folder / "thirds.gpkg", "do not halve");
   write_geopackage(folder / "between.gpkg",
-                   {.west = -170, .south = -80, .east = 170, .north = 80, .zooms = {{0, 170, 2, 1}}});
+                   {.west = -170, .south = -90, .east = 190, .north = 90, .zooms = {{0, 180, 2, 1}}});
   expect_package_refused(folder / "between.gpkg", "no whole number of tiles");
-  write_geopackage(folder / "shifted.gpkg",
-                   {.west = -100, .south = -45, .east = 80, .north = 45, .zooms = {{0, 45, 4, 2}}});
-  expect_package_refused(folder / "shifted.gpkg", "no whole number of tiles");
   write_geopackage(folder / "mercator.gpkg", {.srs = 3857});
   expect_package_refused(folder / "mercator.gpkg", "TILING_SCHEME=GoogleMapsCompatible");
   write_geopackage(folder / "utm.gpkg", {.srs = 32632});

@@ -127,7 +127,7 @@ TEST(Mbtiles, HostileFilesAreRefused) {
   run_sql(folder / "empty.mbtiles", geodetic);
   expect_mbtiles_refused(folder / "empty.mbtiles", "no tiles");
   run_sql(folder / "vector.mbtiles", geodetic + "INSERT INTO tiles VALUES (0, 0, 0, x'1F8B0800');");
-  expect_mbtiles_refused(folder / "vector.mbtiles", "neither JPEG nor PNG");
+  expect_mbtiles_refused(folder / "vector.mbtiles", "not JPEG, PNG or WebP");
   run_sql(folder / "cut.mbtiles", geodetic + "INSERT INTO tiles VALUES (0, 0, 0, x'FFD8FFE0');");
   expect_mbtiles_refused(folder / "cut.mbtiles", "its first tile");
   run_sql(folder / "deep.mbtiles", geodetic);

@@ -53,6 +53,14 @@ class Headers(unittest.TestCase):
         good, message = known.compile(APPLICATION, text, '-fsyntax-only')
         self.assertTrue(good, message)
 
+    def test_public_headers_do_not_name_settings_of_experiments(self):
+        text = (SOURCE / 'engine/globe/experiments.h').read_text()
+        settings = set(re.findall(r'^  (?:double|bool|CubeMapping|std::\S+) (\w+)(?: =|\{)', text, re.MULTILINE))
+        self.assertGreaterEqual(settings, {'paper_a', 'paper_band', 'naive_translucency', 'patch_shuffle', 'mapping'})
+        naming = [f'{header}: {name}' for header in public_headers() for name in settings
+                  if re.search(rf'\b(?:set_)?{name}\b', re.sub('//.*', '', (SOURCE / header).read_text()))]
+        self.assertEqual(naming, [])
+
     def test_page_of_the_library_names_headers_that_are_installed(self):
         table = (SOURCE / 'engine/README.md').read_text().split('| header `<terrella/…>` |')[1].split('\n\n')[0]
         named = set(re.findall(r'`([\w/]+\.h)`', table))

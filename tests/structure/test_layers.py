@@ -41,6 +41,19 @@ class Documents(unittest.TestCase):
         wrong = [(name, other) for name in self.names for other in self.reach(name) if place[other] <= place[name]]
         self.assertEqual(wrong, [])
 
+    def test_where_to_find_it_names_functions_and_files_that_are_there(self):
+        table = (SOURCE / 'engine/DESIGN.md').read_text().split('\n## Where to find it\n')[1].split('\n## ')[0]
+        rows = re.findall(r'^\| [^|]*\?[^|]* \| (.*) \|$', table, re.MULTILINE)
+        self.assertGreater(len(rows), 10)
+        for row in rows:
+            names = re.findall(r'`([^`]+)`', row)
+            files = [SOURCE / name for name in names if '/' in name]
+            self.assertTrue(files, row)
+            files += [files[0].parent / name for name in names if '/' not in name and '()' not in name]
+            text = ''.join(path.read_text() for path in files)
+            for function in (name for name in names if name.endswith('()')):
+                self.assertTrue(re.search(rf'\b{re.escape(function[:-2].split("::")[-1])}\(', text), row)
+
 
 class Includes(unittest.TestCase):
     def setUp(self):
@@ -105,7 +118,7 @@ class Includes(unittest.TestCase):
 
 class Folders(unittest.TestCase):
     def test_no_folder_holds_too_many_files(self):
-        count = collections.Counter(path.parent for folder in targets.FOLDERS
+        count = collections.Counter(path.parent for folder in (*targets.FOLDERS, 'tests')
                                     for path in (SOURCE / folder).rglob('*') if path.suffix in ENDINGS)
         self.assertEqual({str(folder): n for folder, n in count.items() if n > MOST_FILES}, {})
 

@@ -33,15 +33,7 @@ class KeptSettingsFile : public testing::Test {
 
 TEST_F(KeptSettingsFile, WhatWasSavedIsLoaded) {
   EXPECT_TRUE(load_settings(file).first_run);
-  const KeptSettings settings{.width_px = 900,
-                              .height_px = 700,
-                              .panel = true,
-                              .layers = true,
-                              .graticule = true,
-                              .sky = false,
-                              .opacity = 0.4,
-                              .exaggeration = 12.5,
-                              .stereo = Stereo::anaglyph};
+  const KeptSettings settings{.width_px = 900, .height_px = 700, .panel = true, .layers = true, .graticule = true};
   ASSERT_TRUE(save_settings(file, settings));
   const LoadedSettings loaded = load_settings(file);
   EXPECT_EQ(loaded.settings, settings);
@@ -57,26 +49,33 @@ TEST_F(KeptSettingsFile, WhatOthersHaveWrittenThereStays) {
 }
 
 TEST_F(KeptSettingsFile, ADamagedFileIsToldOfAndKeptBesideIt) {
-  for (const std::string text :
-       {"{\"sky\": fal", "[1]", R"({"exaggeration": -3, "panel": true})", R"({"stereo": 7})"}) {
+  for (const std::string text : {"{\"panel\": fal", "[1]", R"({"width": -3, "panel": true})", R"({"graticule": 7})"}) {
     SCOPED_TRACE(text);
     write(text);
     const LoadedSettings loaded = load_settings(file);
     EXPECT_NE(loaded.complaint.find(file.string()), std::string::npos) << loaded.complaint;
-    EXPECT_EQ(loaded.settings.exaggeration, 1.0);
+    EXPECT_EQ(loaded.settings.width_px, 0);
+    EXPECT_FALSE(loaded.settings.graticule);
     EXPECT_EQ(text_of(file.string() + ".damaged"), text);
   }
 }
 
 TEST_F(KeptSettingsFile, ValuesOfTheCommandLineAreForOneRun) {
-  const KeptSettings kept{.opacity = 0.5, .exaggeration = 3.0};
+  const KeptSettings kept{.width_px = 900, .height_px = 700};
   KeptSettings start = kept;
-  start.opacity = 1.0;  // as the command line says
+  start.width_px = 640;  // as the command line says
   KeptSettings now = start;
-  now.exaggeration = 7.0;  // as the person has set it
+  now.height_px = 500;  // as the user has set it
   const KeptSettings after = changed_since(kept, start, now);
-  EXPECT_EQ(after.opacity, 0.5);
-  EXPECT_EQ(after.exaggeration, 7.0);
+  EXPECT_EQ(after.width_px, 900);
+  EXPECT_EQ(after.height_px, 500);
+}
+
+TEST_F(KeptSettingsFile, ModesOfEarlierVersionsAreNotLoaded) {
+  write(R"({"graticule": true, "opacity": 0.4, "stereo": "anaglyph", "sky": false, "exaggeration": 9})");
+  const LoadedSettings loaded = load_settings(file);
+  EXPECT_EQ(loaded.complaint, "");
+  EXPECT_EQ(loaded.settings, KeptSettings{.graticule = true});
 }
 
 }  // namespace

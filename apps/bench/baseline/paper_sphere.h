@@ -7,6 +7,9 @@
 #include "apps/bench/truth/picture.h"
 #include "apps/bench/truth/ray_caster.h"
 
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
+
 namespace terrella::bench {
 
 /// Texturing of the sphere.
@@ -22,9 +25,9 @@ struct PaperLook {
   double anisotropy = 1.0;  ///< anisotropy of the texture unit, 1 to 16; unused by `bands` inside the bands
 };
 
-/// Paper 1's sphere. Its plain look defines 1.0 in this project's benchmarks: the cube sphere with n = 48, one RGBA8
-/// texture with mipmaps, trilinear, unlit. One draw call fills a 1024×1024 RGBA8 target with 24-bit depth. Needs a
-/// current OpenGL 4.5 core context, which must outlive the object. thread: the context's.
+/// Paper 1's sphere. Its plain look defines 1.0 in this project's benchmarks: the cube
+/// sphere with n = 48, one RGBA8 texture with mipmaps, trilinear, unlit. One draw call fills a 1024×1024 RGBA8 target
+/// with 24-bit depth. Needs a current OpenGL 4.5 core context, which must outlive the object. thread: the context's.
 class PaperSphere {
  public:
   /// Uploads the equirectangular picture and creates its mipmaps.

@@ -47,7 +47,7 @@ Report report_of(const Checks& checks) {
   const auto failures = std::ranges::count_if(checks, [](const Check& check) { return !check.passed(); });
   report.findings.push_back({"checks that failed", static_cast<double>(failures), 0.0});
   report.plots = {plot_of("jitter", "jitter, px, by the eye's height, m", true),
-                  plot_of("depth, smallest gap", "smallest gap told apart, m, by distance, m", true),
+                  plot_of("depth, smallest gap", "smallest gap that depth resolves, m, by distance, m", true),
                   plot_of("texture coordinates", "texture coordinates off, texels, by level", false)};
   return report;
 }

@@ -5,8 +5,8 @@
 
 namespace terrella::truth {
 
-/// Fully covered pixels with a clear view of the paper's pole bands: latitude over 81° north or south, incidence under
-/// 81°.
+/// Fully covered pixels with a clear view of the pole bands of Zuev's paper (baseline/paper_sphere.h): latitude over
+/// 81° north or south, incidence under 81°.
 [[nodiscard]] Mask pole_band_mask(const TruthImage& truth);
 /// Fully covered pixels with latitude under 60° and incidence under 81°.
 [[nodiscard]] Mask mid_latitude_mask(const TruthImage& truth);

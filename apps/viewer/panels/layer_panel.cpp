@@ -80,20 +80,23 @@ LayerAsk draw_row(LayerRow& row) {
 
 }  // namespace
 
-LayerWish draw_layers(std::vector<LayerRow>& rows, bool& graticule, bool just_opened) {
+LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std::vector<LayerSwitch>& switches,
+                      float foot, bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x - 0.8F * unit, 3.6F * unit}, ImGuiCond_Always, {1.0F, 0.0F});
   const float width = std::min(kLayersWidth * unit, size.x - 1.6F * unit);
   ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - 9.0F * unit});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - 5.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(kLayersTitle, nullptr, kPanelWindow);
+  ImGui::Begin(title, nullptr, kPanelWindow);
   ImGui::PushItemWidth(0.45F * kLayersWidth * unit);
   LayerWish wish;
-  ImGui::Checkbox("Graticule", &graticule);
-  tip("G: lines of latitude and longitude.");
+  for (const LayerSwitch& more : switches) {
+    ImGui::Checkbox(more.name, &more.on);
+    tip(more.tip);
+  }
   for (std::size_t i = rows.size(); i-- > 0;) {
     ImGui::PushID(static_cast<int>(rows[i].id) * 4 + static_cast<int>(rows[i].kind));
     const LayerAsk ask = draw_row(rows[i]);

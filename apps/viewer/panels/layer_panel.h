@@ -29,12 +29,18 @@ struct LayerWish {
   std::size_t row = 0;
 };
 
-inline constexpr const char* kLayersTitle = "Layers";
+/// A row that only switches something on and off.
+struct LayerSwitch {
+  const char* name;
+  const char* tip;
+  bool& on;
+};
 
-/// Draws the panel at the right edge, between Ui::begin_frame() and Ui::end_frame(). The highest layer, the last row,
-/// comes first. `just_opened` gives the panel the keyboard. Stores the user's changes to looks and graticule. thread:
-/// main
-[[nodiscard]] LayerWish draw_layers(std::vector<LayerRow>& rows, bool& graticule, bool just_opened);
+/// Draws the panel at the right edge, between Ui::begin_frame() and Ui::end_frame(). The switches come first, then the
+/// highest layer, which is the last row. `foot` units at the lower edge stay free. `just_opened` gives the panel the
+/// keyboard. Stores the user's changes to looks and switches. thread: main
+[[nodiscard]] LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows,
+                                    const std::vector<LayerSwitch>& switches, float foot, bool just_opened);
 
 /// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
 /// the planet. thread: any

@@ -1,11 +1,26 @@
 #include "apps/viewer/panels/panel_items.h"
 
+#include <cmath>
+
 namespace terrella {
 namespace {
 
-constexpr float kTipWidth = 18.0F;  // in text heights
+constexpr float kTipWidth = 18.0F;      // in text heights
+constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 }  // namespace
+
+void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowSize({std::ceil(inner.x + 2.0F * padding.x), std::ceil(inner.y + 2.0F * padding.y)});
+  ImGui::Begin(name, nullptr, kFixed);
+}
+
+float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
 
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;

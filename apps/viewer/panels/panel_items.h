@@ -12,6 +12,12 @@ namespace terrella {
 inline constexpr ImGuiWindowFlags kPanelWindow = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
+/// Starts a panel of a given inner size at a corner; pivot (0, 1) is the lower left. The panel takes neither mouse nor
+/// keyboard. ImGui's own fitting follows the text one frame late, and the viewer may draw only one frame.
+void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
+/// Converts a line width at 96 dots per inch to units of the window.
+[[nodiscard]] float line_width(float width_px);
+
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);
 /// Draws the title of a group and a line below.

@@ -4,6 +4,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -167,5 +168,14 @@ void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterC
 void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
 double Ui::text_height() { return double(ImGui::GetFontSize()); }
+
+std::vector<UiBox> Ui::panel_boxes() {
+  std::vector<UiBox> boxes;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window) continue;
+    boxes.push_back({window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y});
+  }
+  return boxes;
+}
 
 }  // namespace terrella

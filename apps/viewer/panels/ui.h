@@ -1,10 +1,19 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include "apps/viewer/window.h"
 
 namespace terrella {
+
+/// Rectangle in units of the window.
+struct UiBox {
+  double left, top, right, bottom;
+  [[nodiscard]] bool overlaps(const UiBox& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+};
 
 /// Dear ImGui for a window: context, font, style and drawing. Panels keep events only while an interactive panel is
 /// open. Key states are always tracked, even for events that a panel keeps. thread: main
@@ -41,6 +50,8 @@ class Ui {
   static void on_focus(GLFWwindow* window, int focused);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
+  /// Rectangles of the panels that this frame has so far; within a frame.
+  [[nodiscard]] static std::vector<UiBox> panel_boxes();
 
  private:
   enum class Stroke { press, release, character };

@@ -2,15 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "apps/setup/user_folder.h"
 #include "apps/setup/write_file.h"
 #include "streaming/file_bytes.h"
@@ -20,51 +18,28 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr std::size_t kMostSettingsBytes = 1UL << 20;
-constexpr double kMostExaggeration = 100.0;
-constexpr std::array<std::pair<std::string_view, Stereo>, 4> kStereoWords{{{"off", Stereo::off},
-                                                                           {"side-by-side", Stereo::side_by_side},
-                                                                           {"interlaced", Stereo::interlaced},
-                                                                           {"anaglyph", Stereo::anaglyph}}};
 
-/// Reads fields one by one and keeps the first fault.
-class FieldReader {
- public:
-  explicit FieldReader(const Json& json) : json_(json) {}
-  void read(const char* name, bool& value) {
-    if (const Json* field = find(name)) field->is_boolean() ? void(value = field->get<bool>()) : complain(name);
-  }
-  void read(const char* name, double& value, double most) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const double number = field->is_number() ? field->get<double>() : -1.0;
-    number >= 0.0 && number <= most ? void(value = number) : complain(name);
-  }
-  void read(const char* name, int& value) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const std::int64_t number = field->is_number_integer() ? field->get<std::int64_t>() : -1;
-    number >= 0 && number <= kMaxSide_px ? void(value = int(number)) : complain(name);
-  }
-  void read(const char* name, Stereo& value) {
-    const Json* field = find(name);
-    if (field == nullptr) return;
-    const std::string text = field->is_string() ? field->get<std::string>() : "";
-    const auto* word = std::ranges::find(kStereoWords, text, [](const auto& pair) { return pair.first; });
-    word != kStereoWords.end() ? void(value = word->second) : complain(name);
-  }
-  [[nodiscard]] const std::string& wrong() const { return wrong_; }
+/// Calls `visit` with the name and the member of each setting.
+template <class Visit>
+void for_each_setting(Visit visit) {
+  visit("width", &KeptSettings::width_px);
+  visit("height", &KeptSettings::height_px);
+  visit("panel", &KeptSettings::panel);
+  visit("layers", &KeptSettings::layers);
+  visit("graticule", &KeptSettings::graticule);
+}
 
- private:
-  [[nodiscard]] const Json* find(const char* name) const {
-    const auto found = json_.find(name);
-    return found == json_.end() ? nullptr : &*found;
-  }
-  void complain(const char* name) {
-    if (wrong_.empty()) wrong_ = name;
-  }
-  const Json& json_;
-  std::string wrong_;
-};
+bool read_field(const Json& field, bool& value) {
+  if (field.is_boolean()) value = field.get<bool>();
+  return field.is_boolean();
+}
+
+bool read_field(const Json& field, int& value) {
+  const std::int64_t number = field.is_number_integer() ? field.get<std::int64_t>() : -1;
+  if (number < 0 || number > kMaxSide_px) return false;
+  value = int(number);
+  return true;
+}
 
 Json parsed(const std::vector<std::byte>& bytes) {
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -93,18 +68,12 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
     loaded.complaint = set_aside(file, "no file of settings");
     return loaded;
   }
-  FieldReader reader(json);
-  KeptSettings& settings = loaded.settings;
-  reader.read("width", settings.width_px);
-  reader.read("height", settings.height_px);
-  reader.read("panel", settings.panel);
-  reader.read("layers", settings.layers);
-  reader.read("graticule", settings.graticule);
-  reader.read("sky", settings.sky);
-  reader.read("opacity", settings.opacity, 1.0);
-  reader.read("exaggeration", settings.exaggeration, kMostExaggeration);
-  reader.read("stereo", settings.stereo);
-  if (!reader.wrong().empty()) loaded.complaint = set_aside(file, "\"" + reader.wrong() + "\" is out of its range");
+  std::string wrong;
+  for_each_setting([&](const char* name, auto member) {
+    const auto field = json.find(name);
+    if (field != json.end() && !read_field(*field, loaded.settings.*member) && wrong.empty()) wrong = name;
+  });
+  if (!wrong.empty()) loaded.complaint = set_aside(file, "\"" + wrong + "\" is out of its range");
   return loaded;
 }
 
@@ -117,33 +86,15 @@ Status save_settings(const std::filesystem::path& file, const KeptSettings& sett
     Json before = parsed(*bytes);
     if (before.is_object()) json = std::move(before);
   }
-  json["width"] = settings.width_px;
-  json["height"] = settings.height_px;
-  json["panel"] = settings.panel;
-  json["layers"] = settings.layers;
-  json["graticule"] = settings.graticule;
-  json["sky"] = settings.sky;
-  json["opacity"] = settings.opacity;
-  json["exaggeration"] = settings.exaggeration;
-  const auto* word = std::ranges::find(kStereoWords, settings.stereo, [](const auto& pair) { return pair.second; });
-  json["stereo"] = word->first;
+  for_each_setting([&](const char* name, auto member) { json[name] = settings.*member; });
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   return write_file(file, std::as_bytes(std::span(text)));
 }
 
 KeptSettings changed_since(KeptSettings kept, const KeptSettings& start, const KeptSettings& now) {
-  const auto take = [&](auto field) {
-    if (start.*field != now.*field) kept.*field = now.*field;
-  };
-  take(&KeptSettings::width_px);
-  take(&KeptSettings::height_px);
-  take(&KeptSettings::panel);
-  take(&KeptSettings::layers);
-  take(&KeptSettings::graticule);
-  take(&KeptSettings::sky);
-  take(&KeptSettings::opacity);
-  take(&KeptSettings::exaggeration);
-  take(&KeptSettings::stereo);
+  for_each_setting([&](const char*, auto member) {
+    if (start.*member != now.*member) kept.*member = now.*member;
+  });
   return kept;
 }
 

@@ -5,21 +5,15 @@
 #include <string>
 
 #include "base/result.h"
-#include "geo/camera.h"
-#include "view/render_modes.h"
 
 namespace terrella {
 
-/// Settings that the viewer keeps between runs.
+/// Settings that the viewer keeps between runs: window, panels and layers, but no modes of the view.
 struct KeptSettings {
   int width_px = 0, height_px = 0;  ///< size of the window; 0: the program's default
   bool panel = false;
   bool layers = false;
   bool graticule = false;
-  bool sky = true;
-  double opacity = 1.0;  ///< opacity of the surface, [0, 1]
-  double exaggeration = 1.0;
-  Stereo stereo = Stereo::off;
   bool operator==(const KeptSettings&) const = default;
 };
 

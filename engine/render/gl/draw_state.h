@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Blending of a draw's colours with the picture's. The constant color is black with `constant_alpha`.
+/// Blending of a draw's colours with the picture's. The constant colour is black with `constant_alpha`.
 struct BlendState {
   GLenum from_rgb = GL_ONE, to_rgb = GL_ZERO, from_alpha = GL_ONE, to_alpha = GL_ZERO;
   GLenum equation = GL_FUNC_ADD;
@@ -32,7 +32,8 @@ struct ColorMask {
   bool operator==(const ColorMask&) const = default;
 };
 
-/// All state of OpenGL that passes vary. A default value draws with no test, writes everything and blends nothing.
+/// The OpenGL state that differs between passes. A default value draws with no test, writes everything and blends
+/// nothing.
 struct DrawState {
   GLuint program = 0;
   std::optional<DepthState> depth = {};      ///< none: neither tests nor writes depth
@@ -52,7 +53,7 @@ struct DrawState {
   }
 };
 
-/// Sets every value of `state`, whatever was set before. thread: main (of the context)
+/// Sets every value of `state`. The state before does not matter. thread: main (of the context)
 void apply(const DrawState& state);
 
 }  // namespace terrella

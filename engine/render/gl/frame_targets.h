@@ -18,7 +18,7 @@ class FrameTargets {
   [[nodiscard]] GLuint depth() const { return depth_.name(); }
   [[nodiscard]] Viewport size() const { return size_; }
   [[nodiscard]] bool has_stencil() const { return has_stencil_; }
-  /// A second picture of the same size, for passes that read and write the picture. Its content is undefined.
+  /// Returns a second picture of the same size, for passes that read and write the picture. Its content is undefined.
   struct Beside {
     GLuint framebuffer, texture;
   };

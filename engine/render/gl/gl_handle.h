@@ -6,8 +6,8 @@
 
 namespace terrella::gl {
 
-/// Owns one GL object. Movable, not copyable. `Traits::destroy` deletes the object. thread: main
-template <class Traits>
+/// Owns one GL object. Movable, not copyable. `Delete` deletes the object. thread: main
+template <void (*Delete)(GLuint)>
 class Handle {
  public:
   Handle() = default;
@@ -29,37 +29,25 @@ class Handle {
 
  private:
   void reset() {
-    if (name_ != 0) Traits::destroy(name_);
+    if (name_ != 0) Delete(name_);
     name_ = 0;
   }
   GLuint name_ = 0;
 };
 
-struct BufferTraits {
-  static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
-};
-struct TextureTraits {
-  static void destroy(GLuint name) { glDeleteTextures(1, &name); }
-};
-struct SamplerTraits {
-  static void destroy(GLuint name) { glDeleteSamplers(1, &name); }
-};
-struct VertexArrayTraits {
-  static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
-};
-struct FramebufferTraits {
-  static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-};
-struct ProgramTraits {
-  static void destroy(GLuint name) { glDeleteProgram(name); }
-};
+inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
+inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void delete_program(GLuint name) { glDeleteProgram(name); }
 
-using Buffer = Handle<BufferTraits>;
-using Texture = Handle<TextureTraits>;
-using Sampler = Handle<SamplerTraits>;
-using VertexArray = Handle<VertexArrayTraits>;
-using Framebuffer = Handle<FramebufferTraits>;
-using Program = Handle<ProgramTraits>;
+using Buffer = Handle<delete_buffer>;
+using Texture = Handle<delete_texture>;
+using Sampler = Handle<delete_sampler>;
+using VertexArray = Handle<delete_vertex_array>;
+using Framebuffer = Handle<delete_framebuffer>;
+using Program = Handle<delete_program>;
 
 /// Loads the delete functions while a context is current. Without a context they could not be loaded any more.
 inline void find_deletes() {
@@ -71,30 +59,20 @@ inline void find_deletes() {
   glDeleteProgram(0);
 }
 
-[[nodiscard]] inline Buffer make_buffer() {
+template <class Object>
+[[nodiscard]] Object made(void (*create)(GLsizei, GLuint*)) {
   GLuint name = 0;
-  glCreateBuffers(1, &name);
-  return Buffer(name);
+  create(1, &name);
+  return Object(name);
 }
+[[nodiscard]] inline Buffer make_buffer() { return made<Buffer>(glCreateBuffers); }
+[[nodiscard]] inline Sampler make_sampler() { return made<Sampler>(glCreateSamplers); }
+[[nodiscard]] inline VertexArray make_vertex_array() { return made<VertexArray>(glCreateVertexArrays); }
+[[nodiscard]] inline Framebuffer make_framebuffer() { return made<Framebuffer>(glCreateFramebuffers); }
 [[nodiscard]] inline Texture make_texture(GLenum target) {
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
   return Texture(name);
-}
-[[nodiscard]] inline Sampler make_sampler() {
-  GLuint name = 0;
-  glCreateSamplers(1, &name);
-  return Sampler(name);
-}
-[[nodiscard]] inline VertexArray make_vertex_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return VertexArray(name);
-}
-[[nodiscard]] inline Framebuffer make_framebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return Framebuffer(name);
 }
 
 }  // namespace terrella::gl

@@ -7,13 +7,13 @@
 
 namespace terrella {
 
-/// Sets what drawing a globe depends on, and what its passes do not set themselves, to what OpenGL begins with.
+/// Sets the state on which drawing a globe depends, and which its passes do not set, to OpenGL's initial values.
 /// thread: main (of the context)
 void set_first_gl_state();
 
-/// The part of a context's state that drawing a globe changes or depends on. Taken when this is made, followed by
-/// set_first_gl_state(); put back at its end. Not of it: queries, transform feedback and conditional rendering under
-/// way, which drawing must not come between. thread: main (of the context)
+/// Saves the part of a context's state that drawing a globe changes or depends on. The constructor saves this state and
+/// calls set_first_gl_state(). The destructor restores the state. Queries, transform feedback and conditional rendering
+/// are not saved, so none of them may be active. thread: main (of the context)
 class GlState {
  public:
   GlState();
@@ -30,7 +30,7 @@ class GlState {
     GLenum name;
     bool on;
   };
-  /// State of one draw buffer.
+  /// Blending state of one draw buffer.
   struct Blending {
     bool on;
     GLint from_rgb, to_rgb, from_alpha, to_alpha, equation_rgb, equation_alpha;

@@ -100,4 +100,12 @@ Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                info_log(program.name(), glGetProgramiv, glGetProgramInfoLog)};
 }
 
+Status build_into(gl::Program& place, std::initializer_list<ShaderStage> stages,
+                  std::initializer_list<std::string_view> defines) {
+  Result<gl::Program> program = build_program(stages, defines);
+  if (!program) return program.error();
+  place = std::move(*program);
+  return Done{};
+}
+
 }  // namespace terrella

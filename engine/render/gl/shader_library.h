@@ -25,6 +25,10 @@ struct ShaderStage {
                                                 std::initializer_list<std::string_view> defines,
                                                 std::initializer_list<const char*> feedback = {});
 
+/// Builds a program into `place`. The same errors. thread: main
+Status build_into(gl::Program& place, std::initializer_list<ShaderStage> stages,
+                  std::initializer_list<std::string_view> defines);
+
 /// Returns the #define that tells shaders how depth is stored. thread: any
 [[nodiscard]] std::string_view depth_define(DepthMode mode);
 

@@ -27,11 +27,12 @@ Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vecto
   auto atlas = GlyphAtlas::create(std::move(font), kText_px);
   if (!atlas) return atlas.error();
   pass->atlas_ = std::move(*atlas);
-  auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_label.vert"}},
-                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_label.frag"}}},
-                             {depth_define(depth)});
-  if (!built) return built.error();
-  pass->program_ = std::move(*built);
+  if (Status s = build_into(pass->program_,
+                            {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_label.vert"}},
+                             {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_label.frag"}}},
+                            {depth_define(depth)});
+      !s)
+    return s.error();
   pass->set_up_array();
   return pass;
 }

@@ -26,8 +26,8 @@ struct LabelSight {
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
 
-/// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. Of
-/// labels that would overlap, only the one with the highest priority is drawn. The choice is made once per frame, so
+/// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. If
+/// labels would overlap, only the label with the highest priority is drawn. The choice is made once per frame, so
 /// that both eyes show the same labels. Text runs left to right with kerning, without shaping. thread: main
 class LabelPass {
  public:

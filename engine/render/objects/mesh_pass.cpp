@@ -28,15 +28,6 @@ gl::Texture texture_of(const std::uint8_t* rgba, int width_px, int height_px) {
   return texture;
 }
 
-template <class T>
-gl::Buffer kept(const std::vector<T>& items) {
-  gl::Buffer buffer = gl::make_buffer();
-  if (!items.empty()) {
-    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(items.size() * sizeof(T)), items.data(), 0);
-  }
-  return buffer;
-}
-
 /// Returns the directions of a model's x (left), y (up) and z (forward) at its place. Each is as long as a metre of the
 /// model.
 std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
@@ -52,12 +43,13 @@ std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
 }  // namespace
 
 Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
-  auto built = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.vert"}},
-                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.frag"}}},
-                             {depth_define(depth)});
-  if (!built) return built.error();
   std::unique_ptr<MeshPass> pass(new MeshPass);
-  pass->program_ = std::move(*built);
+  if (Status s = build_into(pass->program_,
+                            {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.vert"}},
+                             {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.frag"}}},
+                            {depth_define(depth)});
+      !s)
+    return s.error();
   constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
   pass->white_ = texture_of(kWhite.data(), 1, 1);
   return pass;
@@ -65,8 +57,8 @@ Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
 
 MeshPass::Part MeshPass::upload(const MeshPart& part) {
   Part made;
-  made.vertices = kept(part.vertices);
-  made.indices = kept(part.indices);
+  made.vertices = buffer_of(part.vertices);
+  made.indices = buffer_of(part.indices);
   made.count = static_cast<GLsizei>(part.indices.size());
   made.color_linear = part.color_linear;
   made.cutoff = part.cutoff;
@@ -113,7 +105,7 @@ void MeshPass::Model::stand_at(const std::array<std::vector<Stand>, Batch<char>:
     all.insert(all.end(), buckets[k].begin(), buckets[k].end());
   }
   ranges.first.back() = all.size();
-  stands = kept(all);
+  stands = buffer_of(all);
   for (const Part& part : parts) {
     glVertexArrayVertexBuffer(part.array.name(), kStandBinding, stands.name(), 0, sizeof(Stand));
   }
@@ -155,7 +147,7 @@ int MeshPass::draw(const ObjectDraw& draw) const {
       calls += draw_parts(model, range.first, range.count, true, state);
       continue;
     }
-    // What faces away lies behind what faces the eye, whatever the order of triangles: right for all that is convex.
+    // Faces away from the eye are drawn first. For convex models this is back to front for every order of triangles.
     for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
       state.cull = left_out;
       calls += draw_parts(model, range.first, range.count, false, state);

@@ -29,8 +29,8 @@ inline void set_object_uniforms(const gl::Program& program, Viewport viewport, f
   glProgramUniform1f(program.name(), kHiding, static_cast<float>(hiding_radius_m));
 }
 
-/// Makes a vertex array that reads one DotInstance per `divisor` instances, or per vertex if `divisor` is 0, from the
-/// buffer at binding 0.
+/// Makes a vertex array that reads DotInstance from the buffer at binding 0: one per `divisor` instances, or one per
+/// vertex if `divisor` is 0.
 inline gl::VertexArray dot_array(GLuint divisor) {
   gl::VertexArray array = gl::make_vertex_array();
   gl::float_attribute(array.name(), 0, 0, 3, offsetof(DotInstance, high_m));

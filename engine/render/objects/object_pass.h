@@ -42,10 +42,10 @@ class ObjectPass {
   /// set the viewport (its size is `viewport`) and the frame's uniform block (binding 0; `frame` is its content).
   /// Opaque objects write depth. Translucent ones come after them and do not. Objects over or on the ground are drawn a
   /// little towards the eye, objects under the ground are not. Returns the draw calls made: at most one for each of
-  /// areas, lines and markers, opaque and translucent, and those of SpherePass::draw() and MeshPass::draw().
+  /// areas, lines and markers, opaque and translucent, plus the calls of SpherePass::draw() and MeshPass::draw().
   /// `hiding_radius_m` is the radius of an opaque sphere around the planet's centre, if there is one and the eye is
-  /// outside of it. Spheres and markers in and behind that sphere are left out: on software GL they would cost as much
-  /// as those in sight.
+  /// outside of it. Spheres and markers inside and behind that sphere are not drawn, because on software GL they would
+  /// cost as much as visible ones.
   int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
            ObjectChoice choice = ObjectChoice::all, double hiding_radius_m = 0.0);
 

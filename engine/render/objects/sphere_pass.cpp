@@ -9,7 +9,7 @@
 namespace terrella {
 namespace {
 
-// Larger spheres are triangles: the outline of a point is an ellipse, which is exact only for small spheres.
+// Larger spheres are triangles. A point shows an elliptic outline, which is exact only for small spheres.
 constexpr float kLargestPoint_px = 4.0F;
 constexpr float kEdge_px = 1.0F;  // kEdge_px of object_sphere_seen.glsl, with room for rounding
 
@@ -32,14 +32,11 @@ SphereSight sight_of(const FrameBlock& frame, Viewport viewport, double hiding_r
 
 Result<std::unique_ptr<SpherePass>> SpherePass::create(DepthMode depth) {
   std::unique_ptr<SpherePass> pass(new SpherePass);
-  const auto build = [depth](gl::Program& program, std::string_view vertex, std::string_view fragment) -> Status {
-    auto built =
-        build_program({{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_sphere_seen.glsl", vertex}},
+  const auto build = [depth](gl::Program& program, std::string_view vertex, std::string_view fragment) {
+    return build_into(program,
+                      {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_sphere_seen.glsl", vertex}},
                        {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_sphere_look.glsl", fragment}}},
                       {depth_define(depth)});
-    if (!built) return built.error();
-    program = std::move(*built);
-    return Done{};
   };
   if (Status s = build(pass->triangle_, "object_sphere.vert", "object_sphere.frag"); !s) return s.error();
   if (Status s = build(pass->point_, "object_sphere_point.vert", "object_sphere_point.frag"); !s) return s.error();

@@ -51,6 +51,13 @@ glm::dmat3 horizon_axes(const glm::dvec3& up, const glm::dvec3& sun) {
   return {x, glm::cross(up, x), up};
 }
 
+// Axes of a disc in the sky: right, up, and towards the eye.
+glm::dmat3 disc_axes(const glm::dvec3& center) {
+  const glm::dvec3 other = std::abs(center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(other, center));
+  return {right, glm::cross(center, right), -center};
+}
+
 double sun_cosine(const Body& body, const View& view, const Almanac& almanac) {
   return glm::dot(glm::normalize(scaled(body.ellipsoid, view.eye.xyz_m)),
                   scaled_direction(body.ellipsoid, almanac.sun.xyz));
@@ -66,12 +73,6 @@ void set(GLint location, const glm::dmat3& m) {
   glUniformMatrix3fv(location, 1, GL_FALSE, glm::value_ptr(glm::mat3(m)));
 }
 
-Result<gl::Program> sky_program(std::string_view vertex, std::string_view fragment) {
-  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
-                        {GL_FRAGMENT_SHADER, {"frame.glsl", "sky_color.glsl", fragment}}},
-                       {});
-}
-
 }  // namespace
 
 Result<std::unique_ptr<SkyPass>> SkyPass::create(const Body& body, const std::vector<Star>& stars) {
@@ -83,11 +84,11 @@ Result<std::unique_ptr<SkyPass>> SkyPass::create(const Body& body, const std::ve
 }
 
 Status SkyPass::build_programs() {
-  const auto build = [](gl::Program& into, std::string_view vertex, std::string_view fragment) -> Status {
-    Result<gl::Program> program = sky_program(vertex, fragment);
-    if (!program) return program.error();
-    into = std::move(*program);
-    return Done{};
+  const auto build = [](gl::Program& into, std::string_view vertex, std::string_view fragment) {
+    return build_into(into,
+                      {{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
+                       {GL_FRAGMENT_SHADER, {"frame.glsl", "sky_color.glsl", fragment}}},
+                      {});
   };
   if (Status s = build(star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
   if (Status s = build(sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
@@ -135,11 +136,9 @@ int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state
 
 // `square` is the half width of the square in radii of the disc.
 void SkyPass::place_disc(const View& view, const Disc& disc, double square) const {
-  const glm::dvec3 other = std::abs(disc.center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 right = glm::normalize(glm::cross(other, disc.center));
-  const glm::dvec3 up = glm::cross(disc.center, right);
+  const glm::dmat3 axes = disc_axes(disc.center);
   const double half = std::tan(std::min(square * disc.radius_rad, 1.4));
-  const glm::mat2x3 sides(glm::vec3(right * half), glm::vec3(up * half));
+  const glm::mat2x3 sides(glm::vec3(axes[0] * half), glm::vec3(axes[1] * half));
   set(0, disc.center);
   glUniform3fv(1, 2, glm::value_ptr(sides));
   glUniform2f(3, static_cast<float>(std::tan(disc.radius_rad) / half), static_cast<float>(pixel_rad(view) / half));
@@ -167,9 +166,7 @@ int SkyPass::draw_moon(const View& view, const SkyInput& input, DrawState state)
   apply(state.with(moon_program_.name()));
   // Room for the antialiased rim.
   place_disc(view, disc, 1.0 + pixel_rad(view) / disc.radius_rad);
-  const glm::dvec3 other = std::abs(disc.center.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 right = glm::normalize(glm::cross(other, disc.center));
-  const glm::mat3 axes(glm::vec3(right), glm::vec3(glm::cross(disc.center, right)), glm::vec3(-disc.center));
+  const glm::mat3 axes(disc_axes(disc.center));
   glUniform3fv(4, 3, glm::value_ptr(axes));
   set(7, glm::normalize(almanac.sun.xyz * almanac.sun_distance_m - almanac.moon.xyz_m));
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -20,12 +20,13 @@ constexpr int kRows = 48;
 }  // namespace
 
 Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth) {
-  Result<gl::Program> program = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "inner_sphere.vert"}},
-                                               {GL_FRAGMENT_SHADER, {"frame.glsl", "inner_sphere.frag"}}},
-                                              {depth_define(depth)});
-  if (!program) return program.error();
   std::unique_ptr<InnerSpherePass> pass(new InnerSpherePass);
-  pass->program_ = std::move(*program);
+  if (Status s = build_into(pass->program_,
+                            {{GL_VERTEX_SHADER, {"frame.glsl", "inner_sphere.vert"}},
+                             {GL_FRAGMENT_SHADER, {"frame.glsl", "inner_sphere.frag"}}},
+                            {depth_define(depth)});
+      !s)
+    return s.error();
   constexpr int kColumns = 2 * kRows;
   std::vector<glm::vec3> points;
   std::vector<std::uint16_t> triangles;

@@ -9,18 +9,22 @@
 #include "render/gl/gl_handle.h"
 #include "view/render_modes.h"
 
+// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
+// dissertation, chapter 2.2.
+
 namespace terrella {
 
-/// What hides the far side under a translucent surface, in the background's colour: a sphere (paper 2, 2.1), and beside
-/// it the curtain of surface/far_side_curtain.h. The caller has bound the
-/// framebuffer and the frame's uniform block. thread: main
+/// Draws the inner sphere, which hides the far side under a translucent surface (paper 2, section 2.1), and the curtain
+/// beside it (surface/far_side_curtain.h). Both have the colour of the background. The caller has bound the framebuffer
+/// and the frame's uniform block. thread: main
 class InnerSpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InnerSpherePass>> create(DepthMode depth);
 
   /// Returns the draw calls made.
   int draw(double radius_m, const DrawState& state) const;
-  int draw_curtain(const std::vector<glm::vec3>& strip, DrawState state) const;  ///< both faces, whatever `state` culls
+  int draw_curtain(const std::vector<glm::vec3>& strip,
+                   DrawState state) const;  ///< both faces; ignores DrawState::cull
 
  private:
   InnerSpherePass() = default;

@@ -7,11 +7,11 @@
 namespace terrella {
 
 Result<std::unique_ptr<InterlacePass>> InterlacePass::create() {
-  Result<gl::Program> program =
-      build_program({{GL_VERTEX_SHADER, {"interlace.vert"}}, {GL_FRAGMENT_SHADER, {"interlace.frag"}}}, {});
-  if (!program) return program.error();
   std::unique_ptr<InterlacePass> pass(new InterlacePass);
-  pass->program_ = std::move(*program);
+  if (Status s = build_into(pass->program_,
+                            {{GL_VERTEX_SHADER, {"interlace.vert"}}, {GL_FRAGMENT_SHADER, {"interlace.frag"}}}, {});
+      !s)
+    return s.error();
   pass->vertex_array_ = gl::make_vertex_array();
   return pass;
 }

@@ -5,7 +5,6 @@
 #include "base/result.h"
 #include "geo/camera.h"
 #include "render/gl/draw_state.h"
-#include "render/gl/frame_targets.h"
 #include "render/gl/gl_handle.h"
 
 namespace terrella {
@@ -19,26 +18,22 @@ struct LimbPicture {
   int rows_apart = 1;
 };
 
-/// Antialiases the globe's limb in a finished picture; shaders/surface/limb.frag. thread: main
+/// Antialiases the globe's limb in a finished picture (shaders/surface/limb.frag). thread: main
 class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
 
+  /// Fits the ribbon to the limb of a view. False if no limb is in view.
+  bool fit(const View& view, const Ellipsoid& ellipsoid);
   /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
-  /// Returns the draw calls made: 0 if no limb is in view, else 1.
-  int draw(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state);
-  /// The same where the framebuffer that is bound is the picture's own: by way of other room of its size, since what
-  /// is read must not be written. Returns 0 or 2.
-  int draw_in_place(const View& view, const Ellipsoid& ellipsoid, const LimbPicture& picture, const DrawState& state,
-                    const FrameTargets::Beside& beside, GLuint framebuffer);
+  void draw(Viewport size, const LimbPicture& picture, DrawState state) const;
 
  private:
   LimbPass() = default;
-  [[nodiscard]] GLsizei upload(const View& view, const Ellipsoid& ellipsoid) const;
-  void draw_ribbon(GLsizei vertices, const View& view, const LimbPicture& picture, DrawState state) const;
   gl::Program program_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
+  GLsizei count_ = 0;
 };
 
 }  // namespace terrella

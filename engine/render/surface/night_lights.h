@@ -8,8 +8,8 @@
 
 namespace terrella {
 
-/// City lights as a cube map, for programs built with NIGHT_LIGHTS (shaders/surface/patch_common.glsl). Takes 2 MB on
-/// the GPU for a map 2048 pixels wide. thread: main
+/// City lights as a cube map, for programs built with NIGHT_LIGHTS (shaders/surface/patch_common.glsl). It takes 2 MB
+/// on the GPU for a map 2048 pixels wide. thread: main
 class NightLights {
  public:
   static constexpr GLuint kUnit = 6;  ///< the texture unit that the shaders read

@@ -1,22 +1,20 @@
 #include "render/surface/outline_pass.h"
 
-#include <array>
-
 #include "render/gl/shader_library.h"
 
 namespace terrella {
 
 Result<std::unique_ptr<OutlinePass>> OutlinePass::create() {
-  Result<gl::Program> program =
-      build_program({{GL_VERTEX_SHADER, {"outline.vert"}}, {GL_FRAGMENT_SHADER, {"outline.frag"}}}, {});
-  if (!program) return program.error();
   std::unique_ptr<OutlinePass> pass(new OutlinePass);
-  pass->program_ = std::move(*program);
+  if (Status s = build_into(pass->program_,
+                            {{GL_VERTEX_SHADER, {"outline.vert"}}, {GL_FRAGMENT_SHADER, {"outline.frag"}}}, {});
+      !s)
+    return s.error();
   pass->vertex_array_ = gl::make_vertex_array();
   return pass;
 }
 
-int OutlinePass::draw(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, DrawState state) const {
+void OutlinePass::draw(Viewport size, const LimbPicture& picture, const OutlineDepth& depth, DrawState state) const {
   state.depth.reset();
   state.cull.reset();
   apply(state.with(program_.name()));
@@ -29,19 +27,6 @@ int OutlinePass::draw(Viewport size, const LimbPicture& picture, const OutlineDe
   glBindSampler(1, 0);
   glBindVertexArray(vertex_array_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  return 1;
-}
-
-int OutlinePass::draw_in_place(Viewport size, const LimbPicture& picture, const OutlineDepth& depth,
-                               const DrawState& state, const FrameTargets::Beside& beside, GLuint framebuffer) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
-  constexpr std::array<float, 4> kNothing{};
-  apply(state);
-  glClearBufferfv(GL_COLOR, 0, kNothing.data());
-  const int calls = draw(size, picture, depth, state);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  return calls + draw(size, {.texture = beside.texture, .left_px = picture.left_px, .rows_apart = 0},
-                      {0, depth.nothing}, state);
 }
 
 }  // namespace terrella

@@ -13,9 +13,9 @@ struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, oblique, polar, paper, kPrograms };
 
-  std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the first layer
+  std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the base layer
   gl::Buffer draws, commands, cells;
-  gl::Buffer frame_block;  ///< used for layers over the first
+  gl::Buffer frame_block;  ///< used for upper layers
   gl::Texture cells_texture;
   int first_command[kPrograms + 1] = {};
   long triangles = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
@@ -20,9 +21,9 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-// Under this many texels a pixel lies within one bilinear cell, and one tap at full precision says all.
+// A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
-constexpr std::string_view kFirstLayer = "FIRST_LAYER";
+constexpr std::string_view kBaseLayer = "BASE_LAYER";
 
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
@@ -47,60 +48,50 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  if (const Status built = pass->build_programs(pass->programs_, kFirstLayer); !built) return built.error();
+  if (const Status built = pass->build_programs(pass->programs_, kBaseLayer); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
-Status PatchPass::prepare_further(bool special) {
+Status PatchPass::prepare_upper(bool special) {
   if (special && !has_special_) {
     if (Status built = build_programs(special_, "SPECIAL_LAYER"); !built) return built;
     has_special_ = true;
   }
   if (flat_program_) return Done{};
-  if (Status built = build_programs(further_, "FURTHER_LAYER"); !built) return built;
-  Result<gl::Program> flat = patch_program({"frame.glsl", "patch_flat.frag"}, kFirstLayer);
-  if (!flat) return flat.error();
-  flat_program_ = std::move(*flat);
-  return Done{};
+  if (Status built = build_programs(upper_, "UPPER_LAYER"); !built) return built;
+  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
 }
 
 Status PatchPass::prepare_depth() {
-  if (depth_program_) return Done{};
-  Result<gl::Program> program = patch_program({"frame.glsl", "patch_depth.frag"}, kFirstLayer);
-  if (!program) return program.error();
-  depth_program_ = std::move(*program);
-  return Done{};
+  return depth_program_ ? Done{} : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, kBaseLayer);
 }
 
-Result<gl::Program> PatchPass::patch_program(std::initializer_list<std::string_view> fragment,
-                                             std::string_view layer) const {
-  return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                       {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                        options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
-                        functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
+Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment,
+                        std::string_view layer) const {
+  return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                    {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                     functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 
 Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
   using enum PatchLayer::Program;
-  const auto build = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) -> Status {
-    Result<gl::Program> program = patch_program(files, layer);
-    if (!program) return program.error();
-    programs[which] = std::move(*program);
-    return Done{};
+  const auto make = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) {
+    return build(programs[which], files, layer);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = build(
+    Status s = make(
         polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = build(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = build(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = build(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (Status s = make(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
+  if (Status s = make(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
+  if (Status s = make(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
   if (options_.texturing == Texturing::paper) {
-    return build(paper,
-                 {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+    return make(paper,
+                {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
   }
   return Done{};
 }
@@ -124,8 +115,8 @@ void PatchPass::set_up_vertex_array() {
 
 void PatchPass::set_up_samplers() {
   bilinear_ = sampler(GL_LINEAR, GL_CLAMP_TO_EDGE);
-  // No look-up leaves the slot, so the wrap mode changes no texel. But Mesa's software rasteriser blends texels with
-  // eight bits for the common modes, and in float for this one.
+  // No look-up leaves the slot, so the wrap mode changes no texel. Mesa's software rasteriser filters in float with
+  // this mode, but with eight bits with the common modes.
   precise_ = sampler(GL_LINEAR, GL_MIRRORED_REPEAT);
   mipmapped_ = sampler(GL_LINEAR_MIPMAP_LINEAR, GL_CLAMP_TO_EDGE);
 }
@@ -139,7 +130,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       if (patch.in_band) return polar;
       break;
     case Texturing::paper:
-      if (patch.node->min_colatitude_rad < options_.paper_band * 3.14159265358979) return paper;
+      if (patch.node->min_colatitude_rad < paper_band_ * std::numbers::pi) return paper;
       break;
     case Texturing::vertex:
       break;
@@ -202,9 +193,9 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   draw_programs(programs_, layer, vertices, tiles, state, counts);
 }
 
-void PatchPass::draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                             bool special, const DrawState& state, FrameCounts& counts) const {
-  draw_programs(special ? special_ : further_, layer, vertices, tiles, state, counts);
+void PatchPass::draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+                           bool special, const DrawState& state, FrameCounts& counts) const {
+  draw_programs(special ? special_ : upper_, layer, vertices, tiles, state, counts);
 }
 
 void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,

@@ -14,9 +14,12 @@
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "view/render_modes.h"
+
+// Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
+// cartographic systems", 2023.
 
 namespace terrella {
 
@@ -24,8 +27,6 @@ namespace terrella {
 struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
-  double paper_a = 4.0;
-  double paper_band = 0.05;
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
@@ -35,33 +36,34 @@ struct FrameCounts {
   long triangles = 0;
 };
 
-/// Draws the surface's patches, layer by layer, with a state that the caller gives. Owns their programs. The caller has
-/// bound the framebuffer and the frame's uniform block. thread: main (of the context)
+/// Draws the patches of the surface, layer by layer, with a state that the caller gives. Owns their programs. The
+/// caller has bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
   /// `has_relief` means that patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Builds the programs of layers over the first, once, before any of these layers is drawn. Special layers show on
-  /// one side of the terminator, or take alpha from brightness: FrameBlock::layer_look.
-  Status prepare_further(bool special);
+  /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special.
+  Status prepare_upper(bool special);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
+  /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
+  void set_paper_band(double band) { paper_band_ = band; }
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// Program by program; opaque.
+  /// Draws the opaque patches of the base layer, program by program.
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
             FrameCounts& counts) const;
-  /// The same, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
-  void draw_further(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
-                    const DrawState& state, FrameCounts& counts) const;
-  /// Depth alone, in one call; the depths are the bits that draw() makes. After prepare_depth().
+  /// Draws an upper layer, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
+  void draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
+                  const DrawState& state, FrameCounts& counts) const;
+  /// Draws depth only, in one call. The depth values are the same bits as those of draw(). Needs prepare_depth().
   void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                   FrameCounts& counts) const;
-  /// The same in opaque black. After prepare_further().
+  /// Draws opaque black with the same depth, in one call. Needs prepare_upper().
   void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                  FrameCounts& counts) const;
 
@@ -70,8 +72,7 @@ class PatchPass {
 
   PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
   Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
-  [[nodiscard]] Result<gl::Program> patch_program(std::initializer_list<std::string_view> fragment,
-                                                  std::string_view layer) const;
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
@@ -84,8 +85,9 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  gl::Program programs_[kPrograms], further_[kPrograms], special_[kPrograms];
+  gl::Program programs_[kPrograms], upper_[kPrograms], special_[kPrograms];
   bool has_special_ = false;
+  double paper_band_ = 0.05;
   gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;

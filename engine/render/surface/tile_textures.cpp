@@ -13,11 +13,11 @@ namespace {
 constexpr int kFirstSlots = 128;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
-/// Returns the number of texels around the planet in the tiles of a level and squeeze, if that number is whole.
+/// Returns the number of texels around the planet in the tiles of a level and squeeze, if the columns close at ±180°.
 std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
   const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
   const double whole = std::round(exact);
-  if (std::abs(exact - whole) > 1e-3) return std::nullopt;
+  if (grid.west_deg != -180.0 || std::abs(exact - whole) > 1e-3) return std::nullopt;
   return static_cast<std::int64_t>(whole);
 }
 
@@ -80,7 +80,6 @@ void TileTextures::shrink() {
   const gl::Texture larger = std::exchange(texture_, gl::make_texture(GL_TEXTURE_2D_ARRAY));
   slots_ = most_slots_;
   used_ = 1;
-  free_.clear();
   glTextureStorage3D(texture_.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots_);
   paint_empty();
   for (const auto& [id, entry] : tiles) {
@@ -123,11 +122,6 @@ bool TileTextures::grow() {
 }
 
 int TileTextures::take_slot(std::uint64_t frame) {
-  if (!free_.empty()) {
-    const int slot = free_.back();
-    free_.pop_back();
-    return slot;
-  }
   if (used_ < slots_ || grow()) return used_++;
   const std::optional<TileId> oldest = residency_.to_evict(frame, grid_.min_level);
   if (!oldest) return -1;

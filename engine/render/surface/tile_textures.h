@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_handle.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_residency.h"
 
@@ -27,7 +27,7 @@ class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
 
-  /// The content of slot 0; at first the plain colour.
+  /// The content of slot 0. Initially it is the plain colour.
   enum class Empty { plain_colour, transparent };
   void set_empty(Empty empty);
   /// Sets the budget and evicts the tiles drawn longest ago if there is less room.
@@ -66,7 +66,6 @@ class TileTextures {
   int slots_ = 0;
   int used_ = 1;
   Empty empty_ = Empty::plain_colour;
-  std::vector<int> free_;
   gl::Texture texture_;
   gl::Framebuffer stretch_from_, stretch_into_;  ///< made when rows of different squeeze first meet
   TileResidency residency_;

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
-#include "base/number.h"
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/raster/tiff_coding.h"
 #include "streaming/tiff_open.h"
 
 namespace terrella {
@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ttag_t kGdalNodata = 42113;
 /// Number of 16-bit values for known heights. The remaining value means "no height".
 constexpr double kFloatNumbers = 65534.0;
 constexpr int kFloatNodata = 65535;
@@ -26,41 +25,30 @@ constexpr int kInt16Shift = 32768;
 struct Probe {
   HeightKind kind = HeightKind::uint16;
   std::optional<double> nodata = {};
+  double scale = 1.0;  ///< metres = number · scale + offset
+  double offset = 0.0;
 };
 
-Result<Probe> probe_tiff(TIFF* tiff, const std::string& name) {
-  std::uint16_t bits = 1;
-  std::uint16_t format = SAMPLEFORMAT_UINT;
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
-  Probe probe;
-  if (bits == 16 && format == SAMPLEFORMAT_INT) {
-    probe.kind = HeightKind::int16;
-  } else if (bits == 32 && format == SAMPLEFORMAT_IEEEFP) {
-    probe.kind = HeightKind::float32;
-  } else if (bits != 16 || format != SAMPLEFORMAT_UINT) {
-    return refuse_heights(name);
-  }
-  std::uint32_t count = 0;
-  const char* text = nullptr;
-  if (TIFFGetField(tiff, kGdalNodata, &count, &text) == 1 && text != nullptr) {
-    probe.nodata = read_number(std::string_view(text, strnlen(text, count)));
-  }
-  return probe;
+HeightKind kind_of(SampleType type) {
+  if (type == SampleType::uint8 || type == SampleType::uint16) return HeightKind::uint16;
+  return type == SampleType::int8 || type == SampleType::int16 ? HeightKind::int16 : HeightKind::float32;
 }
 
 Result<Probe> probe_heights(const fs::path& image) {
   if (Status regular = check_regular(image); !regular) return regular.error();
   std::ifstream file(image, std::ios::binary);
-  char head[2] = {};
+  char head[4] = {};
   file.read(head, sizeof(head));
-  const bool tiff_head = (head[0] == 'I' && head[1] == 'I') || (head[0] == 'M' && head[1] == 'M');
   // If the file is no TIFF, its own reader checks it.
-  if (!tiff_head) return Probe{};
-  std::string message;
-  const TiffHandle tiff = open_tiff(image.string(), message);
-  if (!tiff) return Error{fmt::format("{}: is not a TIFF that can be read: {}", image.string(), message)};
-  return probe_tiff(tiff.get(), image.string());
+  if (!begins_as_tiff({head, sizeof(head)})) return Probe{};
+  const auto pyramid = read_pyramid(image);
+  if (!pyramid) return pyramid.error();
+  const auto numbers = numbers_of(*pyramid, {});
+  if (!numbers) return numbers.error();
+  return Probe{.kind = kind_of(pyramid->whole().part.picture.samples.type),
+               .nodata = numbers->nodata,
+               .scale = numbers->scale,
+               .offset = numbers->offset};
 }
 
 /// Drops a nodata value that no sample of this kind can have.
@@ -170,21 +158,37 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
     const auto probe = probe_heights(image);
     if (!probe) return probe.error();
     if (!first) first = *probe;
-    if (probe->kind != first->kind) {
-      return Error{fmt::format("{}: its heights are of another kind than those of {}; convert it (gdal_translate -ot)",
-                               image.string(), images.front().string())};
+    if (probe->kind != first->kind || probe->scale != first->scale || probe->offset != first->offset) {
+      return Error{
+          fmt::format("{}: its heights are of another kind or scale than those of {}; convert it (gdal_translate -ot)",
+                      image.string(), images.front().string())};
     }
   }
   if (options.scale && (*options.scale == 0.0 || !std::isfinite(*options.scale))) {
     return Error{"--scale: it takes metres per number, not 0"};
   }
   plan.coding = {.kind = first->kind, .nodata = possible(options.nodata ? options.nodata : first->nodata, first->kind)};
-  if (first->kind == HeightKind::float32) return plan_floats(images, options, plan);
+  if (first->kind == HeightKind::float32) {
+    plan.coding.sample_scale = first->scale;
+    plan.coding.sample_offset = first->offset;
+    return plan_floats(images, options, plan);
+  }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
-  plan.elevation.scale = options.scale.value_or(1.0);
-  plan.elevation.offset = options.offset.value_or(0.0) - shift * plan.elevation.scale;
+  plan.elevation.scale = options.scale.value_or(first->scale);
+  plan.elevation.offset = options.offset.value_or(first->offset) - shift * plan.elevation.scale;
   if (plan.coding.nodata) plan.elevation.nodata = static_cast<int>(*plan.coding.nodata) + shift;
   return plan;
+}
+
+RasterOptions raster_of(const HeightPlan& plan) {
+  RasterOptions options;
+  options.heights = true;
+  options.nodata = plan.coding.nodata;
+  const bool is_float = plan.coding.kind == HeightKind::float32;
+  const int shift = plan.coding.kind == HeightKind::int16 ? kInt16Shift : 0;
+  options.scale = is_float ? plan.coding.sample_scale : plan.elevation.scale;
+  options.offset = is_float ? plan.coding.sample_offset : plan.elevation.offset + shift * plan.elevation.scale;
+  return options;
 }
 
 bool is_node_planet(std::int64_t width, std::int64_t height) { return width % 2 == 0 && height == width / 2 + 1; }

@@ -8,6 +8,7 @@
 #include "streaming/cut.h"
 #include "streaming/cut/input/height_samples.h"
 #include "streaming/cut/input/row_reader.h"
+#include "streaming/raster/open_raster.h"
 
 namespace terrella {
 
@@ -20,6 +21,9 @@ struct HeightPlan {
 /// options do not give the coding. All pictures must have the same kind of sample. thread: any
 [[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
                                               const CutElevation& options);
+
+/// Options for reading a picture's heights in metres as a raster. thread: any
+[[nodiscard]] RasterOptions raster_of(const HeightPlan& plan);
 
 /// True if a picture of this size is a whole planet sampled at nodes: columns from -180° on, rows from pole to pole,
 /// both poles included.

@@ -3,13 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "tiles/tile_source.h"
 
 namespace terrella {
 
-enum class HeightKind { uint16, int16, float32 };
+enum class HeightKind {
+  uint16,   ///< unsigned, at most 16 bits
+  int16,    ///< signed, at most 16 bits
+  float32,  ///< any other type; read as 32-bit floats
+};
 
 /// Conversion of a picture's height samples to the whole numbers of tiles.
 struct HeightCoding {
@@ -17,11 +21,12 @@ struct HeightCoding {
   std::optional<double> nodata = {};  ///< sample value that means "no height"
   double scale = 1.0;                 ///< for float32: number = (sample - offset) / scale
   double offset = 0.0;
+  double sample_scale = 1.0;  ///< for float32, from the file: metres = stored sample · sample_scale + sample_offset
+  double sample_offset = 0.0;
 };
 
-/// Converts samples in this machine's byte order to floats in units of the tiles' numbers, NaN for no height
-/// (streaming/cut/input/heights.h). `numbers` has 4 bytes per pixel. thread: any
-void to_numbers(const HeightCoding& coding, const std::uint8_t* samples, std::size_t pixel_bytes, std::size_t pixels,
-                std::uint8_t* numbers);
+/// Converts heights to units of the tiles' numbers, in place: samples for integers, metres for float32. NaN stays NaN
+/// (streaming/cut/input/heights.h). thread: any
+void to_numbers(const HeightCoding& coding, std::span<float> heights);
 
 }  // namespace terrella

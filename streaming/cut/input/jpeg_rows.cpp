@@ -5,7 +5,15 @@
 // jerror.h needs jpeglib.h.
 #include <jerror.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <span>
+
+#include "streaming/cut/input/exif_orientation.h"
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/cut/input/turned_rows.h"
+#include "streaming/georeference/side_files.h"
 
 namespace terrella {
 namespace {
@@ -45,6 +53,33 @@ void on_progress(j_common_ptr codec) {
   std::longjmp(error_state(codec)->way_out, 1);
 }
 
+/// The first APP1 marker with EXIF data. Markers that hold other data, such as XMP, may be many and long.
+struct ExifMarker {
+  std::size_t size = 0;
+  std::array<JOCTET, 65536> bytes{};
+};
+
+JOCTET next_byte(j_decompress_ptr decoder) {
+  jpeg_source_mgr* source = decoder->src;
+  if (source->bytes_in_buffer == 0) static_cast<void>((*source->fill_input_buffer)(decoder));
+  --source->bytes_in_buffer;
+  return *source->next_input_byte++;
+}
+
+boolean on_app1(j_decompress_ptr decoder) {
+  auto* exif = static_cast<ExifMarker*>(decoder->client_data);
+  const std::size_t high = next_byte(decoder), low = next_byte(decoder);
+  const std::size_t length = high << 8 | low;
+  if (length < 2) ERREXIT(decoder, JERR_BAD_LENGTH);
+  const bool wanted = exif->size == 0;
+  for (std::size_t i = 0; i < length - 2; ++i) {
+    const JOCTET byte = next_byte(decoder);
+    if (wanted) exif->bytes[i] = byte;
+  }
+  if (wanted && length > 8 && std::memcmp(exif->bytes.data(), "Exif\0", 6) == 0) exif->size = length - 2;
+  return TRUE;
+}
+
 class JpegRows : public RowReader {
  public:
   JpegRows(File file, std::string name) : file_(std::move(file)), name_(std::move(name)) {
@@ -65,11 +100,13 @@ class JpegRows : public RowReader {
     info_ = {.width_px = decoder_.image_width, .height_px = decoder_.image_height, .has_alpha = false};
     if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
     if (Status can = check_kind(); !can) return can;
+    orientation_ = exif_orientation(std::as_bytes(std::span(exif_.bytes.data(), exif_.size)));
     if (!start()) return row_error(name_, 0, info_.height_px, errors_.message);
     return Done{};
   }
 
   [[nodiscard]] const PictureInfo& info() const override { return info_; }
+  [[nodiscard]] int orientation() const { return orientation_; }
 
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
     if (!read_scanline(rgba.data())) return row_error(name_, row_, info_.height_px, errors_.message);
@@ -83,6 +120,8 @@ class JpegRows : public RowReader {
     if (setjmp(errors_.way_out) != 0) return false;
     jpeg_create_decompress(&decoder_);
     decoder_.progress = &progress_;
+    decoder_.client_data = &exif_;
+    jpeg_set_marker_processor(&decoder_, JPEG_APP0 + 1, on_app1);
     jpeg_stdio_src(&decoder_, file_.get());
     jpeg_read_header(&decoder_, TRUE);
     return true;
@@ -127,6 +166,8 @@ class JpegRows : public RowReader {
   std::string name_;
   PictureInfo info_;
   std::int64_t row_ = 0;
+  int orientation_ = 1;
+  ExifMarker exif_;
   ErrorState errors_{};
   jpeg_progress_mgr progress_{};
   jpeg_decompress_struct decoder_{};
@@ -134,10 +175,24 @@ class JpegRows : public RowReader {
 
 }  // namespace
 
+namespace {
+
+/// True if a file beside the picture places its stored rows, as a world file does. GDAL and other writers of such files
+/// ignore EXIF.
+bool is_placed_as_stored(const std::string& name) {
+  const auto claims = read_side_files(name);
+  return claims && std::ranges::any_of(
+                       *claims, [](const SideClaim& claim) { return claim.transform || claim.has_control_points; });
+}
+
+}  // namespace
+
 Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name) {
-  auto rows = std::make_unique<JpegRows>(std::move(file), std::move(name));
+  auto rows = std::make_unique<JpegRows>(std::move(file), name);
   if (Status opened = rows->open(); !opened) return opened.error();
-  return std::unique_ptr<RowReader>(std::move(rows));
+  const int orientation = rows->orientation();
+  if (orientation == 1 || is_placed_as_stored(name)) return std::unique_ptr<RowReader>(std::move(rows));
+  return turned_rows(std::move(rows), orientation, name);
 }
 
 }  // namespace terrella

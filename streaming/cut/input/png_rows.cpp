@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/raster/tiff_samples.h"
 
 namespace terrella {
 namespace {
@@ -55,7 +56,7 @@ class PngRows : public RowReader {
     }
     ++row_;
     if (heights_) {
-      to_numbers(*heights_, row, 2, static_cast<std::size_t>(info_.width_px), rgba.data());
+      read_heights(row, rgba);
     } else if (row != rgba.data()) {
       std::memcpy(rgba.data(), row, rgba.size());
     }
@@ -63,6 +64,16 @@ class PngRows : public RowReader {
   }
 
  private:
+  void read_heights(const std::uint8_t* row, std::span<std::uint8_t> numbers) {
+    TiffSamples samples;
+    samples.type = SampleType::uint16;
+    samples.per_pixel = 1;
+    heights_row_.resize(numbers.size() / sizeof(float));
+    to_floats(samples, {.nodata = heights_->nodata}, row, heights_row_.size(), heights_row_.data());
+    to_numbers(*heights_, heights_row_);
+    std::memcpy(numbers.data(), heights_row_.data(), numbers.size());
+  }
+
   // Functions that call setjmp contain no objects with destructors.
   bool read_header() {
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, message_, on_row_error, ignore_row_warning);
@@ -132,6 +143,7 @@ class PngRows : public RowReader {
   std::vector<std::uint8_t> whole_;
   std::vector<std::uint8_t> samples_;  ///< a row of heights
   std::optional<HeightCoding> heights_;
+  std::vector<float> heights_row_;
   char message_[128] = "out of memory";
   png_structp png_ = nullptr;
   png_infop header_ = nullptr;

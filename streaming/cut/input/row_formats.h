@@ -20,6 +20,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Opens a reader. The file must be at its first byte, and its head already checked for the format.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_webp_rows(const std::string& name);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,

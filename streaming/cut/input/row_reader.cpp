@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "codecs/image.h"
 #include "streaming/cut/input/row_formats.h"
 #include "streaming/other_formats.h"
 #include "streaming/tiff_open.h"
@@ -92,8 +93,8 @@ Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, st
 
 Error refuse_heights(const std::string& name) {
   return Error{
-      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF of one sample a pixel, Int16, "
-                  "UInt16 or Float32; convert it (gdal_translate -ot Int16)",
+      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF without colours; convert it "
+                  "(gdal_translate -b 1)",
                   name)};
 }
 
@@ -110,14 +111,15 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (head.empty()) return Error{fmt::format("{}: is empty", name)};
   std::rewind(file.get());
-  const bool jpeg = head.starts_with("\xff\xd8\xff");
-  if (jpeg && heights) return refuse_heights(name);
-  if (jpeg) return open_jpeg_rows(std::move(file), name);
-  if (head.starts_with("\x89PNG\r\n\x1a\n")) return open_png_rows(std::move(file), name, heights);
+  const ImageFormat format = sniff_format(std::as_bytes(std::span(head)));
+  if (format == ImageFormat::png) return open_png_rows(std::move(file), name, heights);
+  if (format != ImageFormat::unknown && heights) return refuse_heights(name);
+  if (format == ImageFormat::jpeg) return open_jpeg_rows(std::move(file), name);
+  if (format == ImageFormat::webp) return open_webp_rows(name);
   if (begins_as_tiff(head)) return open_tiff_rows(name, heights);
   const std::string hint = convert_hint(path, head);
   return Error{
-      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, TIFF or BigTIFF" : hint)};
+      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, WebP, TIFF or BigTIFF" : hint)};
 }
 
 }  // namespace

@@ -11,14 +11,15 @@ namespace terrella {
 
 /// Longest side of a picture to cut, pixels.
 inline constexpr std::int64_t kMaxPictureSide_px = 1 << 20;
-/// Most memory for a picture that cannot be read row by row (progressive JPEG, interlaced PNG, a row of TIFF tiles),
-/// bytes. A picture that needs more is refused with advice.
+/// Most memory for a picture that cannot be read row by row (progressive or turned JPEG, interlaced PNG, WebP, a row of
+/// TIFF tiles), bytes. A picture that needs more is refused with advice.
 inline constexpr std::uint64_t kMaxHeldBytes = 1ULL << 30;
 
 struct PictureInfo {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
   bool has_alpha = false;  ///< false: all alpha values are 255
+  int orientation = 1;     ///< EXIF orientation that the reader has applied, 1…8; 1: rows as stored
 };
 
 /// Reads a picture from the top, row by row, as RGBA8, not premultiplied. Memory does not grow with the height. 16-bit
@@ -41,7 +42,8 @@ class RowReader {
 /// reader then reports it.
 [[nodiscard]] Status check_regular(const std::filesystem::path& path);
 
-/// Opens a JPEG, PNG, TIFF or BigTIFF, identified by its first bytes. The error names the file, the fault and a cure.
+/// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. The error names the file, the fault and a
+/// cure.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path);
 
 struct HeightCoding;

@@ -42,7 +42,9 @@ TileEncoder::TileEncoder(const TileCoding& coding) : coding_(coding) {
 
 Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int64_t index) {
   if (coding_.heights) return encode_gray16_png(heights_of_tile(strip, index), strip.tile_px);
-  return coding_.format == ImageFormat::jpeg ? encode_jpeg_tile(strip, index) : encode_png(copy_of_tile(strip, index));
+  if (coding_.format == ImageFormat::jpeg) return encode_jpeg_tile(strip, index);
+  const Image tile = copy_of_tile(strip, index);
+  return coding_.format == ImageFormat::webp ? encode_webp(tile, coding_.quality) : encode_png(tile);
 }
 
 Result<std::vector<std::byte>> TileEncoder::encode_jpeg_tile(const Strip& strip, std::int64_t index) {

@@ -18,8 +18,8 @@ struct TileCoding {
   bool heights = false;  ///< 16-bit gray PNG
 };
 
-/// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG: like
-/// encode_png(). thread: one at a time
+/// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG and WebP:
+/// like encode_png() and encode_webp(). thread: one at a time
 class TileEncoder {
  public:
   explicit TileEncoder(const TileCoding& coding);

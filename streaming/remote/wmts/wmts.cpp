@@ -9,6 +9,7 @@
 
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
+#include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts_grid.h"
 #include "streaming/remote/wmts/wmts_layer.h"
 #include "streaming/remote/wmts/wmts_url.h"
@@ -18,22 +19,12 @@
 namespace terrella {
 namespace {
 
-/// Time until an absent tile of the newest time is requested again.
-constexpr std::chrono::seconds kNewestMissingLife{3600};
-constexpr std::size_t kMaxShown = 20;
-constexpr std::size_t kMaxTextBytes = 16384;
-
-constexpr std::array<std::string_view, 4> kJpegTypes = {"image/jpeg", "image/jpg", "image/vnd.jpg-png", "image/jpgpng"};
-constexpr std::array<std::string_view, 3> kPngTypes = {"image/png", "image/png8", "image/png; mode=8bit"};
-
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMaxShown); ++i) {
-    list += (i == 0 ? "" : ", ") + names[i].substr(0, 100);
-  }
-  if (names.size() > kMaxShown) list += fmt::format(" and {} more", names.size() - kMaxShown);
-  return list.empty() ? "none" : list;
-}
+/// Media types of each ImageFormat.
+const std::array<std::vector<std::string_view>, 3> kTypes = {{
+    {"image/jpeg", "image/jpg", "image/vnd.jpg-png", "image/jpgpng"},
+    {"image/png", "image/png8", "image/png; mode=8bit"},
+    {"image/webp"},
+}};
 
 Result<WmtsLayer> find_layer(const pugi::xml_node& contents, const std::string& wanted) {
   std::vector<std::string> names;
@@ -83,7 +74,7 @@ Result<ChosenGrid> choose_grid(const pugi::xml_node& contents, const WmtsLayer& 
       if (!resampled) resampled = ChosenGrid{*std::move(placed), link.matrix_set};
       continue;
     }
-    if (names.size() <= kMaxShown) {
+    if (names.size() <= 20) {
       reasons += fmt::format("; matrix set \"{}\": {}", link.matrix_set.substr(0, 100), placed.error().message);
     }
   }
@@ -107,13 +98,14 @@ Result<ChosenFormat> choose_format(const WmtsLayer& layer, const RemoteOptions& 
       return std::ranges::any_of(known, [&](std::string_view one) { return same_letters(one, type); });
     });
   };
-  const auto jpeg = among(kJpegTypes);
-  const auto png = among(kPngTypes);
-  if (jpeg != types.end() && options.format != ImageFormat::png) return ChosenFormat{ImageFormat::jpeg, *jpeg};
-  if (png != types.end() && options.format != ImageFormat::jpeg) return ChosenFormat{ImageFormat::png, *png};
-  return Error{fmt::format(
-      "layer \"{}\" has tiles as {}; {} can be read", layer.name, list_of(types),
-      options.format ? "what was asked for is not among them; image/jpeg and image/png" : "image/jpeg and image/png")};
+  for (const ImageFormat format : {ImageFormat::jpeg, ImageFormat::png, ImageFormat::webp}) {
+    if (options.format && options.format != format) continue;
+    const auto type = among(kTypes.at(static_cast<std::size_t>(format)));
+    if (type != types.end()) return ChosenFormat{format, *type};
+  }
+  return Error{fmt::format("layer \"{}\" has tiles as {}; {}image/jpeg, image/png and image/webp can be read",
+                           layer.name, list_of(types),
+                           options.format ? "the requested format is not among them; " : "")};
 }
 
 Result<std::string> choose_style(const WmtsLayer& layer, const std::string& wanted) {
@@ -204,8 +196,8 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
   set.info.grid = chosen->placed.grid;
   set.info.grid.bounds = narrowed(set.info.grid.bounds, layer->bounds);
   set.info.format = format->format;
-  set.info.name = (layer->title.empty() ? layer->name : layer->title).substr(0, kMaxTextBytes);
-  set.info.attribution = text_of(child_of(capabilities, "ServiceProvider"), "ProviderName").substr(0, kMaxTextBytes);
+  set.info.name = (layer->title.empty() ? layer->name : layer->title).substr(0, kMaxOgcTextBytes);
+  set.info.attribution = text_of(child_of(capabilities, "ServiceProvider"), "ProviderName").substr(0, kMaxOgcTextBytes);
   set.info.body = chosen->placed.body;
   set.level_names = std::move(chosen->placed.level_names);
   set.shifts = std::move(chosen->placed.shifts);
@@ -222,7 +214,7 @@ std::string fault_of_root(const pugi::xml_node& root) {
   }
   if (name == "Capabilities" && child_of(root, "Contents")) return {};
   if (name.starts_with("WMS") || name.starts_with("WMT_MS")) {
-    return "the capabilities of a WMS, which has no tiles; ask for those of its WMTS";
+    return "the capabilities of a WMS; give their address as \"wms\", or by itself";
   }
   return fmt::format("not the capabilities of a WMTS: its root is <{}>, or it has no <Contents>", name.substr(0, 64));
 }

@@ -8,13 +8,13 @@
 
 #include "geo/body.h"
 #include "streaming/remote/crs_names.h"
+#include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/tile_range.h"
 #include "streaming/sets/tileset_check.h"
 
 namespace terrella {
 namespace {
 
-constexpr double kPixel_m = 0.00028;
 constexpr double kEarthRadius_m = 6378137.0;
 /// Tolerance of scale denominators. They usually have a dozen digits; ten digits still place a tile of level 24 well.
 constexpr double kRelativeSlack = 1e-6;
@@ -22,12 +22,10 @@ constexpr double kRelativeSlack = 1e-6;
 constexpr double kRadiusSlack = 1e-3;
 /// Largest distance of a tile from its place in the grid, in texels. It is invisible.
 constexpr double kSlackTexels = 0.1;
-/// Limit of root tiles, because they are always in memory.
-constexpr std::int64_t kMaxRootTiles = 512;
 
 double span_deg(const WmtsMatrix& matrix, double radius_m) {
   const double degree_m = radius_m * std::numbers::pi / 180.0;
-  return matrix.scale_denominator * kPixel_m / degree_m * matrix.tile_px;
+  return matrix.scale_denominator * kOgcPixel_m / degree_m * matrix.tile_px;
 }
 
 /// True if whole tiles cover an extent and no tile begins beyond it.

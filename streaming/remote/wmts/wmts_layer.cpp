@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "streaming/remote/wmts/xml_names.h"
 
 namespace terrella {

@@ -1,4 +1,5 @@
 #include "streaming/remote/wmts/xml_names.h"
+#include "base/number.h"
 
 #include <charconv>
 #include <cmath>
@@ -49,12 +50,6 @@ std::string_view attribute_of(const pugi::xml_node& node, std::string_view name)
     if (local_name(attribute.name()) == name) return attribute.value();
   }
   return {};
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kWhite);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kWhite) + 1 - first);
 }
 
 std::optional<double> to_number(std::string_view text) {

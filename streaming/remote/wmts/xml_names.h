@@ -16,7 +16,6 @@ namespace terrella {
 [[nodiscard]] std::string_view text_of(const pugi::xml_node& node, std::string_view child);
 [[nodiscard]] std::string_view attribute_of(const pugi::xml_node& node, std::string_view name);
 
-[[nodiscard]] std::string_view trimmed(std::string_view text);
 /// A finite number that fills the text; nothing otherwise.
 [[nodiscard]] std::optional<double> to_number(std::string_view text);
 [[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view text);

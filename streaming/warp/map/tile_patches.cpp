@@ -16,7 +16,7 @@ constexpr double kEmptySpan_deg = 6.0;
 /// Distance from the edges of a tile at which its edges are looked up: the map may end at ±180° and at the poles.
 constexpr double kInset_px = 1e-6;
 
-bool is_placed(const CrsPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool has_place(const CrsPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 class Refiner {
  public:
@@ -71,7 +71,7 @@ class Refiner {
     }
     look_up(at, nodes);
     const double span = std::max(x1 - x0, y1 - y0) * step_deg_;
-    const auto placed = std::ranges::count_if(nodes, is_placed);
+    const auto placed = std::ranges::count_if(nodes, has_place);
     const bool single = x1 - x0 == 1 && y1 - y0 == 1;
     if (placed == 0 && (single || span <= kEmptySpan_deg)) return;
     if (placed == 9 && span <= kMostSpan_deg) {
@@ -177,7 +177,7 @@ class Refiner {
 
   /// A pixel on whose edges the map is torn. Slopes are those of the side that is not torn.
   void keep_pixel(int x, int y, const CrsPoint& centre) {
-    if (!is_placed(centre)) return;
+    if (!has_place(centre)) return;
     constexpr double kStep = 1.0 / 64.0;
     const double cx = x + 0.5, cy = y + 0.5;
     const std::array around = {place(cx - kStep, cy), place(cx + kStep, cy), place(cx, cy - kStep),
@@ -188,7 +188,7 @@ class Refiner {
       const CrsPoint before{centre.x - found[first].x, centre.y - found[first].y};
       const CrsPoint after{found[first + 1].x - centre.x, found[first + 1].y - centre.y};
       const CrsPoint least = std::hypot(before.x, before.y) <= std::hypot(after.x, after.y) ? before : after;
-      return is_placed(least) ? CrsPoint{least.x / kStep, least.y / kStep} : CrsPoint{};
+      return has_place(least) ? CrsPoint{least.x / kStep, least.y / kStep} : CrsPoint{};
     };
     const CrsPoint by_x = slope(0), by_y = slope(2);
     Patch patch{x, y, x + 1, y + 1};

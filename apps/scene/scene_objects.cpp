@@ -1,0 +1,47 @@
+#include "apps/scene/scene_objects.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+
+#include "apps/setup/console.h"
+#include "apps/setup/data_dir.h"
+#include "apps/setup/sky_data.h"
+#include "streaming/file_bytes.h"
+#include "streaming/objects/geojson_objects.h"
+
+namespace terrella {
+
+void add_sky_data(GlobeOptions& options) {
+  if (!options.sky) return;
+  SkyData data = load_sky_data();
+  for (const std::string& problem : data.problems) print_message("{}\n", problem);
+  options.stars = std::move(data.stars);
+  options.night_lights = std::move(data.night_lights);
+}
+
+void add_label_font(GlobeOptions& options) {
+  constexpr std::size_t kMostFontBytes = 32UL << 20;
+  try {
+    auto font = read_file(data_file("DejaVuSans.ttf"), kMostFontBytes);
+    if (font) {
+      options.label_font = std::move(*font);
+    } else {
+      print_message("{}; objects are without labels\n", font.error().message);
+    }
+  } catch (const BrokenInstallation& broken) {
+    print_message("{}\nobjects are without labels\n", broken.what());
+  }
+}
+
+Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
+  if (options.objects.empty()) return true;
+  const Result<ObjectFile> file = read_geojson_objects(options.objects);
+  if (!file) return file.error();
+  for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
+  if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
+  if (const auto added = globe.add_objects(file->scene); !added) return added.error();
+  return file->complaints.empty();
+}
+
+}  // namespace terrella

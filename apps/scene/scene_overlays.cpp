@@ -1,0 +1,44 @@
+#include "apps/scene/scene_overlays.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "apps/setup/open_imagery.h"
+#include "base/number.h"
+
+namespace terrella {
+
+Result<OverlayOption> parse_overlay(const std::string& text) {
+  OverlayOption overlay{.tile_set = text};
+  if (const std::size_t colon = text.rfind(':'); colon != std::string::npos) {
+    if (const auto opacity = read_number(std::string_view(text).substr(colon + 1))) {
+      overlay = {.tile_set = text.substr(0, colon), .opacity = *opacity};
+    }
+  }
+  if (overlay.tile_set.empty()) return Error{fmt::format("'{}' names no tile set", text)};
+  if (!(overlay.opacity >= 0.0 && overlay.opacity <= 1.0)) {
+    return Error{fmt::format("'{}': the opacity after the last colon must be from 0 to 1", Url(text).redacted())};
+  }
+  return overlay;
+}
+
+Status add_overlays(Globe& globe, const SceneOptions& options) {
+  for (const OverlayOption& overlay : options.overlays) {
+    SceneOptions scene = options;
+    scene.tile_set = overlay.tile_set;
+    scene.projection = options.overlay_projection;
+    scene.latitude.reset();
+    scene.place = {};
+    scene.remote = {};
+    // A cache holds one source's tiles.
+    if (scene.cache != "off") scene.cache.clear();
+    auto tiles = open_imagery(scene);
+    if (!tiles) return tiles.error();
+    const auto layer = globe.add_imagery(*std::move(tiles), ImageLook{.opacity = overlay.opacity});
+    if (!layer) return Error{overlay.tile_set.redacted() + ": " + layer.error().message};
+  }
+  return Done{};
+}
+
+}  // namespace terrella

@@ -1,0 +1,129 @@
+#include "apps/viewer/panels/status_line.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/viewer/panels/panel_items.h"
+
+namespace terrella {
+namespace {
+
+constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
+constexpr float kUnderMessage = 0.4F;   // in text heights, between the message and the status line
+constexpr float kUnderFirstRow = 2.8F;  // in text heights
+constexpr float kTick = 0.35F;          // in text heights, of the scale bar
+const ImU32 kInk = IM_COL32(232, 240, 248, 255);
+const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
+
+float margin() { return kMargin * ImGui::GetFontSize(); }
+
+struct Field {
+  std::string text;
+  bool quiet = false;
+};
+
+void draw_text(const Field& field) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(field.quiet ? ImGuiCol_TextDisabled : ImGuiCol_Text));
+  ImGui::TextUnformatted(field.text.c_str());
+  ImGui::PopStyleColor();
+}
+
+float gap_of_fields() { return 1.3F * ImGui::GetFontSize(); }
+
+/// Width of a panel with one line of text; 0 without text.
+float row_width(const std::vector<Field>& fields) {
+  float width = 2.0F * ImGui::GetStyle().WindowPadding.x - gap_of_fields();
+  for (const Field& field : fields) width += gap_of_fields() + ImGui::CalcTextSize(field.text.c_str()).x;
+  return fields.empty() ? 0.0F : width;
+}
+
+/// Returns the fields with text, without the last ones if the panel would be wider than `most`.
+std::vector<Field> fitted(std::vector<Field> fields, float most) {
+  std::erase_if(fields, [](const Field& field) { return field.text.empty(); });
+  while (row_width(fields) > most) fields.pop_back();
+  return fields;
+}
+
+/// Draws a panel with one line of text; without text draws nothing.
+void draw_row(const char* name, const std::vector<Field>& fields, ImVec2 at, ImVec2 pivot) {
+  if (fields.empty()) return;
+  const float padding = ImGui::GetStyle().WindowPadding.x;
+  begin_fixed(name, at, pivot, {row_width(fields) - 2.0F * padding, ImGui::GetFontSize()});
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0.0F, gap_of_fields());
+    draw_text(fields[i]);
+  }
+  ImGui::End();
+}
+
+/// Draws wrapped text over all panels, centred above a position; empty text draws nothing.
+void draw_paragraph(const std::string& text, ImVec2 at) {
+  if (text.empty()) return;
+  const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 from{std::floor(at.x - 0.5F * size.x), std::floor(at.y - padding.y - size.y)};
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({from.x - padding.x, from.y - padding.y}, {from.x + size.x + padding.x, at.y}, kMessageShade,
+                      ImGui::GetStyle().WindowRounding);
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, kInk, text.c_str(), nullptr, widest);
+}
+
+/// Size of the scale bar with its text, without the panel's padding.
+ImVec2 scale_size(const ScaleBar& bar, double unit_px) {
+  const float unit = ImGui::GetFontSize();
+  const float text = ImGui::CalcTextSize(length_text(bar.length_m).c_str()).x;
+  return {std::max(static_cast<float>(bar.width_px / unit_px), text), unit + kTick * unit + 2.0F};
+}
+
+void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
+  const std::string text = length_text(bar.length_m);
+  const ImVec2 size = scale_size(bar, unit_px);
+  const float width = static_cast<float>(bar.width_px / unit_px);
+  const float tick = kTick * ImGui::GetFontSize();
+  begin_fixed("##scale", lower_right, {1.0F, 1.0F}, size);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddText({at.x + 0.5F * (size.x - ImGui::CalcTextSize(text.c_str()).x), at.y}, kInk, text.c_str());
+  const float left = at.x + 0.5F * (size.x - width);
+  const float base = at.y + size.y;
+  const ImVec2 points[] = {{left, base - tick}, {left, base}, {left + width, base}, {left + width, base - tick}};
+  list->AddPolyline(points, 4, kInk, 0, line_width(1.5F));
+  ImGui::End();
+}
+
+/// Draws the status line at the left and the scale bar at the right, or above it if both do not fit. Returns the height
+/// that they use.
+float draw_foot(const PanelStatus& status, double unit_px) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
+  const float gap = margin(), room = size.x - 2.0F * gap;
+  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.frame, true}}, room);
+  draw_row("##status", fields, {gap, size.y - gap}, {0.0F, 1.0F});
+  const float row = ImGui::GetFontSize() + 2.0F * padding.y;
+  if (!status.scale) return gap + row;
+  const ImVec2 scale = scale_size(*status.scale, unit_px);
+  const bool above = row_width(fields) + gap + scale.x + 2.0F * padding.x > room;
+  const float foot = above ? 1.5F * gap + row : gap;
+  draw_scale(*status.scale, {size.x - gap, size.y - foot}, unit_px);
+  return foot + scale.y + 2.0F * padding.y;
+}
+
+}  // namespace
+
+float draw_status(const PanelStatus& status, double unit_px) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float unit = ImGui::GetFontSize(), gap = margin();
+  const float foot = draw_foot(status, unit_px);
+  draw_row("##attribution", fitted({{status.attribution, true}}, INFINITY), {size.x - gap, gap}, {1.0F, 0.0F});
+  draw_row("##measure", fitted({{status.measure}}, INFINITY), {0.5F * size.x, gap + kUnderFirstRow * unit},
+           {0.5F, 0.0F});
+  std::string told = status.job;
+  if (!told.empty() && !status.message.empty()) told += "\n";
+  draw_paragraph(told + status.message, {0.5F * size.x, size.y - foot - kUnderMessage * unit});
+  return foot;
+}
+
+}  // namespace terrella

@@ -1,0 +1,181 @@
+#include "apps/viewer/parts/layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/viewer/input.h"
+
+namespace terrella {
+namespace {
+
+constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
+constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
+
+/// Looks straight down on the middle, from a height that shows the whole rectangle.
+Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect) {
+  const double lat_deg = 0.5 * (bounds.south.deg() + bounds.north.deg());
+  const double high = bounds.north.rad() - bounds.south.rad();
+  const double wide = width_of(bounds).rad() * std::cos(Angle::degrees(lat_deg).rad());
+  const double span_m = kLayerRoom * body.a_m() * std::max(high, wide / aspect);
+  Camera camera;
+  camera.fov_y = fov_y;
+  camera.eye = {.lat = Angle::degrees(lat_deg), .lon = bounds.west + 0.5 * width_of(bounds)};
+  camera.eye.height_m = std::max(kNearestLayer_m, 0.5 * span_m / std::tan(0.5 * fov_y.rad()));
+  return camera;
+}
+
+}  // namespace
+
+Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
+               const SceneOptions& files, std::vector<LayerSwitch> switches)
+    : Panel(context, "Layers"),
+      rows_(std::move(rows)),
+      heights_(std::move(heights)),
+      files_(files),
+      switches_(std::move(switches)) {}
+
+void Layers::draw_open(float foot) {
+  std::vector<LayerRow> rows = rows_;
+  const LayerWish wish = draw_layers(panel(), rows, switches_, foot, take_just_opened());
+  for (std::size_t i = 0; i < rows.size(); ++i) take_look(rows_[i], rows[i].look);
+  switch (wish.ask) {
+    case LayerAsk::none:
+      return;
+    case LayerAsk::raise:
+    case LayerAsk::lower:
+      return move(wish.row, wish.ask == LayerAsk::raise);
+    case LayerAsk::look_at:
+      return look_at(*rows_[wish.row].bounds);
+    case LayerAsk::remove:
+      return remove(wish.row);
+  }
+}
+
+void Layers::take_look(LayerRow& row, const ImageLook& look) {
+  if (look == row.look) return;
+  Globe& globe = context_.globe;
+  Status set = Done{};
+  if (row.kind == LayerKind::imagery) set = globe.set_look(row.id, look);
+  if (row.kind == LayerKind::objects) set = globe.show_objects(row.id, look.shown);
+  if (row.kind == LayerKind::objects && set) set = globe.fade_objects(row.id, look.opacity);
+  if (row.kind == LayerKind::heights) set = use_heights(look.shown ? heights_ : std::nullopt);
+  if (!set) return say(set.error().message);
+  row.look = look;
+}
+
+Status Layers::use_heights(const std::optional<ElevationSource>& heights) {
+  if (Status set = context_.globe.set_elevation(heights); !set) return set;
+  context_.navigator.set_ground(context_.globe.ground());
+  return Done{};
+}
+
+// Rows of a kind have the globe's order in the list.
+void Layers::move(std::size_t row, bool up) {
+  Globe& globe = context_.globe;
+  const auto ids = rows_[row].kind == LayerKind::objects ? globe.objects() : globe.imagery();
+  const auto place = std::size_t(std::ranges::find(ids, rows_[row].id) - ids.begin());
+  if (up ? place + 1 >= ids.size() : place == 0) return;
+  const LayerId neighbour = ids[up ? place + 1 : place - 1];
+  const auto other = std::ranges::find(rows_, neighbour, &LayerRow::id);
+  if (other == rows_.end()) return;  // the measurement has no row and stays on top
+  const Status moved = globe.move(rows_[row].id, up ? place + 1 : place - 1);
+  if (!moved) return say(moved.error().message);
+  std::swap(rows_[row], *other);
+}
+
+void Layers::remove(std::size_t row) {
+  const LayerRow& layer = rows_[row];
+  const bool heights = layer.kind == LayerKind::heights;
+  const Status removed = heights ? use_heights(std::nullopt) : context_.globe.remove(layer.id);
+  if (!removed) return say(removed.error().message);
+  if (heights) heights_.reset();
+  say("Removed " + layer.name);
+  rows_.erase(rows_.begin() + std::ptrdiff_t(row));
+}
+
+void Layers::look_at(const GeoRect& bounds) {
+  const Viewport window = context_.window.framebuffer();
+  const double aspect = double(window.width_px) / std::max(1, window.height_px);
+  Navigator& navigator = context_.navigator;
+  navigator.fly_to(camera_over(bounds, context_.globe.options().body.ellipsoid, navigator.camera().fov_y, aspect),
+                   Input::now());
+}
+
+void Layers::open(std::filesystem::path file) {
+  const Globe& globe = context_.globe;
+  const auto place = pick(globe.view(context_.window.framebuffer()), globe.ground(), context_.middle_px());
+  files_.add(std::move(file), place.value_or(Geodetic{}));
+}
+
+void Layers::take_opened() {
+  while (auto opened = files_.poll()) {
+    *opened ? add(**std::move(opened)) : context_.messages.report(opened->error().message);
+  }
+}
+
+bool Layers::cancel() {
+  if (!files_.busy()) return false;
+  files_.leave_off();
+  return true;
+}
+
+void Layers::add(OpenedFile file) {
+  LayerRow row{.name = file.path.filename().string()};
+  if (row.name.empty()) row.name = file.path.string();
+  std::string told = "Added " + row.name + "; L shows the layers";
+  Status added = Done{};
+  if (auto* tiles = std::get_if<std::shared_ptr<TileSource>>(&file.what)) {
+    added = add_tiles(std::move(*tiles), row);
+  } else if (const auto* heights = std::get_if<ElevationSource>(&file.what)) {
+    added = add_heights(*heights, row);
+  } else {
+    auto& objects = std::get<ObjectFile>(file.what);
+    if (!objects.complaints.empty()) {
+      told = fmt::format("{}; {} faulty objects or properties were skipped", objects.complaints.front(),
+                         objects.complaints.size() + objects.complaints_left_out);
+    }
+    added = add_objects(std::move(objects.scene), row);
+  }
+  if (!added) return say(row.name + ": " + added.error().message);
+  if (row.bounds) look_at(*row.bounds);
+  insert(std::move(row));
+  say(std::move(told));
+}
+
+Status Layers::add_tiles(std::shared_ptr<TileSource> tiles, LayerRow& row) {
+  row.bounds = if_a_part(tiles->info().grid.bounds);
+  row.finest_level = tiles->info().grid.max_level;
+  const auto id = context_.globe.add_imagery(std::move(tiles));
+  if (!id) return id.error();
+  row.id = *id;
+  return Done{};
+}
+
+Status Layers::add_heights(const ElevationSource& heights, LayerRow& row) {
+  row.kind = LayerKind::heights;
+  if (Status used = use_heights(heights); !used) return used;
+  heights_ = heights;
+  std::erase_if(rows_, [](const LayerRow& layer) { return layer.kind == LayerKind::heights; });
+  return Done{};
+}
+
+Status Layers::add_objects(ObjectScene scene, LayerRow& row) {
+  row.kind = LayerKind::objects;
+  row.bounds = bounds_of(scene);
+  const auto id = context_.globe.add_objects(std::move(scene));
+  if (!id) return id.error();
+  row.id = *id;
+  return Done{};
+}
+
+// Rows are sorted: heights, then imagery, then objects.
+void Layers::insert(LayerRow row) {
+  const auto rank = [](LayerKind kind) { return kind == LayerKind::heights ? 0 : kind == LayerKind::imagery ? 1 : 2; };
+  const auto over = std::ranges::find_if(rows_, [&](const LayerRow& r) { return rank(r.kind) > rank(row.kind); });
+  rows_.insert(over, std::move(row));
+}
+
+}  // namespace terrella

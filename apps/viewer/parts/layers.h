@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/viewer/panels/layer_panel.h"
+#include "apps/viewer/parts/part.h"
+#include "apps/viewer/tools/dropped_files.h"
+
+namespace terrella {
+
+/// Shows, fades, sorts, adds and removes the globe's layers. Owns the rows of the layer panel and the files being
+/// opened. thread: main for every call
+class Layers : public Panel {
+ public:
+  /// `rows`, the globe's layers: heights, imagery from bottom to top, objects. `heights`, the globe's heights. `files`,
+  /// options for opening files. `switches`, further rows, which only switch something on and off.
+  Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
+         const SceneOptions& files, std::vector<LayerSwitch> switches);
+
+  /// Opens a file in the background and adds it as a layer. A model stands in the middle of the picture.
+  void open(std::filesystem::path file);
+  /// Adds the files that are open by now as layers. Call this once per frame.
+  void take_opened();
+
+  [[nodiscard]] std::string job() const override { return files_.text(); }
+  [[nodiscard]] bool changed() const override { return files_.ready(); }
+  bool cancel() override;
+
+ private:
+  void draw_open(float foot) override;
+  void take_look(LayerRow& row, const ImageLook& look);
+  Status use_heights(const std::optional<ElevationSource>& heights);
+  void move(std::size_t row, bool up);
+  void remove(std::size_t row);
+  void look_at(const GeoRect& bounds);
+  void add(OpenedFile file);
+  [[nodiscard]] Status add_tiles(std::shared_ptr<TileSource> tiles, LayerRow& row);
+  [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
+  [[nodiscard]] Status add_objects(ObjectScene scene, LayerRow& row);
+  void insert(LayerRow row);
+
+  std::vector<LayerRow> rows_;
+  std::optional<ElevationSource> heights_;  ///< kept while the heights are hidden
+  DroppedFiles files_;
+  std::vector<LayerSwitch> switches_;
+};
+
+}  // namespace terrella

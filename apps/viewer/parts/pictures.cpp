@@ -1,0 +1,91 @@
+#include "apps/viewer/parts/pictures.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/tools/screenshot.h"
+
+namespace terrella {
+namespace {
+
+constexpr float kPictureWidth = 22.0F;  // in text heights
+
+std::filesystem::path next_file() {
+  std::error_code unknown;
+  return screenshot_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
+}
+
+}  // namespace
+
+void Pictures::draw_open(float) {
+  const float unit = ImGui::GetFontSize();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(kPictureWidth * unit, size.x), 0.0F});
+  ImGui::SetNextWindowBgAlpha(0.9F);
+  const bool just_opened = take_just_opened();
+  if (just_opened) ImGui::SetNextWindowFocus();
+  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
+  if (just_opened) ImGui::SetKeyboardFocusHere();
+  draw_fields(largest_picture_side_px());
+  const bool save = ImGui::Button("Save");
+  tip("Loads all tiles of the picture, then saves a PNG in the folder where the program was started.");
+  ImGui::SameLine();
+  const bool leave = ImGui::Button("Close");
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextDisabled("Without panels. F12 saves a screenshot.");
+  ImGui::PopTextWrapPos();
+  ImGui::PopItemWidth();
+  ImGui::End();
+  if (save || leave) toggle();
+  if (save) start();
+}
+
+void Pictures::draw_fields(int most_px) {
+  if (width_px_ <= 0) {
+    const Viewport window = context_.window.framebuffer();
+    width_px_ = 2 * window.width_px;
+    height_px_ = 2 * window.height_px;
+  }
+  ImGui::InputInt("Width", &width_px_, 64, 1024);
+  tip("In pixels. The height shows the window's view; the width shows as much as fits.");
+  ImGui::InputInt("Height", &height_px_, 64, 1024);
+  tip("In pixels.");
+  width_px_ = std::clamp(width_px_, 1, most_px);
+  height_px_ = std::clamp(height_px_, 1, most_px);
+}
+
+void Pictures::start() {
+  auto job = PictureJob::start(context_.globe, next_file(), {width_px_, height_px_});
+  if (!job) return say(job.error().message);
+  job_ = *std::move(job);
+}
+
+void Pictures::end(std::string message) {
+  job_.reset();
+  say(std::move(message));
+}
+
+bool Pictures::cancel() {
+  if (!job_ || job_->drawn()) return false;
+  end("Picture cancelled");
+  return true;
+}
+
+void Pictures::draw_picture(Viewport framebuffer) {
+  job_->draw(context_.globe, framebuffer);
+  const auto result = job_->result();
+  if (result) end(*result ? "Saved " + job_->file().filename().string() : result->error().message);
+}
+
+void Pictures::after_frame(Viewport framebuffer) {
+  if (!std::exchange(screenshot_wanted_, false)) return;
+  const auto file = next_file();
+  const Status saved = save_back_buffer(file, framebuffer);
+  say(saved ? "Saved " + file.filename().string() : saved.error().message);
+}
+
+}  // namespace terrella

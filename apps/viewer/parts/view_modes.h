@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "apps/viewer/action.h"
+#include "apps/viewer/panels/view_settings.h"
+#include "apps/viewer/parts/part.h"
+#include "apps/viewer/parts/underground.h"
+
+namespace terrella {
+
+/// Changes how the globe looks: opacity, stereo, sky, time, exaggeration, under the ground. Owns the view panel and the
+/// modes of the start, to which reset() returns. thread: main for every call
+class ViewModes : public Panel {
+ public:
+  /// Actions with a button get one in the panel; a click calls `run`.
+  ViewModes(const ViewerContext& context, std::span<const Action> actions, std::function<void(const Action&)> run);
+
+  void next_opacity();
+  void next_stereo();
+  void toggle_sky();
+  void toggle_underground() { underground_.toggle(); }
+  /// Returns to the modes of the start, and flies to the whole globe with north up.
+  void reset();
+
+ private:
+  void draw_open(float foot) override;
+  void apply(const ViewSettings& settings);
+  [[nodiscard]] ViewSettings modes() const;
+
+  std::span<const Action> actions_;
+  std::function<void(const Action&)> run_;
+  Underground underground_;
+  bool sky_;
+  ViewSettings start_;     ///< modes at the start
+  ViewSettings settings_;  ///< of the panel, with the text as typed so far
+};
+
+}  // namespace terrella

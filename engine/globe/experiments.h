@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "geo/cube_sphere.h"
+#include "globe/globe.h"
+
+namespace terrella {
+
+/// Settings of a globe for comparisons in tests and benchmarks. No application needs them, so this header is not
+/// installed. Paper 1 is A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in
+/// geoinformation and cartographic systems", 2023. Paper 2 is "Interactive visualization of 3D data on a virtual globe
+/// in stereoscopic systems", abstract of a dissertation, chapter 2.2 (engine/DESIGN.md). thread: main
+struct Experiments {
+  double paper_a = 4.0;  ///< exponent a of paper 1's formula (6) for Texturing::paper, [2, 8]
+  /// Width b of paper 1's pole bands, formula (5), for Texturing::paper: a fraction of the picture's height, (0, 0.5].
+  double paper_band = 0.05;
+  /// Draws in the order of an opaque globe with blending switched on. The picture then has the artefacts that paper 2
+  /// prevents.
+  bool naive_translucency = false;
+  std::optional<unsigned> patch_shuffle{};  ///< seed of a random order of the patches; none: the normal order
+  /// Mapping from the cube to the sphere. It holds for layers added later, so set it before the first layer.
+  CubeMapping mapping = CubeMapping::tangent;
+
+  /// Returns the settings of a globe. A change holds from the next frame on.
+  [[nodiscard]] static Experiments& of(Globe& globe);
+};
+
+}  // namespace terrella

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "surface/plan/tile_uses.h"
+#include "surface/selected_patch.h"
+#include "surface/tree_growth.h"
+#include "surface/wanted_tile.h"
+
+namespace terrella {
+
+/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word: the array layer in bits 0 to 15, how
+/// many cells its tile spans along a meridian, as a power of two, in bits 16 to 23 and along the parallel in bits 24 to
+/// 31. The low bits of the cell's column and row say which part of that tile it is (shaders/surface/patch_common.glsl).
+using WindowCell = std::uint32_t;
+[[nodiscard]] constexpr WindowCell window_cell(int layer, int log2_rows, int log2_columns) {
+  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(log2_rows) << 16U |
+         static_cast<WindowCell>(log2_columns) << 24U;
+}
+
+/// Data of a patch for the shader programs, besides its vertices.
+struct PatchDraw {
+  glm::vec4 center_and_scale;  ///< window point of the patch's centre; cells per degree of longitude and (south) of row
+                               ///< latitude. Window points count cells from the window's north-west corner
+  glm::vec4 frame;             ///< PatchNode::frame
+  glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
+  glm::uvec4 window;  ///< first cell; width | height << 16; column and row of that first cell, modulo 2^24
+  bool operator==(const PatchDraw&) const = default;
+};
+
+struct TileCoverage {
+  std::vector<PatchDraw> draws;  ///< one for each selected patch
+  std::vector<WindowCell> cells;
+  std::vector<WantedTile> wanted;  ///< not there and not missing; root tiles first
+  TileUses uses;                   ///< of the residency's tiles
+  int tiles = 0;                   ///< tiles of the view at full quality
+  int pending = 0;                 ///< of those, not there yet
+  int missing = 0;                 ///< of those, replaced by an ancestor for good
+  int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
+  bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
+  bool operator==(const TileCoverage&) const = default;
+};
+
+/// Fallback of a cell outside the bounds of the grid.
+enum class OutOfBounds { ancestor, nothing };
+
+struct CoverInput {
+  const PatchTree& tree;
+  TreeGrowth& growth;  ///< of that tree
+  const View& view;
+  const std::vector<SelectedPatch>& patches;
+  const TileResidency& residency;
+  double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
+  OutOfBounds out_of_bounds = OutOfBounds::ancestor;
+  bool has_relief = false;  ///< patches have heights
+};
+
+/// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
+/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile:
+/// TileUses::note() does. Windows that the tree does not have are made in the growth. Longitude wraps; cells beyond the
+/// planet repeat its edge. A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell
+/// takes a tile whose texels are a little longer than a pixel if the view would want far more texels of a full grid
+/// than it has pixels. thread: any
+void cover_with_tiles(const CoverInput& input, TileCoverage& out);
+
+/// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).
+[[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);
+
+}  // namespace terrella

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "geo/coordinates.h"
+#include "streaming/byte_range.h"
+
+/// Parts of a PMTiles archive, version 3 (github.com/protomaps/PMTiles, spec/v3). Every function takes hostile bytes;
+/// the errors do not name the file.
+// thread: any, for all of this header
+namespace terrella {
+
+inline constexpr std::size_t kPmtilesHeaderBytes = 127;
+/// Header and root directory lie within these bytes.
+inline constexpr std::uint64_t kPmtilesHeadBytes = 16384;
+/// A larger directory or larger metadata count as broken: bytes in the file, and after decompression.
+inline constexpr std::uint64_t kMaxPackedBytes = 4U << 20;
+inline constexpr std::size_t kMaxUnpackedBytes = 8U << 20;
+
+/// Names of the specification.
+enum class PmtilesCompression : std::uint8_t { unknown, none, gzip, brotli, zstd };
+
+struct PmtilesHeader {
+  ByteRange root;
+  ByteRange metadata;
+  ByteRange leaves;  ///< leaf directories; their offsets count from here
+  ByteRange tiles;   ///< tile data; offsets of tiles count from here
+  PmtilesCompression directory_compression = PmtilesCompression::none;
+  PmtilesCompression tile_compression = PmtilesCompression::none;
+  int min_level = 0;
+  int max_level = 0;  ///< ≥ min_level, ≤ kMaxTileLevel
+  GeoRect bounds;     ///< the whole planet if the header states no area
+};
+
+/// True for the first bytes of an archive of any version.
+[[nodiscard]] bool begins_as_pmtiles(std::span<const std::byte> head);
+
+/// Reads the header. Refuses other versions, vector tiles, AVIF, compressions other than gzip, and sections beyond the
+/// end of a file of `file_bytes`, if known.
+[[nodiscard]] Result<PmtilesHeader> parse_pmtiles_header(std::span<const std::byte> head,
+                                                         std::optional<std::uint64_t> file_bytes);
+
+/// An entry of a directory: `run` tiles from number `tile` on that share the same bytes, or a leaf directory if `run`
+/// is 0. The offset counts from the section of tiles or of leaves.
+struct PmtilesEntry {
+  std::uint64_t tile = 0;
+  std::uint64_t offset = 0;
+  std::uint32_t length = 0;  ///< ≥ 1
+  std::uint32_t run = 0;
+};
+/// In ascending order of tiles; runs do not overlap. Never empty.
+using PmtilesDirectory = std::vector<PmtilesEntry>;
+
+/// Decompresses, to at most kMaxUnpackedBytes.
+[[nodiscard]] Result<std::vector<std::byte>> unpack(std::span<const std::byte> bytes, PmtilesCompression compression,
+                                                    std::size_t max_bytes = kMaxUnpackedBytes);
+/// Reads a directory after decompression. Refuses numbers that end early or overflow, empty tiles, entries out of
+/// order, and runs that overlap.
+[[nodiscard]] Result<PmtilesDirectory> parse_pmtiles_directory(std::span<const std::byte> bytes);
+/// The entry that covers the tile: a run that contains it, or the leaf directory that may list it; null if none.
+[[nodiscard]] const PmtilesEntry* find_entry(const PmtilesDirectory& directory, std::uint64_t tile);
+
+}  // namespace terrella

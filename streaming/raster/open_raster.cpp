@@ -1,0 +1,169 @@
+#include "streaming/raster/open_raster.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "streaming/raster/row_raster.h"
+#include "streaming/raster/tiff_coding.h"
+#include "streaming/raster/tiff_level.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Conversion of samples to the pixels of blocks.
+struct PixelCoding {
+  std::optional<ColourConverter> colours;
+  std::optional<NumberCoding> numbers;  ///< set: blocks are numbers, and there are no colours
+};
+
+/// One level: tiles that are read by themselves, or rows that are read once.
+struct RasterPart {
+  TiffLevel level;
+  std::unique_ptr<TiffTileLevel> tiles;
+  std::unique_ptr<TiffRowLevel> rows;
+  std::unique_ptr<BlockStore> store;
+};
+
+/// What blocks need to be decoded. Lives as long as the last of them.
+struct TiffParts {
+  std::string name;
+  PixelCoding coding;
+  std::vector<RasterPart> parts;
+};
+
+bool is_tiled(const TiffLevel& level) { return level.part.picture.tiled && (!level.mask || level.mask->picture.tiled); }
+
+TileFailure broken_block(const TiffParts& parts, const TileId& block, const std::string& why) {
+  return {
+      .kind = MissingKind::broken,
+      .why = fmt::format("{}: block {}, {} of level {} cannot be read: {}; the file is truncated or damaged, get it "
+                         "again",
+                         parts.name, block.x, block.y, block.level, why)};
+}
+
+Result<Image, TileFailure> picture_of(TiffParts& parts, const TileId& block) {
+  RasterPart& part = parts.parts[static_cast<std::size_t>(block.level)];
+  if (part.tiles) {
+    auto image = part.tiles->colours(block.x, block.y, *parts.coding.colours);
+    if (!image) return broken_block(parts, block, image.error().message);
+    return *std::move(image);
+  }
+  return stored_picture(*part.store, block.x, block.y);
+}
+
+Result<Numbers, TileFailure> heights_of(TiffParts& parts, const TileId& block) {
+  RasterPart& part = parts.parts[static_cast<std::size_t>(block.level)];
+  if (part.tiles) {
+    auto numbers = part.tiles->numbers(block.x, block.y, *parts.coding.numbers);
+    if (!numbers) return broken_block(parts, block, numbers.error().message);
+    return *std::move(numbers);
+  }
+  return stored_numbers(*part.store, block.x, block.y);
+}
+
+class TiffRaster : public RasterSource {
+ public:
+  TiffRaster(std::shared_ptr<TiffParts> parts, RasterInfo info) : parts_(std::move(parts)), info_(std::move(info)) {}
+  [[nodiscard]] const RasterInfo& info() const override { return info_; }
+
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
+    if (!has_block(info_, block)) return TileFailure{.kind = MissingKind::absent, .why = {}};
+    EncodedTile tile;
+    if (parts_->coding.numbers) {
+      tile.make_numbers = [parts = parts_, block] { return heights_of(*parts, block); };
+    } else {
+      tile.make_picture = [parts = parts_, block] { return picture_of(*parts, block); };
+    }
+    return tile;
+  }
+
+ private:
+  std::shared_ptr<TiffParts> parts_;
+  RasterInfo info_;
+};
+
+/// The transform of an overview, which covers the same area as the picture.
+Affine scaled_place(const Affine& place, double columns, double rows) {
+  Affine scaled = place;
+  scaled.x_per_column *= columns;
+  scaled.y_per_column *= columns;
+  scaled.x_per_row *= rows;
+  scaled.y_per_row *= rows;
+  return scaled;
+}
+
+RasterPart make_part(const TiffLevel& level, const TiffParts& parts, const RasterOptions& options, bool opaque) {
+  RasterPart part{.level = level, .tiles = {}, .rows = {}, .store = {}};
+  if (is_tiled(level)) {
+    part.tiles = std::make_unique<TiffTileLevel>(level);
+    return part;
+  }
+  part.rows = std::make_unique<TiffRowLevel>(level, options.jobs);
+  const TiffPicture& picture = level.part.picture;
+  const StoredPixels pixels{.width_px = picture.width_px,
+                            .height_px = picture.height_px,
+                            .pixel_bytes = opaque && !options.heights ? std::size_t{3} : std::size_t{4}};
+  auto next_row = [&coding = parts.coding, rows = part.rows.get(), y = std::int64_t{0},
+                   numbers = std::vector<float>()](std::span<std::uint8_t> pixel_row) mutable {
+    if (!coding.numbers) return rows->colours(y++, *coding.colours, pixel_row.data());
+    numbers.resize(pixel_row.size() / sizeof(float));
+    Status read = rows->numbers(y++, *coding.numbers, numbers.data());
+    std::memcpy(pixel_row.data(), numbers.data(), pixel_row.size());
+    return read;
+  };
+  part.store = std::make_unique<BlockStore>(pixels, temporary_folder(options.work_folder), std::move(next_row));
+  return part;
+}
+
+RasterLevel shape_of(const RasterPart& part, const RasterPlace& place, const TiffPicture& whole) {
+  const TiffPicture& picture = part.level.part.picture;
+  const double columns = static_cast<double>(whole.width_px) / static_cast<double>(picture.width_px);
+  const double rows = static_cast<double>(whole.height_px) / static_cast<double>(picture.height_px);
+  return {.width_px = picture.width_px,
+          .height_px = picture.height_px,
+          .block_width_px = part.tiles ? static_cast<int>(picture.tile_width_px) : part.store->block_width_px(),
+          .block_height_px = part.tiles ? static_cast<int>(picture.tile_height_px) : part.store->block_height_px(),
+          .to_crs = scaled_place(place.to_crs, columns, rows)};
+}
+
+Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOptions& options) {
+  const CodingOptions given{.nodata = options.nodata, .scale = options.scale, .offset = options.offset};
+  PixelCoding coding;
+  if (options.heights) {
+    const auto numbers = numbers_of(pyramid, given);
+    if (!numbers) return numbers.error();
+    coding.numbers = *numbers;
+    return coding;
+  }
+  auto colours = colours_of(pyramid, given);
+  if (!colours) return colours.error();
+  coding.colours = *std::move(colours);
+  return coding;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const RasterPlace& place,
+                                                  const RasterOptions& options) {
+  auto pyramid = read_pyramid(path);
+  if (!pyramid) return pyramid.error();
+  auto coding = choose_coding(*pyramid, options);
+  if (!coding) return coding.error();
+  const TiffLevel& whole = pyramid->whole();
+  RasterInfo info{.name = path.stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
+  info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
+  if (options.heights) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  const auto nodata = options.nodata ? options.nodata : pyramid->metadata.nodata;
+  auto parts = std::make_shared<TiffParts>(TiffParts{path.string(), *std::move(coding), {}});
+  for (TiffLevel& level : pyramid->levels) {
+    level.part.picture.samples.nodata = nodata;  // for tiles that are not stored
+    parts->parts.push_back(make_part(level, *parts, options, info.opaque));
+    info.levels.push_back(shape_of(parts->parts.back(), place, whole.part.picture));
+  }
+  return std::unique_ptr<RasterSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
+}
+
+}  // namespace terrella

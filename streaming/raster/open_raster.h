@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/georeference/affine.h"
+#include "streaming/raster/raster_source.h"
+
+namespace terrella {
+
+using RasterPlace = CrsPlace;
+
+struct RasterOptions {
+  bool heights = false;  ///< blocks are numbers: metres = stored value · scale + offset
+  /// Default: the file's own (GDAL_NODATA, GDAL_METADATA). With heights, no data becomes NaN; without, transparent.
+  std::optional<double> nodata = {};
+  std::optional<double> scale = {};
+  std::optional<double> offset = {};
+  /// For the temporary file of a large picture that is read row by row; empty: the system's folder (TMPDIR).
+  std::filesystem::path work_folder = {};
+  int jobs = 0;  ///< threads that decode rows; 0: one for each core. Blocks are decoded by the thread that reads them
+};
+
+/// Opens a TIFF or BigTIFF as a raster, with its overviews (in the file, or FILE.ovr) and masks. Tiles are decoded from
+/// the file by themselves. Striped pictures are decoded once, when blocks are asked for (block_store.h). For other
+/// picture files see streaming/cut/input/picture_raster.h. The error names the file, the fault and a cure. Blocks.
+/// thread: any
+[[nodiscard]] Result<std::unique_ptr<RasterSource>> open_raster(const std::filesystem::path& path,
+                                                                const RasterPlace& place,
+                                                                const RasterOptions& options = {});
+
+/// Facts about a TIFF for a person.
+struct RasterFacts {
+  std::int64_t width_px = 0;
+  std::int64_t height_px = 0;
+  int bands = 0;
+  std::string samples;                                           ///< "16-bit signed integers"
+  std::string layout;                                            ///< "RGB, tiles of 256x256, bands separate, DEFLATE"
+  std::vector<std::pair<std::int64_t, std::int64_t>> overviews;  ///< sizes, pixels, the largest first
+  bool has_mask = false;
+  std::optional<double> nodata = {};
+  double scale = 1.0;  ///< value = stored number · scale + offset
+  double offset = 0.0;
+  std::string unit;
+  /// Facts that change what is shown: "values from 1000 to 3520 are shown from black to white (…)".
+  std::vector<std::string> notes;
+};
+
+/// Reads the facts; none if the file is no TIFF. Reads some pixels if the picture needs a stretch. Blocks. thread: any
+[[nodiscard]] Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path);
+
+}  // namespace terrella

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/result.h"
+#include "streaming/raster/tiff_reader.h"
+#include "streaming/raster/tiff_samples.h"
+
+namespace terrella {
+
+/// Most memory for a decoded tile or row, bytes. A file with larger ones is refused with advice.
+inline constexpr std::uint64_t kMaxTiffTileBytes = 64ULL << 20;
+
+/// One directory of a TIFF: size, blocks and samples, with all values checked against each other.
+struct TiffPicture {
+  std::uint64_t directory = 0;  ///< offset of the directory in the file, bytes
+  std::int64_t width_px = 0;
+  std::int64_t height_px = 0;
+  bool reduced = false;  ///< a smaller version of another picture in the file
+  bool mask = false;     ///< transparency of another picture in the file
+  bool tiled = false;
+  bool separate = false;            ///< each sample has a plane of blocks of its own
+  std::int64_t tile_width_px = 0;   ///< 0: strips
+  std::int64_t tile_height_px = 0;  ///< 0: strips
+  std::int64_t rows_per_strip = 1;  ///< at most height_px
+  int compression = COMPRESSION_NONE;
+  TiffSamples samples;
+
+  [[nodiscard]] std::size_t planes() const { return separate ? samples.per_pixel : 1; }
+  /// Samples of a pixel in one plane.
+  [[nodiscard]] std::size_t plane_samples() const { return separate ? 1 : samples.per_pixel; }
+  [[nodiscard]] std::size_t row_bytes() const { return static_cast<std::size_t>(width_px) * samples.pixel_bytes(); }
+  [[nodiscard]] std::int64_t tile_columns() const { return (width_px + tile_width_px - 1) / tile_width_px; }
+  [[nodiscard]] std::int64_t tile_rows() const { return (height_px + tile_height_px - 1) / tile_height_px; }
+  /// Bytes of `pixels` pixels of a row in one plane, as libtiff gives them.
+  [[nodiscard]] std::size_t packed_bytes(std::int64_t pixels) const;
+};
+
+/// Reads the current directory. Samples of one colour plane may be numbers of any type; see TiffSamples. The error
+/// names the file, the unsupported or contradictory value, and a cure. thread: that of the reader
+[[nodiscard]] Result<TiffPicture> read_picture(TiffReader& reader);
+
+/// "FILE: WHAT; save it as … (gdal_translate …)"
+[[nodiscard]] Error refuse_tiff(const std::string& name, const std::string& what);
+
+}  // namespace terrella

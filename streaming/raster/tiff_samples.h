@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace terrella {
+
+enum class TiffColour { gray, gray_inverted, rgb, palette };
+enum class TiffAlpha { none, straight, premultiplied };
+enum class SampleType { uint8, int8, uint16, int16, uint32, int32, float32, float64 };
+
+[[nodiscard]] std::size_t sample_bytes(SampleType type);
+/// "8-bit unsigned integers"
+[[nodiscard]] std::string sample_title(SampleType type);
+
+/// The range of values that a picture shows from black to white; low < high.
+struct Stretch {
+  double low = 0.0;
+  double high = 255.0;
+};
+
+/// Layout and meaning of the samples in a TIFF's pixels, after unpacking: samples of a pixel together, none shorter
+/// than a byte.
+struct TiffSamples {
+  TiffColour colour = TiffColour::rgb;
+  TiffAlpha alpha = TiffAlpha::none;
+  SampleType type = SampleType::uint8;
+  int stored_bits = 8;                               ///< 1, 2 and 4 are unpacked to SampleType::uint8
+  std::size_t per_pixel = 3;                         ///< colours first, then alpha if present, then ignored samples
+  std::vector<std::array<std::uint8_t, 3>> palette;  ///< 2^stored_bits entries, for TiffColour::palette
+  std::optional<double> nodata = {};                 ///< a pixel whose colours all have this value is transparent
+  /// Without it 16-bit samples are divided by 257. Samples with a sign, of 32 bits and floats need it.
+  std::optional<Stretch> stretch = {};
+
+  [[nodiscard]] std::size_t colours() const { return colour == TiffColour::rgb ? 3 : 1; }
+  [[nodiscard]] std::size_t pixel_bytes() const { return per_pixel * sample_bytes(type); }
+  /// True if a pixel may be transparent.
+  [[nodiscard]] bool may_be_clear() const;
+};
+
+/// Converts pixels to straight RGBA8. Makes tables once. thread: any, several at once
+class ColourConverter {
+ public:
+  explicit ColourConverter(TiffSamples samples);
+  [[nodiscard]] const TiffSamples& samples() const { return samples_; }
+  void to_rgba(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const;
+
+ private:
+  template <class T>
+  void convert(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const;
+  template <class T>
+  [[nodiscard]] std::uint8_t level(T value) const;
+  [[nodiscard]] std::uint8_t level_of(double value) const;
+
+  TiffSamples samples_;
+  bool is_plain_rgb_ = false;         ///< three bytes that are the colours
+  std::vector<std::uint8_t> levels_;  ///< result for each value of 8 or 16 bits, by its bits
+};
+
+/// Conversion of samples to physical numbers: value · scale + offset.
+struct NumberCoding {
+  std::size_t band = 0;  ///< index of the sample in its pixel
+  std::optional<double> nodata = {};
+  double scale = 1.0;
+  double offset = 0.0;
+};
+
+/// Converts one sample of each pixel to a float. No data, NaN and infinite samples give NaN. thread: any
+void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std::uint8_t* from, std::size_t pixels,
+               float* numbers);
+
+/// Unpacks samples of 1, 2 or 4 bits, the first in the highest bits, to a byte each. thread: any
+void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to);
+
+/// Fills pixels with a value in every sample, or with the nearest value that the type has. thread: any
+void fill_samples(const TiffSamples& samples, double value, std::size_t pixels, std::uint8_t* to);
+
+}  // namespace terrella

@@ -1,0 +1,106 @@
+#include "streaming/raster/tiff_stretch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "streaming/raster/tiff_level.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::int64_t kSampledPieces = 64;
+constexpr std::int64_t kSampledPixels = 1 << 25;
+/// From here on, 16-bit values fill enough of the range to be shown unstretched.
+constexpr double kUpperHalf = 32768.0;
+
+void keep_known(const float* numbers, std::size_t count, std::vector<float>& values) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::isfinite(numbers[i])) values.push_back(numbers[i]);
+  }
+}
+
+/// Number of pieces to read, of `count` pieces of `pixels` pixels each.
+std::int64_t pieces_to_read(std::int64_t count, std::int64_t pixels) {
+  return std::clamp<std::int64_t>(kSampledPixels / pixels, 1, std::min(count, kSampledPieces));
+}
+
+Status sample_tiles(const TiffLevel& level, const NumberCoding& coding, std::vector<float>& values) {
+  TiffTileLevel tiles(level);
+  const TiffPicture& picture = level.part.picture;
+  const std::int64_t count = picture.tile_columns() * picture.tile_rows();
+  const std::int64_t reads = pieces_to_read(count, picture.tile_width_px * picture.tile_height_px);
+  for (std::int64_t i = 0; i < reads; ++i) {
+    const std::int64_t at = (2 * i + 1) * count / (2 * reads);
+    const std::int64_t column = at % picture.tile_columns();
+    const std::int64_t row = at / picture.tile_columns();
+    const auto numbers = tiles.numbers(column, row, coding);
+    if (!numbers) return Error{fmt::format("{}: {}", level.part.file->name(), numbers.error().message)};
+    const auto wide =
+        static_cast<std::size_t>(std::min(picture.tile_width_px, picture.width_px - column * picture.tile_width_px));
+    const std::int64_t high = std::min(picture.tile_height_px, picture.height_px - row * picture.tile_height_px);
+    for (std::int64_t y = 0; y < high; ++y) {
+      keep_known(numbers->values.data() + y * picture.tile_width_px, wide, values);
+    }
+  }
+  return Done{};
+}
+
+Status sample_rows(const TiffLevel& level, const NumberCoding& coding, std::vector<float>& values) {
+  TiffRowLevel rows(level, 0);
+  const TiffPicture& picture = level.part.picture;
+  const std::int64_t reads = pieces_to_read(picture.height_px, picture.width_px);
+  std::vector<float> row(static_cast<std::size_t>(picture.width_px));
+  for (std::int64_t i = 0; i < reads; ++i) {
+    const std::int64_t y = (2 * i + 1) * picture.height_px / (2 * reads);
+    if (Status read = rows.numbers(y, coding, row.data()); !read) return read;
+    keep_known(row.data(), row.size(), values);
+  }
+  return Done{};
+}
+
+/// The value below which a share of the values lies. Reorders the values.
+double percentile(std::vector<float>& values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::ranges::nth_element(values, values.begin() + at);
+  return static_cast<double>(values[static_cast<std::size_t>(at)]);
+}
+
+Result<Stretch> range_of_samples(const TiffLevel& level, const std::optional<double>& nodata) {
+  const TiffPicture& picture = level.part.picture;
+  const bool tiled = picture.tiled && (!level.mask || level.mask->picture.tiled);
+  std::vector<float> values;
+  for (std::size_t band = 0; band < picture.samples.colours(); ++band) {
+    const NumberCoding coding{.band = band, .nodata = nodata};
+    if (Status read = tiled ? sample_tiles(level, coding, values) : sample_rows(level, coding, values); !read) {
+      return read.error();
+    }
+  }
+  if (values.empty()) return Stretch{.low = 0.0, .high = 1.0};
+  const double low = percentile(values, 0.02);
+  return Stretch{.low = low, .high = percentile(values, 0.98)};
+}
+
+}  // namespace
+
+Result<std::optional<Stretch>> find_stretch(const TiffPyramid& pyramid, const std::optional<double>& nodata) {
+  const TiffSamples& samples = pyramid.levels.front().part.picture.samples;
+  if (samples.type == SampleType::uint8 || samples.colour == TiffColour::palette) return std::optional<Stretch>{};
+  Stretch range;
+  const TiffMetadata& metadata = pyramid.metadata;
+  if (metadata.least && metadata.most) {
+    range = {.low = *metadata.least, .high = *metadata.most};
+  } else {
+    const auto sampled = range_of_samples(pyramid.levels.front(), nodata);
+    if (!sampled) return sampled.error();
+    range = *sampled;
+  }
+  if (samples.type == SampleType::uint16 && range.high >= kUpperHalf) return std::optional<Stretch>{};
+  // A picture of one value is shown in the middle of the range.
+  if (!(range.low < range.high)) range = {.low = range.low - 0.5, .high = range.low + 0.5};
+  return std::optional(range);
+}
+
+}  // namespace terrella

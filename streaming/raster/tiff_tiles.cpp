@@ -1,0 +1,118 @@
+#include "streaming/raster/tiff_tiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace terrella {
+namespace {
+
+std::uint32_t tile_index(const TiffPicture& picture, std::size_t plane, std::int64_t column, std::int64_t row) {
+  const std::int64_t of_plane = picture.tile_columns() * picture.tile_rows();
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(plane) * of_plane + row * picture.tile_columns() +
+                                    column);
+}
+
+std::string why_not(const TiffReader& reader) {
+  return reader.message().empty() ? "the data end too early" : reader.message();
+}
+
+/// No codec makes a tile much larger than its samples. A larger size in the file is damage.
+std::uint64_t most_stored_bytes(const TiffPicture& picture) {
+  const auto packed = static_cast<std::uint64_t>(picture.packed_bytes(picture.tile_width_px)) *
+                      static_cast<std::uint64_t>(picture.tile_height_px);
+  return 2 * packed + (1U << 20);
+}
+
+}  // namespace
+
+Result<std::vector<ByteSpan>> tile_spans(TiffReader& reader, const TiffPicture& picture, std::int64_t column,
+                                         std::int64_t row) {
+  std::vector<ByteSpan> spans;
+  for (std::size_t plane = 0; plane < picture.planes(); ++plane) {
+    const std::uint32_t index = tile_index(picture, plane, column, row);
+    int failed = 0;
+    ByteSpan span;
+    span.offset = TIFFGetStrileOffsetWithErr(reader.get(), index, &failed);
+    if (failed == 0) span.size = TIFFGetStrileByteCountWithErr(reader.get(), index, &failed);
+    if (failed != 0) return Error{"its table of tiles is damaged: " + why_not(reader)};
+    const std::uint64_t end = reader.bytes().size();
+    if (span.size > 0 && (span.offset > end || span.size > end - span.offset)) {
+      return Error{
+          fmt::format("its bytes {} to {} lie beyond the end of the file", span.offset, span.offset + span.size)};
+    }
+    if (span.size > most_stored_bytes(picture)) return Error{fmt::format("it cannot have {} bytes", span.size)};
+    spans.push_back(span);
+  }
+  return spans;
+}
+
+void place_plane(const TiffPicture& picture, std::size_t plane, const std::uint8_t* packed, std::int64_t pixels,
+                 std::uint8_t* to) {
+  const TiffSamples& samples = picture.samples;
+  const std::size_t count = static_cast<std::size_t>(pixels) * picture.plane_samples();
+  const std::size_t bytes = sample_bytes(samples.type);
+  std::vector<std::uint8_t> unpacked;
+  if (samples.stored_bits < 8) {
+    unpacked.resize(count);
+    unpack_bits(samples.stored_bits, packed, count, unpacked.data());
+    packed = unpacked.data();
+  }
+  if (!picture.separate) {
+    std::memcpy(to, packed, count * bytes);
+    return;
+  }
+  const std::size_t step = samples.pixel_bytes();
+  to += plane * bytes;
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * step, packed + i * bytes, bytes);
+}
+
+Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPicture& picture, std::int64_t column,
+                                              std::int64_t row, std::vector<std::vector<std::byte>> planes,
+                                              std::int64_t rows) {
+  const std::int64_t width = picture.tile_width_px;
+  const std::size_t row_bytes = picture.packed_bytes(width);
+  const std::size_t to_row_bytes = static_cast<std::size_t>(width) * picture.samples.pixel_bytes();
+  std::vector<std::uint8_t> samples(static_cast<std::size_t>(rows) * to_row_bytes);
+  if (std::ranges::any_of(planes, [](const auto& bytes) { return bytes.empty(); })) {
+    fill_samples(picture.samples, picture.samples.nodata.value_or(0.0), static_cast<std::size_t>(rows * width),
+                 samples.data());
+  }
+  const bool direct = !picture.separate && picture.samples.stored_bits >= 8;
+  std::vector<std::uint8_t> packed(direct ? 0 : static_cast<std::size_t>(rows) * row_bytes);
+  for (std::size_t plane = 0; plane < picture.planes(); ++plane) {
+    std::vector<std::byte>& bytes = planes[plane];
+    if (bytes.empty()) continue;
+    std::uint8_t* into = direct ? samples.data() : packed.data();
+    reader.clear_message();
+    if (TIFFReadFromUserBuffer(reader.get(), tile_index(picture, plane, column, row), bytes.data(),
+                               static_cast<tmsize_t>(bytes.size()), into,
+                               static_cast<tmsize_t>(static_cast<std::size_t>(rows) * row_bytes)) != 1) {
+      return Error{why_not(reader)};
+    }
+    for (std::int64_t y = 0; !direct && y < rows; ++y) {
+      place_plane(picture, plane, packed.data() + static_cast<std::size_t>(y) * row_bytes, width,
+                  samples.data() + static_cast<std::size_t>(y) * to_row_bytes);
+    }
+  }
+  return samples;
+}
+
+Result<std::vector<std::uint8_t>> read_tile(TiffReaders& readers, const TiffPicture& picture, std::int64_t column,
+                                            std::int64_t row, std::int64_t rows) {
+  auto reader = readers.lend();
+  if (!reader) return reader.error();
+  const auto spans = tile_spans(**reader, picture, column, row);
+  if (!spans) return spans.error();
+  std::vector<std::vector<std::byte>> planes;
+  for (const ByteSpan& span : *spans) {
+    planes.emplace_back(static_cast<std::size_t>(span.size));
+    if (readers.bytes()->read_at(span.offset, planes.back()) != planes.back().size()) {
+      return Error{"the file cannot be read to the tile's end"};
+    }
+  }
+  return decode_tile(**reader, picture, column, row, std::move(planes), rows);
+}
+
+}  // namespace terrella

@@ -1,0 +1,116 @@
+// A scene pays for none of what it does not use: which shader programs there are, by name.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tests/gl/gl_fixture.h"
+#include "tests/gl/painted_heights.h"
+#include "tests/scene/patch_test_support.h"
+
+#include <epoxy/gl.h>
+
+namespace terrella::test {
+namespace {
+
+using Names = std::set<std::string>;
+constexpr Viewport kProgramsPicture{64, 64};
+const TileGrid kProgramsGrid{.tile_px = 64, .max_level = 1};
+
+/// Of all programs in the context, which are labelled with the file that makes them what they are.
+std::multiset<std::string> all_programs() {
+  constexpr GLuint kMostNames = 4096;  // objects of a context are numbered from 1
+  std::multiset<std::string> names;
+  for (GLuint name = 1; name < kMostNames; ++name) {
+    if (glIsProgram(name) == GL_FALSE) continue;
+    char label[256] = {};
+    glGetObjectLabel(GL_PROGRAM, name, sizeof label, nullptr, label);
+    names.insert(label);
+  }
+  return names;
+}
+Names programs() {
+  const auto all = all_programs();
+  return {all.begin(), all.end()};
+}
+
+class Programs : public GlTest {
+ protected:
+  /// Those that a globe's frame has made.
+  Names of(const GlobeOptions& options, const ObjectScene& objects = {}) {
+    const auto globe = make_globe(options, one_colour(kProgramsGrid, {200, 120, 40}));
+    if (!objects.empty()) {
+      EXPECT_TRUE(globe->add_objects(objects));
+    }
+    globe->set_camera(camera_at(10, 20, 2.0e7));
+    settle(*globe, kProgramsPicture);
+    return programs();
+  }
+  /// What the plain globe does not have.
+  static Names more(Names all) {
+    for (const std::string& name : plain()) EXPECT_EQ(all.erase(name), 1U) << name;
+    return all;
+  }
+  static Names plain() {
+    return {"limb.frag", "patch_magnified.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
+  }
+};
+
+TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
+  EXPECT_EQ(of({}), plain());
+  GlobeOptions options;
+  options.texturing = Texturing::vertex;
+  Names no_polar = plain();
+  no_polar.erase("patch_polar.frag");
+  EXPECT_EQ(of(options), no_polar);
+}
+
+TEST_F(Programs, TranslucencyBringsADepthPassAndWithSomethingBelowTheInnerSphere) {
+  GlobeOptions options;
+  options.surface.alpha = 0.5;
+  EXPECT_EQ(more(of(options)), Names{"patch_depth.frag"});
+  const ObjectScene below{.points = {{.place = {.lat = {}, .lon = {}, .height_m = -2.0e5}}}};
+  const Names all = more(of(options, below));
+  EXPECT_TRUE(all.contains("patch_depth.frag") && all.contains("inner_sphere.frag")) << testing::PrintToString(all);
+}
+
+TEST_F(Programs, StereoBringsOneWhereRowsAreToldApartAndNoneElse) {
+  GlobeOptions options;
+  for (const Stereo stereo : {Stereo::side_by_side, Stereo::anaglyph}) {
+    options.stereo.mode = stereo;
+    EXPECT_EQ(of(options), plain());
+  }
+  options.stereo.mode = Stereo::interlaced;
+  EXPECT_EQ(more(of(options)), Names{"interlace.frag"});
+}
+
+TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAgain) {
+  const auto globe = make_globe({}, one_colour(kProgramsGrid, {200, 120, 40}));
+  globe->set_camera(camera_at(10, 20, 2.0e7));
+  const auto count = [&](const ImageLook& look) {
+    EXPECT_TRUE(globe->add_imagery(one_colour(kProgramsGrid, {200, 120, 40}), look));
+    settle(*globe, kProgramsPicture);
+    const auto all = all_programs();
+    return std::pair(all.count("patch_polar.frag"), all.size());
+  };
+  const std::size_t alone = plain().size();
+  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 5)) << "and a flat one";
+  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 5)) << "no time";
+  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 9));
+}
+
+TEST_F(Programs, TheSkyBringsStarsSunMoonAndAir) {
+  GlobeOptions options;
+  options.sky = true;
+  EXPECT_EQ(more(of(options)), (Names{"sky_air.frag", "sky_moon.frag", "sky_star.frag", "sky_sun.frag"}));
+}
+
+TEST_F(Programs, ObjectsBringTheirsAndMeshesAndLabelsOnlyWhereThereAreAny) {
+  for (const std::string& name : more(of({}, {.points = {{.radius_m = 1.0e5}}}))) {
+    EXPECT_TRUE(name.starts_with("object_")) << name;
+    EXPECT_TRUE(name != "object_mesh.frag" && name != "object_label.frag") << name;
+  }
+}
+
+}  // namespace
+}  // namespace terrella::test
