@@ -28,7 +28,11 @@ Status read_tag(TIFF* tiff, ttag_t tag, TIFFDataType type, const char* name, Int
   if (field == nullptr) return Done{};
   const bool readable = TIFFFieldDataType(field) == type && TIFFFieldReadCount(field) == TIFF_VARIABLE2;
   if (!readable) return Error{fmt::format("its tag {} ({}) has a wrong type", tag, name)};
-  if (TIFFGetField(tiff, tag, &count, &values) == 1 && values != nullptr) into.assign(values, values + count);
+  // libtiff leaves out a tag whose count is not plausible.
+  if (TIFFGetField(tiff, tag, &count, &values) != 1 || values == nullptr) {
+    return Error{fmt::format("its tag {} ({}) cannot be read", tag, name)};
+  }
+  into.assign(values, values + count);
   return Done{};
 }
 

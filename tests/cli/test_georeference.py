@@ -489,7 +489,9 @@ HOSTILE = {
     "radius of 1e308": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [HUGE, HUGE]), *HERE],
     "negative radius": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [-1737400.0, -1737400.0]), *HERE],
     "unknown geographic code": [geo_keys((1024, 2), (1025, 1), (2048, 31999)), *HERE],
-    "unknown projected code": [geo_keys((1024, 1), (1025, 1), (3072, 31999)), *HERE],
+    "geographic code of a projected system": [geo_keys((1024, 2), (1025, 1), (2048, 32633)), *HERE],
+    "projected code of a geographic system": [geo_keys((1024, 1), (1025, 1), (3072, 4326)), *HERE],
+    "unknown projected code": [geo_keys((1024, 1), (1025, 1), (3072, 32999)), *HERE],
     "projected without a projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326)), *HERE],
     "unknown projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326), (3072, 32767), (3074, 32767), (3075, 9999)), *HERE],
     "geographic and projected": [geo_keys((1024, 2), (1025, 1), (2048, 4326), (3072, 32633)), *HERE],
@@ -519,6 +521,7 @@ class Hostile(GeoreferenceTest):
     def test_tags(self):
         for name, tags in HOSTILE.items():
             with self.subTest(name):
+                (self.folder / "out.gpkg").unlink(missing_ok=True)
                 self.write("in.tif", tiff(64, 32, tags))
                 message = self.assert_refused("in.tif")
                 self.assertRegex(message, "--crs|--bounds|gdal", message)

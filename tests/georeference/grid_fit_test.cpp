@@ -67,7 +67,7 @@ TEST(GridFitTest, BandsRoundThePlanet) {
   EXPECT_FALSE(band.whole_planet);
   EXPECT_EQ(band.bounds.west.deg(), -180.0);
   EXPECT_EQ(band.bounds.east.deg(), 180.0);
-  EXPECT_EQ(band.bounds.south.deg(), -30.0);
+  EXPECT_NEAR(band.bounds.south.deg(), -30.0, 1e-9);
 }
 
 TEST(GridFitTest, PixelsThatAreNotTheGrids) {
