@@ -62,7 +62,7 @@ TEST(DescribeRemote, ADescriptionSaysWhatHeightsMean) {
   EXPECT_EQ(set->info.format, ImageFormat::png);
   web.pages["http://a.org/t.xml"] = kTms;
   web.pages["http://a.org/t.json"] = R"({"tms": "http://a.org/t.xml", "elevation": {"scale": 1, "offset": 0}})";
-  expect_error(web.describe("http://a.org/t.json"), "JPEG");
+  expect_error(web.describe("http://a.org/t.json"), "no PNG pictures");
 }
 
 TEST(DescribeRemote, ATemplateAsksForNothing) {
