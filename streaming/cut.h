@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/place_words.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -43,11 +44,14 @@ struct CutOptions {
   std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency, else JPEG
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
-  /// Default: the place stated by the picture itself (streaming/georeference). Without one the picture is the whole
-  /// planet and must be 2:1. East < west crosses ±180°.
+  /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself
+  /// (streaming/georeference). Without one the picture is the whole planet and must be 2:1.
   std::optional<GeoRect> bounds{};
+  std::string crs{};                         ///< the picture's coordinate system, any text for PROJ; default: as stated
+  std::optional<CrsBounds> crs_bounds = {};  ///< instead of `bounds`: in units of `crs`, or degrees without `crs`
+  std::optional<double> west_deg = {};       ///< a picture of the whole planet begins at this longitude
   Projection projection = Projection::equirectangular;
-  LatitudeKind latitude = LatitudeKind::graphic;
+  std::optional<LatitudeKind> latitude = {};  ///< counted by the rows; default: as the picture states, else graphic
   std::string name{}, attribution{}, body{};
   int jobs = 0;                        ///< number of encoder threads; 0: one for each core
   std::optional<CutShard> shard = {};  ///< cuts only this part, into OUTPUT.shard-I-of-N
@@ -55,6 +59,8 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
+  /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
+  std::function<void(const std::string& remark)> remark{};
 };
 
 struct CutSummary {
@@ -76,7 +82,7 @@ struct CutSummary {
 [[nodiscard]] Status check_pictures(const CutOptions& options);
 
 /// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
-/// change. Blocks. thread: any
+/// change, and the place. Blocks. thread: any
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

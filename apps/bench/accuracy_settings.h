@@ -7,7 +7,7 @@
 #include "apps/bench/truth/ray_caster.h"
 #include "geo/cube_sphere.h"
 #include "globe/globe.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
 // cartographic systems", 2023.

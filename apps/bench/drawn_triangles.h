@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "surface/patch_mesh.h"
-#include "surface/patch_selection.h"
+#include "surface/selected_patch.h"
+#include "surface/view_planes.h"
 
 namespace terrella::bench {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geo/camera.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 namespace terrella::bench {
 

@@ -7,6 +7,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
@@ -20,7 +21,9 @@ namespace {
 constexpr const char* kCutExamples =
     "Examples:\n"
     "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
-    "  terrella cut alps.tif -o tiles --bounds 5,43,17,49 --format png\n"
+    "  terrella cut alps.png -o tiles --bounds 5,43,17,49 --format png\n"
+    "  terrella cut flight.tif -o flight.gpkg                           UTM, or any system that the file states\n"
+    "  terrella cut flight.png -o flight.gpkg --crs EPSG:32633 --bounds 500000,4640000,506400,4650000\n"
     "  terrella cut world.200412.3x21600x21600.??.jpg -o earth.gpkg     NASA's eight parts as one\n"
     "  terrella cut nw.png ne.png sw.png se.png --mosaic 2x2 -o tiles\n"
     "  terrella cut etopo5.png --elevation --offset -32768 -o relief.gpkg\n"
@@ -34,27 +37,9 @@ struct CutCommand {
   CutOptions cut;
   bool elevation = false;
   CutElevation heights;
+  PlaceWords place;
   bool json = false;
 };
-
-Result<GeoRect> parse_bounds(const std::string& text) {
-  std::vector<Angle> sides;
-  for (const std::string_view piece : split_at_commas(text)) {
-    if (const auto degrees = read_number(piece)) sides.push_back(Angle::degrees(*degrees));
-  }
-  if (sides.size() != 4 || split_at_commas(text).size() != 4) {
-    return Error{fmt::format("{} is not W,S,E,N; write four numbers in degrees, as 5,43,17,49", in_quotes(text))};
-  }
-  const bool on_planet = std::abs(sides[0].deg()) <= 180.0 && std::abs(sides[2].deg()) <= 180.0 &&
-                         std::abs(sides[1].deg()) <= 90.0 && std::abs(sides[3].deg()) <= 90.0;
-  if (!on_planet || sides[0] == sides[2] || sides[1] >= sides[3]) {
-    return Error{
-        fmt::format("{}: it takes WEST and EAST in -180...180 (WEST > EAST crosses 180 degrees) and SOUTH < "
-                    "NORTH in -90...90",
-                    in_quotes(text))};
-  }
-  return GeoRect{.west = sides[0], .south = sides[1], .east = sides[2], .north = sides[3]};
-}
 
 /// Parses two whole numbers around a letter, such as 4x2 or 3/8.
 Result<std::pair<int, int>> parse_pair(const std::string& text, char between, const char* wanted) {
@@ -102,6 +87,8 @@ int run(CutCommand& command) {
   command.cut.images.assign(command.images.begin(), command.images.end());
   command.cut.output = command.output;
   if (command.elevation) command.cut.elevation = command.heights;
+  set_place(command.cut, command.place);
+  command.cut.remark = [](const std::string& remark) { print_message("terrella cut: {}\n", remark); };
   const StopSignals signals;
   Result<CutSummary> summary = Error{};
   {
@@ -129,21 +116,17 @@ void add_description_options(CLI::App& app, CutOptions& cut) {
   add_choice<Projection>(app, "--projection", cut.projection,
                          {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
                          "Set the picture's projection; its rows are linear in latitude or in the sine of latitude");
-  add_choice<LatitudeKind>(app, "--latitude", cut.latitude,
-                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
-                           "Set the latitude that the picture's rows count: planetographic or planetocentric");
+  add_choice<LatitudeKind>(
+      app, "--latitude", cut.latitude, {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
+      "Set the latitude that the picture's rows count: planetographic or planetocentric (default: as "
+      "stated by the picture, else graphic)");
   app.add_option("--name", cut.name, "Set the tile set's name (default: the picture's file name)");
   app.add_option("--attribution", cut.attribution, "Set the attribution text shown with the picture");
 }
 
 void add_input_options(CLI::App& app, CutCommand& command) {
   CutOptions& cut = command.cut;
-  app.add_option_function<std::string>(
-         "--bounds", [&cut](const std::string& text) { cut.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
-         "Set the picture's bounds in degrees; W > E crosses 180 (default: as stated by the picture or files beside "
-         "it, "
-         "else the whole planet)")
-      ->type_name("W,S,E,N");
+  add_place_options(app, command.place);
   app.add_option_function<std::string>(
          "--mosaic", [&cut](const std::string& text) { cut.mosaic = parsed_or_throw("--mosaic", parse_mosaic(text)); },
          "Join pictures given in rows from the north-west into a grid (default: by NASA's names A1 to D2, else by the "

@@ -13,6 +13,7 @@
 #include "apps/commands/picture_report.h"
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/verify_tiles.h"
+#include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 
 struct InfoOptions {
   Url tile_set;
+  PlaceWords place;
   bool verify = false;
   bool json = false;
 };
@@ -91,7 +93,7 @@ Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSour
 }
 
 int run_picture_info(const InfoOptions& options) {
-  const Result<std::string> report = picture_report(options.tile_set.with_secrets(), options.json);
+  const Result<std::string> report = picture_report(options.tile_set.with_secrets(), options.place, options.json);
   if (!report) return fail("info", report.error().message);
   print_result("{}", *report);
   return kDone;
@@ -103,6 +105,7 @@ int run_info(const InfoOptions& options) {
   if (is_picture(options.tile_set.with_secrets()) && !options.verify) return run_picture_info(options);
   SceneOptions scene;
   scene.tile_set = options.tile_set;
+  scene.place = options.place;
   const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
   if (!source) return fail("info", source.error().message);
   const std::string& path = options.tile_set.with_secrets();
@@ -138,6 +141,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage, PMTiles, MBTiles or a picture")
       ->required();
+  add_place_options(*command, options->place);
   command->add_flag("--verify", options->verify,
                     "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
   command->add_flag("--json", options->json, "Print the result as one JSON object");

@@ -7,8 +7,8 @@
 #include <unordered_set>
 
 #include "geo/ellipsoid.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 
 namespace terrella {
 namespace {

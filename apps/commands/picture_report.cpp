@@ -4,13 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "streaming/cut.h"
-#include "streaming/cut/input/row_reader.h"
-#include "streaming/georeference/geo_tags.h"
-#include "streaming/georeference/placement.h"
-#include "streaming/other_formats.h"
+#include "apps/commands/picture_facts.h"
+#include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
@@ -18,92 +14,49 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Known facts; unknown ones are absent.
-struct PictureFacts {
-  PictureFile file;
-  int orientation = 1;      ///< EXIF orientation by which the picture is turned; 1: not turned
-  bool is_heights = false;  ///< true for pixel types used only for heights
-  std::optional<Georeference> said;
-  std::optional<CrsFacts> crs;
-  std::optional<Placement> placement;
-  std::string command;  ///< command that shows the picture
-  std::string refused;  ///< reason for a refusal; empty if the picture is accepted
-};
-
-Result<PictureFacts> measure(const fs::path& picture) {
-  PictureFacts facts;
-  facts.file.path = picture;
-  const auto tags = read_geo_tags(picture);
-  if (tags && *tags) {
-    facts.file.width_px = (*tags)->width_px;
-    facts.file.height_px = (*tags)->height_px;
-    facts.is_heights = (*tags)->samples == SampleKind::int16 || (*tags)->samples == SampleKind::floats;
-    return facts;
+/// What `view` does with the picture, in one word for programs.
+const char* kind_word(PlaceKind kind) {
+  switch (kind) {
+    case PlaceKind::planet:
+      return "planet";
+    case PlaceKind::nodes:
+      return "nodes";
+    case PlaceKind::as_it_is:
+      return "as it is";
+    case PlaceKind::rolled:
+      return "rolled";
+    case PlaceKind::warped:
+      return "resampled";
   }
-  const auto rows = open_rows(picture);
-  if (!rows) return rows.error();
-  facts.file.width_px = (*rows)->info().width_px;
-  facts.file.height_px = (*rows)->info().height_px;
-  facts.orientation = (*rows)->info().orientation;
-  return facts;
+  return "";
 }
 
-/// Tests with the cutter whether the picture is accepted, with the options that the picture needs.
-void try_out(PictureFacts& facts) {
-  const NeededOptions needed = facts.crs ? needed_options(*facts.crs) : NeededOptions{};
-  CutOptions cut;
-  cut.images = {facts.file.path};
-  cut.body = needed.body;
-  cut.latitude = needed.centric ? LatitudeKind::centric : LatitudeKind::graphic;
-  // A given scale avoids reading pixels to find the range of heights.
-  if (facts.is_heights) cut.elevation = CutElevation{.scale = 1.0, .offset = 0.0};
-  const std::string name = shell_word(facts.file.path.string());
-  facts.command = facts.is_heights ? fmt::format("terrella cut {}{} --elevation -o HEIGHTS.gpkg", name, needed.text())
-                                   : fmt::format("terrella view {}{}", name, needed.text());
-  if (const Status can = check_pictures(cut); !can) facts.refused = can.error().message;
-}
-
-Result<PictureFacts> look_at(const fs::path& picture) {
-  auto facts = measure(picture);
-  if (!facts) return facts;
-  if (auto said = read_georeference(facts->file)) facts->said = *std::move(said);
-  if (facts->said && !facts->said->crs.empty()) {
-    if (const auto crs = Crs::open(facts->said->crs)) facts->crs = crs->facts();
+std::string kind_text(const PictureFacts& facts) {
+  const PicturePlace& place = *facts.place;
+  const char* latitude = place.latitude == LatitudeKind::centric ? "; its rows count planetocentric latitudes" : "";
+  std::string text = "as it is";
+  if (place.kind == PlaceKind::planet) text = "as it is: a whole planet from -180 degrees";
+  if (place.kind == PlaceKind::nodes) text = "as means of its nodes, a whole planet from -180 degrees";
+  if (place.kind == PlaceKind::rolled)
+    text = fmt::format("as it is, from column {} of the grid on", place.first_column);
+  if (place.kind == PlaceKind::warped) {
+    const bool even = facts.place->placed.placement.has_value();
+    text = even ? "resampled, because its pixels fit no grid"
+                : fmt::format("resampled from {}", facts.crs ? crs_text(*facts.crs, {}) : place.from->crs);
   }
-  if (const auto placed = place_picture(facts->file)) facts->placement = placed->placement;
-  try_out(*facts);
-  return facts;
-}
-
-/// Height of a pixel in metres.
-double pixel_m(const PictureFacts& facts) {
-  const double radius_m = facts.crs ? facts.crs->a_m : earth().ellipsoid.a_m();
-  return facts.placement->pixel_height_deg * radius_m * M_PI / 180.0;
-}
-
-struct Bounds {
-  double west, south, east, north;
-};
-Bounds bounds_of(const PictureFacts& facts) {
-  const Placement& at = *facts.placement;
-  return {at.west_deg, at.north_deg - static_cast<double>(facts.file.height_px) * at.pixel_height_deg,
-          at.west_deg + static_cast<double>(facts.file.width_px) * at.pixel_width_deg, at.north_deg};
+  return text + latitude;
 }
 
 std::string system_text(const PictureFacts& facts) {
   if (!facts.crs) return facts.said->crs.empty() ? "(not said)" : "(not known)";
-  const CrsFacts& crs = *facts.crs;
-  std::string text = crs.name == "unknown" && !facts.said->crs_title.empty() ? facts.said->crs_title : crs.name;
-  if (!crs.code.empty()) text += ", " + crs.code;
-  text += crs.geographic ? ", geographic" : ", projected: " + crs.method;
-  if (crs.central_meridian_deg) text += fmt::format(", central meridian {:.9g}°", *crs.central_meridian_deg);
-  return text + (crs.centric ? ", planetocentric latitude" : "");
+  std::string text = crs_text(*facts.crs, facts.said ? facts.said->crs_title : std::string());
+  if (!facts.words.crs.empty()) text += ", by --crs";
+  return text + (facts.crs->geographic ? ", geographic" : ", projected") +
+         (facts.crs->centric ? ", planetocentric latitude" : "");
 }
 
 std::string said_text(const PictureFacts& facts) {
-  std::string text = fmt::format("system       {}\n", system_text(facts));
-  if (facts.crs) text += fmt::format("body         radii of {:.10g} and {:.10g} m\n", facts.crs->a_m, facts.crs->b_m);
-  text += fmt::format("raster type  {}\n", facts.said->pixel_is_point ? "pixel is point" : "pixel is area");
+  std::string text = fmt::format("raster type  {}\n", facts.said->pixel_is_point ? "pixel is point" : "pixel is area");
   if (const auto& t = facts.said->transform) {
     text += fmt::format("transform    corner at ({:.12g}, {:.12g}), pixels of {:.9g} by {:.9g}{}\n", t->x0, t->y0,
                         std::hypot(t->x_per_column, t->y_per_column), std::hypot(t->x_per_row, t->y_per_row),
@@ -114,32 +67,74 @@ std::string said_text(const PictureFacts& facts) {
   return text;
 }
 
+/// Rounding errors near 0 become 0.
+double without_dust(double degrees) { return std::abs(degrees) < 1e-9 ? 0.0 : degrees; }
+
+std::string place_lines(const PictureFacts& facts) {
+  std::string text;
+  if (facts.transform) {
+    const CrsBounds b = own_bounds(facts);
+    const char* unit = facts.crs && !facts.crs->geographic ? "in units of the system" : "in degrees";
+    text +=
+        fmt::format("corners      {:.12g} to {:.12g}, {:.12g} to {:.12g} {}\n", b.west, b.east, b.south, b.north, unit);
+  }
+  if (const auto& b = facts.bounds_deg) {
+    text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n",
+                        without_dust(b->west), without_dust(b->south), without_dust(b->east), without_dust(b->north));
+  }
+  if (const auto& p = facts.pixel) {
+    text += fmt::format("pixel size   {:.6g}° by {:.6g}°, {:.6g} m by {:.6g} m in the middle\n", p->width_deg,
+                        p->height_deg, p->width_m, p->height_m);
+  }
+  return text;
+}
+
+std::string raster_lines(const RasterFacts& raster) {
+  std::string text = fmt::format("bands        {} of {}; {}\n", raster.bands, raster.samples, raster.layout);
+  std::string sizes;
+  for (const auto& [width, height] : raster.overviews) {
+    sizes += fmt::format("{}{}x{}", sizes.empty() ? "" : ", ", width, height);
+  }
+  text += fmt::format("overviews    {}\n", sizes.empty() ? "(none)" : sizes);
+  if (raster.has_mask) text += "mask         yes\n";
+  if (raster.nodata) text += fmt::format("no data      {:.9g}\n", *raster.nodata);
+  if (raster.scale != 1.0 || raster.offset != 0.0 || !raster.unit.empty()) {
+    text += fmt::format("values       number * {:.9g} + {:.9g} {}\n", raster.scale, raster.offset, raster.unit);
+  }
+  for (const std::string& note : raster.notes) text += fmt::format("note         {}\n", note);
+  return text;
+}
+
 std::string to_text(const PictureFacts& facts) {
   std::string text = fmt::format("picture      {}\n", facts.file.path.string());
   const std::string turned =
       facts.orientation == 1 ? "" : fmt::format(", turned upright by its EXIF orientation {}", facts.orientation);
   text += fmt::format("pixels       {}x{}{}\n", facts.file.width_px, facts.file.height_px, turned);
+  if (facts.raster) text += raster_lines(*facts.raster);
   text += fmt::format("georeference {}\n", facts.said ? facts.said->source : "(none)");
+  if (facts.said || facts.crs) text += fmt::format("system       {}\n", system_text(facts));
+  if (facts.crs) text += fmt::format("body         radii of {:.10g} and {:.10g} m\n", facts.crs->a_m, facts.crs->b_m);
   if (facts.said) text += said_text(facts);
-  if (facts.placement) {
-    const Bounds b = bounds_of(facts);
-    text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n", b.west, b.south,
-                        b.east, b.north);
-    text += fmt::format("pixel size   {:.9g}° by {:.9g}°, {:.6g} m high\n", facts.placement->pixel_width_deg,
-                        facts.placement->pixel_height_deg, pixel_m(facts));
-  }
-  if (facts.refused.empty()) return text + fmt::format("to show it   {}\n", facts.command);
-  return text + fmt::format("refused      {}\n", facts.refused);
+  text += place_lines(facts);
+  for (const std::string& remark : facts.remarks) text += fmt::format("remark       {}\n", remark);
+  if (!facts.refused.empty()) return text + fmt::format("refused      {}\n", facts.refused);
+  if (facts.place) text += fmt::format("drawn        {}\n", kind_text(facts));
+  return text + fmt::format("to show it   {}\n", facts.command);
+}
+
+Json crs_json(const PictureFacts& facts) {
+  Json object{{"name", facts.crs->name}, {"geographic", facts.crs->geographic}};
+  if (!facts.crs->code.empty()) object["code"] = facts.crs->code;
+  if (facts.said && !facts.said->crs_title.empty()) object["citation"] = facts.said->crs_title;
+  if (!facts.crs->geographic) object["method"] = facts.crs->method;
+  if (facts.crs->central_meridian_deg) object["central_meridian_deg"] = *facts.crs->central_meridian_deg;
+  return object;
 }
 
 Json said_json(const PictureFacts& facts) {
   Json object{{"source", facts.said->source}, {"pixel_is_point", facts.said->pixel_is_point}};
   if (facts.crs) {
-    object["crs"] = {{"name", facts.crs->name}, {"geographic", facts.crs->geographic}};
-    if (!facts.crs->code.empty()) object["crs"]["code"] = facts.crs->code;
-    if (!facts.said->crs_title.empty()) object["crs"]["citation"] = facts.said->crs_title;
-    if (!facts.crs->geographic) object["crs"]["method"] = facts.crs->method;
-    if (facts.crs->central_meridian_deg) object["crs"]["central_meridian_deg"] = *facts.crs->central_meridian_deg;
+    object["crs"] = crs_json(facts);
     object["body"] = {{"semi_major_m", facts.crs->a_m}, {"semi_minor_m", facts.crs->b_m}};
   }
   if (const auto& t = facts.said->transform) {
@@ -149,19 +144,45 @@ Json said_json(const PictureFacts& facts) {
   return object;
 }
 
+void add_raster(Json& object, const RasterFacts& raster) {
+  object["bands"] = raster.bands;
+  object["samples"] = raster.samples;
+  object["layout"] = raster.layout;
+  object["overviews"] = raster.overviews;
+  object["mask"] = raster.has_mask;
+  object["nodata"] = raster.nodata ? Json(*raster.nodata) : Json();
+  object["scale"] = raster.scale;
+  object["offset"] = raster.offset;
+  if (!raster.unit.empty()) object["unit"] = raster.unit;
+  if (!raster.notes.empty()) object["notes"] = raster.notes;
+}
+
+void add_place(Json& object, const PictureFacts& facts) {
+  if (facts.transform) {
+    const CrsBounds b = own_bounds(facts);
+    object["bounds_crs"] = {b.west, b.south, b.east, b.north};
+  }
+  if (const auto& b = facts.bounds_deg) object["bounds_deg"] = {b->west, b->south, b->east, b->north};
+  if (const auto& p = facts.pixel) {
+    object["pixel_deg"] = {p->width_deg, p->height_deg};
+    object["pixel_m"] = {p->width_m, p->height_m};
+  }
+  if (!facts.remarks.empty()) object["remarks"] = facts.remarks;
+}
+
 std::string to_json(const PictureFacts& facts) {
   Json object{{"picture", facts.file.path.string()},
               {"width_px", facts.file.width_px},
               {"height_px", facts.file.height_px},
               {"exif_orientation", facts.orientation},
               {"georeference", facts.said ? said_json(facts) : Json()}};
-  if (facts.placement) {
-    const Bounds b = bounds_of(facts);
-    object["bounds_deg"] = {b.west, b.south, b.east, b.north};
-    object["pixel_deg"] = {facts.placement->pixel_width_deg, facts.placement->pixel_height_deg};
-    object["pixel_m"] = pixel_m(facts);
-  }
+  if (facts.raster) add_raster(object, *facts.raster);
+  add_place(object, facts);
   object["shown"] = facts.refused.empty();
+  if (facts.refused.empty() && facts.place) {
+    object["drawn"] = kind_word(facts.place->kind);
+    object["latitude"] = facts.place->latitude == LatitudeKind::centric ? "centric" : "graphic";
+  }
   if (facts.refused.empty()) object["command"] = facts.command;
   if (!facts.refused.empty()) object["refused"] = facts.refused;
   // Paths may contain bytes that are not UTF-8.
@@ -170,8 +191,8 @@ std::string to_json(const PictureFacts& facts) {
 
 }  // namespace
 
-Result<std::string> picture_report(const fs::path& picture, bool json) {
-  const auto facts = look_at(picture);
+Result<std::string> picture_report(const fs::path& picture, const PlaceWords& words, bool json) {
+  const auto facts = look_at(picture, words);
   if (!facts) return facts.error();
   return json ? to_json(*facts) : to_text(*facts);
 }

@@ -10,6 +10,8 @@
 #include <span>
 #include <string_view>
 
+#include "apps/scene/place_options.h"
+#include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_remote.h"
@@ -84,12 +86,14 @@ class ScratchSource : public TileSource {
   std::unique_ptr<TileSource> tiles_;
 };
 
-/// Cuts a picture. The cut receives the given body and latitude kind and compares them with the picture's own.
+/// Cuts a picture. The cut compares the given body, latitudes and place with the picture's own.
 Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
                                                  const SceneOptions& options, const CutProgress& told) {
   CutOptions cut;
   if (options.body && options.body->name != earth().name) cut.body = options.body->name;
-  cut.latitude = options.latitude.value_or(cut.latitude);
+  cut.latitude = options.latitude;
+  set_place(cut, options.place);
+  cut.remark = [](const std::string& remark) { print_message("terrella: {}\n", remark); };
   cut.images = {picture};
   cut.name = picture.stem().string();
   Progress progress("cutting " + picture.filename().string());
@@ -123,7 +127,14 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
-  auto tiles = is_picture(path) ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
+  const bool picture = is_picture(path);
+  if (!picture && options.place != PlaceWords{}) {
+    return Error{
+        fmt::format("{}: --crs, --bounds and --west place a picture, and this is a tile set, which says itself "
+                    "where it lies; leave them out",
+                    path.string())};
+  }
+  auto tiles = picture ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -135,6 +146,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.tile_set = options.elevation;
   heights.projection.reset();
   heights.latitude.reset();
+  heights.place = {};
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;

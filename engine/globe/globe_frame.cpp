@@ -53,6 +53,8 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
   selection.max_error_px = options.max_error_px;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
+  selection.relief = relief();
+  selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;
     selection.inner_sphere_m = inner_sphere_radius_m(e.a_m(), e.b_m(), *options.surface.inner_sphere_below_m);
@@ -61,16 +63,16 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
 }
 
 FrameSnapshot Globe::Impl::snapshot() {
-  stack.front()->tree().refresh_bounds();
+  if (heights) relief()->refresh_bounds(stack.front()->tree());
   FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = experiments.patch_shuffle};
   if (has_night()) snapshot.sun = sun();
   for (ImageLayer* layer : stack) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }
 
-void Globe::Impl::execute(FramePlan plan) {
-  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(std::move(plan.layers[k]), frame);
-  stack.front()->tree().make_meshes(plan.meshes);
+void Globe::Impl::execute(FramePlan& plan) {
+  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(plan.layers[k], frame);
+  if (heights) stats.relief_meshes = relief()->make_meshes(stack.front()->tree(), plan.meshes);
   for (std::size_t k = 1; heights && k < stack.size(); ++k) stack[k]->copy_relief();
   stats.relief_put_off = plan.put_off;
 }
@@ -140,16 +142,14 @@ void Globe::Impl::count() {
 // Chooses and requests what the frame draws.
 void Globe::Impl::plan(Viewport viewport) {
   const auto start = FrameClock::now();
-  const std::uint64_t meshes_before = heights ? relief()->meshes_made() : 0;
-  if (heights) relief()->set_mesh_budget(options.relief_meshes_per_frame);
   look(viewport);
-  execute(plan_frame(view, snapshot(), selection_options()));
+  last_plan = plan_frame(view, snapshot(), selection_options(), std::move(last_plan));
+  execute(last_plan);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
   for (ImageLayer* layer : stack) layer->ask();
   if (!heights) return;
   stats.heights_pending = heights->ask(stack.front()->patches());
   stats.heights_missing = relief()->missing();
-  stats.relief_meshes = static_cast<int>(relief()->meshes_made() - meshes_before);
 }
 
 FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {

@@ -12,7 +12,7 @@
 #include "globe/image_layer.h"
 #include "render/gl/gl_state.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 #include "tiles/arrival_bell.h"
 
 namespace terrella {
@@ -49,7 +49,7 @@ struct Globe::Impl {
   [[nodiscard]] ImageLayer* image(LayerId id) const;  ///< null if there is none
   [[nodiscard]] ObjectLayer* object(LayerId id);
   [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
-  [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, relief(), bell}; }
+  [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
   void share_gpu();
   Status upload_objects();
   [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
@@ -62,7 +62,7 @@ struct Globe::Impl {
   void look(Viewport viewport);
   [[nodiscard]] PatchSelectionOptions selection_options() const;
   [[nodiscard]] FrameSnapshot snapshot();
-  void execute(FramePlan plan);
+  void execute(FramePlan& plan);
   void plan(Viewport viewport);
   void count();
   std::size_t take_finished();
@@ -97,6 +97,7 @@ struct Globe::Impl {
   bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
+  FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
   Status status = Done{};  ///< of the last frame
   std::deque<MissingTile> missing, missing_heights;

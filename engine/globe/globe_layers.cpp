@@ -151,11 +151,10 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (elevation.has_value() != has_relief()) {
     if (Status made = impl_->renderer->set_relief(elevation.has_value()); !made) return made;
   }
-  // Patches refer to the old relief until they are discarded.
-  const std::unique_ptr<HeightLayer> before = std::move(impl_->heights);
+  impl_->heights.reset();
   if (elevation) impl_->heights = std::make_unique<HeightLayer>(*elevation, impl_->options, impl_->bell);
-  for (const auto& layer : impl_->images) layer->set_relief(impl_->relief());
-  if (impl_->plain) impl_->plain->set_relief(impl_->relief());
+  for (const auto& layer : impl_->images) layer->discard_patches();
+  if (impl_->plain) impl_->plain->discard_patches();
   impl_->missing_heights.clear();
   impl_->changed = true;
   return Done{};

@@ -29,7 +29,7 @@ ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<Tile
       look_(look),
       attribution_(source ? source->info().attribution : ""),
       tiles_(grid_, {grid_.tile_px, setup.options.gutter_px}, kMips, gpu_bytes) {
-  set_relief(setup.relief);
+  discard_patches();
   if (!source) return;
   LoaderOptions loading{
       .workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
@@ -55,11 +55,10 @@ void ImageLayer::set_look(const ImageLook& look) {
   restore_detail();
 }
 
-void ImageLayer::set_relief(Relief* relief) {
+void ImageLayer::discard_patches() {
   gpu_.vertices.reset();
   patches_.clear();
   tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
-  if (relief != nullptr) tree_->set_relief(*relief);
 }
 
 bool ImageLayer::is_drawn(bool has_night) const {
@@ -87,12 +86,12 @@ LayerSnapshot ImageLayer::snapshot() {
   return layer;
 }
 
-void ImageLayer::execute(LayerPlan plan, std::uint64_t frame) {
+void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
   tree_->adopt(plan.growth);
-  patches_ = std::move(plan.patches);
-  coverage_ = std::move(plan.coverage);
+  std::swap(patches_, plan.patches);
+  std::swap(coverage_, plan.coverage);
   detail_ = plan.detail;
-  note_use(coverage_.uses, frame, tiles_.residency());
+  coverage_.uses.note(frame, tiles_.residency());
 }
 
 void ImageLayer::copy_relief() {

@@ -11,8 +11,8 @@
 #include "globe/globe.h"
 #include "globe/tile_stream.h"
 #include "render/globe_renderer.h"
-#include "surface/frame_plan.h"
 #include "surface/layers.h"
+#include "surface/plan/frame_plan.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -27,7 +27,6 @@ struct UploadAllowance {
 struct LayerSetup {
   const GlobeOptions& options;
   CubeMapping mapping;
-  Relief* relief = nullptr;           ///< null: the ellipsoid
   std::shared_ptr<ArrivalBell> bell;  ///< rings when a tile has arrived
 };
 
@@ -44,7 +43,7 @@ class ImageLayer {
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
-  void set_relief(Relief* relief);  ///< discards all patches
+  void discard_patches();
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.
   [[nodiscard]] bool is_drawn(bool has_night) const;
@@ -65,8 +64,8 @@ class ImageLayer {
   void restore_detail() { detail_ = 1.0; }
   /// The layer as a plan reads it.
   [[nodiscard]] LayerSnapshot snapshot();
-  /// Takes a plan over: its patches, its tiles and their use, and what the tree misses.
-  void execute(LayerPlan plan, std::uint64_t frame);
+  /// Takes a plan over: patches, tiles and their use, nodes for the tree. The plan gets the last frame's memory.
+  void execute(LayerPlan& plan, std::uint64_t frame);
   void copy_relief();  ///< from the patches of the base layer, on which this upper layer lies
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `missing`.

@@ -22,9 +22,9 @@
 #include "render/surface/patch_pass.h"
 #include "render/surface/tile_textures.h"
 #include "surface/layers.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "surface/relief.h"
-#include "surface/tile_coverage.h"
 #include "view/render_modes.h"
 #include "view/stereo.h"
 

@@ -26,7 +26,7 @@ void GlobeRenderer::upload_layers(const FrameInput& input) const {
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree);
+      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr);
     }
     patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
   }

@@ -18,12 +18,12 @@ struct GroundRange {
   double max_m = 0.0;
 };
 
-/// The heights of a body as far as their tiles are there. A height belongs to its pixel's middle; between the middles
-/// of four pixels it is bilinear in longitude and row latitude (TileGrid). Pixels go on round ±180°; beyond a pole the
-/// last row repeats. A point takes the finest tile that is there and covers it; pixels beyond that tile's border are
-/// those of its neighbours of the same level, and where such a neighbour is not there the border's own once more. So
-/// heights are continuous but where levels meet. Where no tile is the height is 0.
-/// thread: main
+/// The heights of a body in the loaded tiles. A height belongs to its pixel's middle. Between the middles of four
+/// pixels it is bilinear in longitude and row latitude (TileGrid). Pixels continue across ±180°, and the last row
+/// repeats beyond a pole. A point takes its height from the finest loaded tile over it. Beyond that tile's border the
+/// neighbours of the same level have the pixels; if a neighbour is not loaded, the border repeats. So heights are
+/// continuous except between levels. Without a tile the height is 0. thread: main; const functions: any, while nothing
+/// changes the field
 class HeightField {
  public:
   class Cursor;
@@ -39,7 +39,7 @@ class HeightField {
   /// Changes with each add() and remove(): what was worked out under another number is out of date.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
-  /// What the rows count, degrees, where the geodetic latitude is `lat`.
+  /// Row latitude of the geodetic latitude `lat`, degrees.
   [[nodiscard]] double row_deg(Angle lat) const;
   /// Metres times `exaggeration`. Longitude may be any turn; NaN gives 0.
   [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
@@ -49,7 +49,7 @@ class HeightField {
   /// No height in the box lies outside, rounding (1 part in 10^12) aside; the pixels that bound it may lie a block
   /// (kBlock_px) beyond the box. East < west crosses ±180°.
   [[nodiscard]] GroundRange range_m(const GeoRect& box, double exaggeration = 1.0) const;
-  /// Of a patch of that tree, whose rows may count otherwise than grid()'s.
+  /// Range of a patch of that tree, whose rows may count another latitude than grid()'s.
   [[nodiscard]] GroundRange range_m(const PatchTree& tree, const PatchNode& node, double exaggeration = 1.0) const;
 
  private:
@@ -104,14 +104,15 @@ class HeightField {
   std::uint64_t version_ = 0;
 };
 
-/// Look-ups that lie near one another: the tile that served one is tried first for the next. Gives, to the bit, what
-/// the field gives; not to be used once the field has changed. thread: main
+/// Lookups that lie near one another: tries the tile of the last lookup first. Returns the same bits as the field. Not
+/// valid after the field has changed. thread: any, one at a time
 class HeightField::Cursor {
  public:
   explicit Cursor(const HeightField& field) : field_(field) {}
   [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg);
   [[nodiscard]] double row_deg(Angle lat) const { return field_.row_deg(lat); }
-  /// Between the heights that served last, metres along a meridian at the equator; without any, of the coarsest level.
+  /// Spacing of the heights of the last lookup, metres along a meridian at the equator; before any, the coarsest
+  /// level's.
   [[nodiscard]] double spacing_m() const;
 
  private:

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "geo/scaled_space.h"
-#include "surface/patch_selection.h"
+#include "surface/view_planes.h"
 
 namespace terrella {
 namespace {

@@ -36,8 +36,8 @@ enum class PatchSide : int { west = 0, east = 1, south = 2, north = 3 };  // -i,
 /// across levels, neighbours and faces: the same point of the sphere reached from any patch has the same bits.
 [[nodiscard]] EcefDir patch_point(const PatchId& id, int i, int j, int n, CubeMapping mapping = CubeMapping::tangent);
 
-/// Which way the quads of a patch are split (paper 1, (2)): true where the patch lies in the 1st or 3rd quadrant of
-/// its face ("forward": from (i, j) to (i+1, j+1)), false in the 2nd and 4th. Level ≥ 1.
+/// True if the quads of a patch are split from (i, j) to (i+1, j+1) (paper 1, (2)): the patch lies in the 1st or 3rd
+/// quadrant of its face. False in the 2nd and 4th. Level ≥ 1.
 [[nodiscard]] bool forward_diagonal(const PatchId& id);
 
 struct PatchIdHash {

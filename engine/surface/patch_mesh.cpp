@@ -34,7 +34,7 @@ class IndexWriter {
 
   void quad(int i, int j) {
     const std::uint16_t a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
-    // Where two coarse sides meet in this corner, a lies on the line from b to d: no triangle of the three.
+    // If two coarse sides meet in this corner, a lies on the line from b to d: the three make no triangle.
     const bool on_a_line = i == n_ - 1 && j == n_ - 1 && coarse(PatchSide::east) && coarse(PatchSide::north);
     if (forward_ || on_a_line) {
       triangle(a, b, c);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -43,6 +44,9 @@ struct TileWindow {
   std::int64_t x0 = 0, y0 = 0;
   int w = 0, h = 0;
   std::vector<CellExtent> cells;  ///< row-major
+  [[nodiscard]] const CellExtent& cell(int x, int y) const {
+    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)];
+  }
 };
 
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
@@ -90,7 +94,7 @@ struct PatchNode {
   std::uint32_t index = 0;  ///< place among the nodes that there are
   PatchNode* parent = nullptr;
   PatchFamily children{};              ///< all or none
-  std::uint64_t children_used = 0;     ///< number of the frame that came to them last
+  std::uint64_t children_used = 0;     ///< number of the last frame that used them
   std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
   std::unique_ptr<TileWindow> window;  ///< of the level that the last plan took
   PatchRelief relief;
@@ -100,12 +104,11 @@ struct PatchNode {
 /// grids the radius vector of the surface point, (n.x, n.y, (1 - e²) n.z).
 [[nodiscard]] glm::dvec3 row_direction(const TileGrid& grid, const Ellipsoid& ellipsoid, const glm::dvec3& normal);
 
-class Relief;
 class TreeGrowth;
 using PatchFamilyNodes = std::array<PatchNode, 4>;
 
-/// The six quadtrees of patches for one body, tile grid and tessellation. Nodes are made when first visited, and
-/// dropped when no frame has come to them for long. thread: main
+/// The six quadtrees of patches for one body, tile grid and tessellation. Plans make nodes (TreeGrowth), and the tree
+/// drops nodes that no frame has used for long. thread: main; const functions: any, while nothing changes the tree
 class PatchTree {
  public:
   /// `segments` a side of each patch: even, in [2, 128].
@@ -117,31 +120,32 @@ class PatchTree {
   void ensure_children(PatchNode& node);
   /// Takes what a plan made and used. The growth must have begun with the tree as it is.
   void adopt(TreeGrowth& growth);
-  /// Makes the meshes of nodes that a plan wants.
-  void make_meshes(const std::vector<const PatchNode*>& nodes);
+  /// The node for changes. A plan refers to nodes of a tree that it must not change.
+  [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
+  /// Calls visit(PatchNode&) for each node.
+  template <class Visit>
+  void visit_nodes(Visit visit) {
+    for (PatchNode& node : roots_) visit(node);
+    for (const auto& family : families_) {
+      if (family) std::ranges::for_each(*family, visit);
+    }
+  }
   /// A node of this tree takes the bounds and the mesh of the same patch in another tree.
   static void copy_relief(const PatchNode& from, const PatchNode& to);
-  /// Brings the bounds of all nodes up to date with the relief's heights.
-  void refresh_bounds();
-  /// How many columns, as a power of two, all reduced rows under a node at a level have merged at least.
+  /// The least squeeze (TileWindow::squeeze) of the reduced rows under a node at a level.
   [[nodiscard]] int window_squeeze(const PatchNode& node, int tile_level) const;
   /// A node's window at a tile level, its columns squeezed as given (0 or window_squeeze()).
   [[nodiscard]] TileWindow make_window(const PatchNode& node, int tile_level, int squeeze) const;
-  /// Of cell (x, y) of a node's window, counted from its north-west corner.
+  /// Lattice of the cell (x, y) of a node's window, counted from its north-west corner.
   [[nodiscard]] SurfaceLattice make_lattice(const PatchNode& node, const TileWindow& window, int x, int y) const;
-
-  /// The ground that patches follow; none: the ellipsoid. Set once, before the first selection; it must outlive the
-  /// tree.
-  void set_relief(Relief& relief) { relief_ = &relief; }
-  [[nodiscard]] Relief* relief() const { return relief_; }
 
   [[nodiscard]] const Ellipsoid& ellipsoid() const { return ellipsoid_; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] CubeMapping mapping() const { return mapping_; }
   [[nodiscard]] std::size_t size() const { return roots_.size() + 4 * (families_.size() - free_.size()); }
-  /// A frame is done. Where there are more than `many` nodes, and over three times as many as the frame came to, those
-  /// go that frames came to longest ago; never one that this frame came to.
+  /// Ends a frame. If the tree has more than `many` nodes, and over three times as many as the frame used, it drops
+  /// those used longest ago, but none that this frame used.
   void end_frame(std::size_t many = kManyNodes);
 
  private:
@@ -156,23 +160,17 @@ class PatchTree {
   void measure(PatchNode& node, const PatchId& id) const;
   void touch(PatchNode& node);
   void drop_oldest(std::size_t nodes);
-  template <class Visit>
-  void visit_nodes(Visit visit);
-  /// The tree's own node, which a plan knows as one that it must not change.
-  [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }
 
   Ellipsoid ellipsoid_;
   TileGrid grid_;
   int segments_;
   CubeMapping mapping_;
-  Relief* relief_ = nullptr;
   std::uint64_t serial_ = 0;
   std::array<PatchNode, kCubeFaces> roots_;
   std::vector<std::unique_ptr<PatchFamilyNodes>> families_;
   std::vector<std::size_t> free_;  ///< places in families_ that hold none
   std::uint64_t frame_ = 1;
-  std::size_t used_ = 0;  ///< nodes that this frame came to
-  std::uint64_t bounds_seen_ = 0;
+  std::size_t used_ = 0;  ///< nodes that this frame used
 };
 
 }  // namespace terrella

@@ -8,13 +8,13 @@
 namespace terrella {
 namespace {
 
-// Heights are asked for at this many pixels a height: what lies between two of them is a plane anyhow.
+// Pixels per requested height. The ground between two heights is a plane anyhow.
 constexpr double kPixelsPerHeight = 2.0;
-// A patch that many tiles of a level lie under takes a coarser one.
+// A patch takes a coarser level if it is wider than this many tiles.
 constexpr std::int64_t kMostColumns = 6;
-// The two grids may count rows by different latitudes: so far apart they are at most for f = 0.1, degrees.
+// Largest difference between the kinds of latitude that two grids may count, for f = 0.1, degrees.
 constexpr double kLatitudeKinds_deg = 7.0;
-// Changes that are remembered one by one. What has not been looked at for longer counts as changed.
+// Number of remembered changes. A patch that was last looked at before them counts as changed.
 constexpr std::size_t kMostChanges = 1024;
 
 double span_m(const Ellipsoid& e, const TileGrid& grid) {
@@ -45,7 +45,7 @@ void Relief::add(HeightTile tile) {
   keep_to_budget();
 }
 
-// A tile's heights reach half a pixel over its border, into what its neighbours serve.
+// A tile's heights reach half a pixel over its border, into its neighbours.
 Relief::Change Relief::change_of(const TileId& id) const {
   const TileBounds b = tile_bounds(grid(), id);
   const double pixel_deg = (b.east_deg - b.west_deg) / grid().tile_px;
@@ -87,6 +87,12 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::ui
   return false;
 }
 
+// New nodes are up to date (TreeGrowth), so the roots tell of all nodes.
+void Relief::refresh_bounds(PatchTree& tree) const {
+  if (tree.root(CubeFace::pos_x).relief.bounds_seen == changes_seen()) return;
+  tree.visit_nodes([&](PatchNode& node) { refresh_bounds(tree, node); });
+}
+
 void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   const bool changed = changed_since(tree, node, relief.bounds_seen);
@@ -100,23 +106,27 @@ void Relief::refresh_bounds(const PatchTree& tree, PatchNode& node) const {
   // Normals spread: over the patch they differ by its radius over the planet's.
   node.sphere.radius_m =
       flat.radius_m + relief.half_m + std::abs(relief.middle_m) * 2.0 * flat.radius_m / ellipsoid_.b_m();
-  // What stands over the ellipsoid is seen from further behind the horizon (paper 2, 2.8).
+  // Ground over the ellipsoid is visible from further behind the horizon (paper 2, 2.8).
   const double over = std::max(0.0, range.max_m) / ellipsoid_.b_m();
   const double half_rad = std::min(std::numbers::pi, relief.flat_cone_rad + std::acos(1.0 / (1.0 + over)));
   node.cos_cone = std::cos(half_rad) - 1e-15;
   node.sin_cone = std::sin(half_rad);
 }
 
-void Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) {
+int Relief::make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const {
+  return static_cast<int>(
+      std::ranges::count_if(nodes, [&](const NodeRef& node) { return refresh_mesh(tree, PatchTree::own(*node)); }));
+}
+
+bool Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) const {
   PatchRelief& relief = node.relief;
   const bool changed = is_stale(tree, node);
   relief.mesh_seen = changes_seen();
-  if (!changed) return;
+  if (!changed) return false;
   measure_vertices(tree, node);
   measure_error(tree, node);
   ++relief.made;
-  ++meshes_made_;
-  --meshes_left_;
+  return true;
 }
 
 void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
@@ -138,7 +148,7 @@ void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
   }
 }
 
-// Over two steps around the point, east and north.
+// Rise over two steps around the point, east and north.
 glm::vec2 Relief::slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const {
   const auto height = [&](double row_deg, Angle at_lon) { return ground.height_at_row_m(row_deg, at_lon.deg()); };
   const double row_deg = field_.row_deg(lat);
@@ -150,7 +160,7 @@ glm::vec2 Relief::slope(HeightField::Cursor& ground, Angle lat, Angle lon, doubl
                    exaggeration_ * (height(north_deg, lon) - height(south_deg, lon)) / run_m);
 }
 
-// In the middle of its quads, where a mesh strays furthest.
+// A mesh strays furthest in the middle of its quads.
 void Relief::measure_error(const PatchTree& tree, PatchNode& node) const {
   const int n = tree.segments();
   const auto side = static_cast<std::size_t>(n) + 1;

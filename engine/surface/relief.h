@@ -6,18 +6,18 @@
 
 #include "geo/camera.h"
 #include "surface/height_field.h"
-#include "surface/patch_selection.h"
 #include "surface/patch_tree.h"
-#include "surface/tile_coverage.h"
+#include "surface/selected_patch.h"
+#include "surface/wanted_tile.h"
 #include "tiles/height_tile.h"
 #include "tiles/tile_residency.h"
 #include "view/ground.h"
 
 namespace terrella {
 
-/// The ground of a body: which heights a view asks for, and what the heights that are there make of patches. A height
-/// raises a point along its geodetic normal, and is a function of the point alone, so patches that share a vertex raise
-/// it alike and texture coordinates stay what they were. thread: main
+/// The ground of a body: requests the heights that a view wants, and raises patches by the loaded heights. A height
+/// raises a point along its geodetic normal and depends on the point alone. So patches that share a vertex raise it
+/// alike, and texture coordinates stay the same. thread: main; const functions: any, while nothing changes the relief
 class Relief : public GroundHeights {
  public:
   /// `exaggeration` is applied to what is drawn, picked and collided with.
@@ -27,14 +27,14 @@ class Relief : public GroundHeights {
   [[nodiscard]] const HeightField& field() const { return field_; }
   [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
-  /// From now on: everything is raised anew.
+  /// Raises everything anew.
   void set_exaggeration(double exaggeration);
-  /// A tile has come; what lies under it is raised anew.
+  /// Adds a loaded tile. Patches on it are raised anew.
   void add(HeightTile tile);
   /// States of the tiles. A missing tile's ancestors serve instead.
   [[nodiscard]] TileResidency& tiles() { return tiles_; }
   [[nodiscard]] int missing() const { return static_cast<int>(tiles_.count(TileState::missing)); }
-  /// Height of the drawn ground over the ellipsoid where the finest tiles that are there say it, metres.
+  /// Height of the drawn ground over the ellipsoid, metres, from the finest loaded tile.
   [[nodiscard]] double height_m(Angle lat, Angle lon) const override {
     return field_.height_m(lat, lon, exaggeration_);
   }
@@ -45,26 +45,24 @@ class Relief : public GroundHeights {
     return {.min_m = exaggeration_ * range_.min_m, .max_m = exaggeration_ * range_.max_m};
   }
 
-  /// How many meshes of these patches the coming of a tile puts out of date.
+  /// Number of these patches whose meshes a new tile puts out of date.
   [[nodiscard]] int touched(const PatchTree& tree, const TileId& id, const std::vector<SelectedPatch>& patches) const;
 
-  /// From now on a selection may ask for this many new meshes before it puts off patches: a frame's share.
-  void set_mesh_budget(int meshes) { meshes_left_ = meshes; }
-  [[nodiscard]] int meshes_left() const { return meshes_left_; }
   /// Bytes of the loaded tiles.
   [[nodiscard]] std::size_t bytes() const { return field_.size() * tile_bytes_; }
-  [[nodiscard]] std::uint64_t meshes_made() const { return meshes_made_; }
 
-  /// Brings a node's bounds up to date with the heights: its sphere, the cone that the horizon is tested by.
+  /// Brings the bounds of a tree's nodes up to date with the heights: their spheres, and their cones for the horizon.
+  void refresh_bounds(PatchTree& tree) const;
   void refresh_bounds(const PatchTree& tree, PatchNode& node) const;
   /// Counts the changes of heights.
   [[nodiscard]] std::uint64_t changes_seen() const { return changes_forgotten_ + changes_.size(); }
-  /// True if refresh_mesh() would make the mesh.
+  /// True if make_meshes() would make the mesh.
   [[nodiscard]] bool is_stale(const PatchTree& tree, const PatchNode& node) const {
     return node.relief.heights_m.empty() || changed_since(tree, node, node.relief.mesh_seen);
   }
-  /// The heights of its vertices, the slopes there and how far the ground lies from the mesh between them.
-  void refresh_mesh(const PatchTree& tree, PatchNode& node);
+  /// Makes the meshes of nodes whose heights have changed: the heights of their vertices, the slopes there and the
+  /// error between them. Returns how many it made.
+  int make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const;
 
   /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
   /// that no view has wanted for long are evicted when the budget is used up.
@@ -79,6 +77,7 @@ class Relief : public GroundHeights {
   [[nodiscard]] Change change_of(const TileId& id) const;
   [[nodiscard]] bool changed_since(const PatchTree& tree, const PatchNode& node, std::uint64_t since) const;
   void note_change(const Change& change);
+  bool refresh_mesh(const PatchTree& tree, PatchNode& node) const;
   void measure_vertices(const PatchTree& tree, PatchNode& node) const;
   void measure_error(const PatchTree& tree, PatchNode& node) const;
   [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
@@ -93,8 +92,6 @@ class Relief : public GroundHeights {
   std::size_t most_tiles_;
   std::deque<Change> changes_;  ///< the latest ones
   std::uint64_t changes_forgotten_ = 0;
-  int meshes_left_ = 0;
-  std::uint64_t meshes_made_ = 0;
   GroundRange range_;  ///< as the tiles have it
   TileResidency tiles_;
   std::uint64_t round_ = 0;  ///< counts calls of want()

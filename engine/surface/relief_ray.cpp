@@ -7,9 +7,9 @@
 namespace terrella {
 namespace {
 
-// Of the spacing of heights: a step that looks at each of them.
+// Length of a step along the ray, as a share of the spacing of heights: it misses none.
 constexpr double kStepShare = 0.5;
-// Over the longest way through a mountainous shell in the finest steps; what is further shows less than a pixel.
+// More than the longest way through a mountainous shell has in the finest steps. Beyond it ground is under a pixel.
 constexpr int kMostSteps = 200000;
 constexpr double kClosest_m = 1e-4;
 constexpr double kClosestShare = 1e-12;

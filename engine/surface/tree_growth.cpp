@@ -7,32 +7,26 @@
 
 namespace terrella {
 
-TreeGrowth::TreeGrowth(const PatchTree& tree, const Relief* relief)
-    : tree_(&tree), relief_(relief), marks_(tree.places(), 0) {}
-
-void TreeGrowth::clear_selection() {
-  for (std::uint8_t& mark : marks_) mark &= static_cast<std::uint8_t>(~(kLeaf | kSplit | kMesh));
-}
-
-const PatchFamily* TreeGrowth::known_children(const PatchNode& node) const {
-  if (node.children[0] != nullptr) return &node.children;
-  return (marks_[node.index] & kGrown) == 0 ? nullptr : &children_.at(&node);
-}
-
-const PatchFamily& TreeGrowth::children(const PatchNode& node) {
-  std::uint8_t& mark = marks_[node.index];
-  if ((mark & kUsed) == 0) used_.push_back(&node);
-  mark |= kUsed;
-  const PatchFamily* known = known_children(node);
-  return known != nullptr ? *known : make_children(node);
+void TreeGrowth::begin(const PatchTree& tree, const Relief* relief) {
+  tree_ = &tree;
+  relief_ = relief;
+  kept_marks_.assign(tree.places(), 0);
+  made_.clear();
+  children_.clear();
+  parents_.clear();
+  used_.clear();
+  beside_.clear();
+  windows_.clear();
+  lattices_.clear();
 }
 
 const PatchFamily& TreeGrowth::make_children(const PatchNode& node) {
   const std::size_t first = tree_->place_of_new_family(made_.size());
-  marks_.resize(std::max(marks_.size(), first + 4), 0);
+  kept_marks_.resize(std::max(kept_marks_.size(), first + 4), 0);
+  marks_.resize(kept_marks_.size(), 0);
   PatchFamilyNodes& nodes = *made_.emplace_back(std::make_unique<PatchFamilyNodes>());
   parents_.push_back(&node);
-  marks_[node.index] |= kGrown;
+  kept_marks_[node.index] |= kGrown;
   PatchFamily& family = children_[&node];
   const auto ids = terrella::children(node.id);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -56,9 +50,7 @@ const PatchNode& TreeGrowth::node(const PatchId& id) {
 }
 
 // The search goes on from where it ended last; the tree forgets that where it drops the node.
-const PatchNode& TreeGrowth::beside(const PatchNode& node, PatchSide side) {
-  const PatchNode* found = node.beside[static_cast<std::size_t>(side)];
-  if (found != nullptr && (found->id.level == node.id.level || known_children(*found) == nullptr)) return *found;
+const PatchNode& TreeGrowth::find_beside(const PatchNode& node, PatchSide side, const PatchNode* found) {
   const PatchId id = neighbour(node.id, side);
   if (found == nullptr) found = &tree_->root(id.face);
   while (found->id.level < id.level) {

@@ -120,19 +120,18 @@ Result<CutSummary> join_shards(const Job& job) {
 
 fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
 
-/// `placed` becomes the options with the bounds stated by the pictures.
-Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input, CutOptions& placed) {
-  placed = options;
-  if (!placed.bounds) placed.bounds = input.bounds;
-  auto plan = plan_cut(input.rows->info(), placed);
-  if (plan || options.bounds || input.resample_command.empty()) return plan;
-  return Error{fmt::format("{}; or resample it: {}", plan.error().message, input.resample_command)};
+/// Plan of the opened pictures. Their place replaces the options about it.
+Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input) {
+  CutOptions placed = options;
+  placed.bounds = input.bounds;
+  placed.latitude = input.latitude;
+  return plan_cut(input.rows->info(), placed);
 }
 
 /// Checks the output before any work, because it may be known already that the output must stay.
 Result<OutputClaim> claim_output(const CutOptions& options) {
   if (options.output.empty()) return Error{"no output is named; give a file that ends in .gpkg, or a folder"};
-  const auto key = cut_key(options);
+  const auto key = cut_key(options, {});
   if (!key) return key.error();
   OutputClaim claim{.output = without_trailing_slash(options.output),
                     .images = options.images,
@@ -149,11 +148,11 @@ Result<Job> prepare(const CutOptions& options) {
   if (!claim) return claim.error();
   auto input = open_input(options);
   if (!input) return input.error();
-  CutOptions placed;
-  const auto plan = plan_input(options, *input, placed);
+  const auto plan = plan_input(options, *input);
   if (!plan) return plan.error();
-  const auto key = cut_key(placed);
+  const auto key = cut_key(options, input->place);
   if (!key) return key.error();
+  if (options.remark) std::ranges::for_each(input->remarks, options.remark);
   input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
   TileSetInfo info = describe(options, *plan, *input);
   return Job{options, *std::move(claim), *std::move(input), *plan, std::move(info), *key};
@@ -185,8 +184,7 @@ Result<CutSummary> cut(const CutOptions& asked) {
 Status check_pictures(const CutOptions& options) {
   const auto input = open_input(options);
   if (!input) return input.error();
-  CutOptions placed;
-  const auto plan = plan_input(options, *input, placed);
+  const auto plan = plan_input(options, *input);
   if (!plan) return plan.error();
   return Done{};
 }

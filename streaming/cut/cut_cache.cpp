@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/hash_mix.h"
 #include "streaming/cut.h"
 #include "streaming/cut/cut_key.h"
-#include "streaming/cut/input/cut_input.h"
+#include "streaming/cut/input/picture_place.h"
 
 namespace terrella {
 namespace {
@@ -12,9 +14,15 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxStemBytes = 80;
 
+/// Files beside the picture can change its place without changing its own size and time.
 Result<std::string> cache_name(const CutOptions& options) {
   const fs::path& image = options.images.front();
-  const auto of_picture = cut_key(options);
+  const auto picture = measure_picture(image);
+  if (!picture) return picture.error();
+  const auto place = find_place(options, *picture);
+  if (!place) return place.error();
+  if (options.remark) std::ranges::for_each(place->placed.remarks, options.remark);
+  const auto of_picture = cut_key(options, place_text(*place));
   if (!of_picture) return of_picture.error();
   std::error_code failed;
   const fs::path canonical = fs::canonical(image, failed);
@@ -27,15 +35,11 @@ Result<std::string> cache_name(const CutOptions& options) {
 
 Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
   if (options.images.size() != 1) return Error{"one picture is cut into the cache at a time"};
-  // Files beside the picture can change the place without changing the picture's own size and time.
-  const auto said = said_bounds(options);
-  if (!said) return said.error();
-  CutOptions placed = options;
-  if (!placed.bounds) placed.bounds = *said;
-  const auto name = cache_name(placed);
+  const auto name = cache_name(options);
   if (!name) return name.error();
   CutOptions into = options;
   into.output = cache_dir / *name;
+  into.remark = {};
   std::error_code failed;
   // A file with this name is always complete.
   if (fs::is_regular_file(into.output, failed)) return into.output;

@@ -14,7 +14,7 @@ namespace terrella {
 namespace {
 
 /// Increase this number if the cutter's output changes; older files are then no longer found.
-constexpr int kKeyVersion = 3;
+constexpr int kKeyVersion = 4;
 
 std::string number_text(const std::optional<double>& number) { return number ? fmt::format("{:a}", *number) : "-"; }
 
@@ -26,19 +26,18 @@ std::string elevation_text(const std::optional<CutElevation>& elevation) {
 
 }  // namespace
 
-std::string options_text(const CutOptions& options) {
-  const GeoRect bounds = options.bounds.value_or(GeoRect{});
+std::string options_text(const CutOptions& options, std::string place) {
   const MosaicGrid mosaic = options.mosaic.value_or(MosaicGrid{0, 0});
-  return fmt::format("{}|{}|{}|{}|{}|{:a},{:a},{:a},{:a}|{}|{}|{}|{}|{}|{}x{}|{}", kKeyVersion, options.tile_px,
-                     options.quality, options.format ? static_cast<int>(*options.format) : -1,
-                     options.bounds.has_value(), bounds.west.rad(), bounds.south.rad(), bounds.east.rad(),
-                     bounds.north.rad(), static_cast<int>(options.projection), static_cast<int>(options.latitude),
-                     options.name, options.attribution, options.body, mosaic.columns, mosaic.rows,
-                     elevation_text(options.elevation));
+  // The first line of a key holds the options.
+  std::ranges::replace(place, '\n', ' ');
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}x{}|{}", kKeyVersion, options.tile_px, options.quality,
+                     options.format ? static_cast<int>(*options.format) : -1, place,
+                     static_cast<int>(options.projection), options.name, options.attribution, options.body,
+                     mosaic.columns, mosaic.rows, elevation_text(options.elevation));
 }
 
-Result<std::string> cut_key(const CutOptions& options) {
-  std::string key = options_text(options);
+Result<std::string> cut_key(const CutOptions& options, const std::string& place) {
+  std::string key = options_text(options, place);
   for (const auto& image : options.images) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {

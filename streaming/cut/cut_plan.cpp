@@ -57,7 +57,7 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   plan.grid.max_level = *level;
   plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
   plan.grid.projection = options.projection;
-  plan.grid.latitude = options.latitude;
+  plan.grid.latitude = options.latitude.value_or(LatitudeKind::graphic);
   plan.grid.reduced = plan.wraps && !options.elevation && begins_at_planet(plan.grid) && has_reduced_rows(plan);
   return plan;
 }
@@ -173,7 +173,10 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   // A whole planet of odd width has half a row too few or too many (plan_planet()).
   const bool planet = b.west == -180.0 && b.east == 180.0 && b.south == -90.0 && b.north == 90.0;
   if (planet) return plan_planet(picture, options);
-  if (std::abs(height * pixel_deg - (b.north - b.south)) > kAlignment_px * pixel_deg) {
+  // The last row may reach half a pixel beyond the south pole.
+  const double beyond_px = height - (b.north - b.south) / pixel_deg;
+  const double most_px = b.south == -90.0 ? 0.5 + kAlignment_px : kAlignment_px;
+  if (beyond_px < -kAlignment_px || beyond_px > most_px) {
     return Error{
         fmt::format("{}: {}x{} pixels over these bounds are not square ({:.9g} degrees wide, {:.9g} high); check "
                     "--bounds, or resample the picture",

@@ -216,14 +216,33 @@ void Pyramid::mix_edge(const Level& from, const T* even, const T* odd, const std
   for (std::size_t c = 0; c < 4; ++c) out[c] = sum[c] / covered;
 }
 
+/// Pixels beside a region repeat its edge; where pictures have transparency, they are transparent.
+void Pyramid::put_beside(const std::uint8_t* edge, std::uint8_t* to) const {
+  std::memcpy(to, edge, 4);
+  if (part_.pixels == PixelKind::alpha) to[3] = 0;
+}
+
+/// Rows beyond a pole repeat the last row, because filters reach there.
+void Pyramid::fill_row(Level& level, std::int64_t in_strip, const std::uint8_t* edge, bool beyond_pole) const {
+  std::uint8_t* row = level.strip->row(in_strip);
+  const std::size_t stride = level.shape.stride_bytes();
+  std::memcpy(row, edge, stride);
+  if (part_.pixels != PixelKind::alpha || beyond_pole) return;
+  for (std::size_t i = 3; i < stride; i += 4) row[i] = 0;
+}
+
 void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
   const std::uint8_t* first = row + level.lead_px * 4;
-  for (std::int64_t x = 0; x < level.lead_px; ++x) std::memcpy(row + x * 4, first, 4);
+  // A picture that crosses ±180° continues in the piece on the other side.
+  const bool goes_on = plan_.turn_px > 0 && plan_.finest.x1 == plan_.turn_px;
+  for (std::int64_t x = 0; x < level.lead_px; ++x) put_beside(first, row + x * 4);
   const auto width = static_cast<std::int64_t>(level.width());
   const std::int64_t end = level.shape.tiles * level.shape.tile_px;
   for (std::int64_t x = level.lead_px + width; x < end; ++x) {
     if (!plan_.wraps) {
-      std::memcpy(row + x * 4, first + (width - 1) * 4, 4);
+      const std::uint8_t* last = first + (width - 1) * 4;
+      put_beside(last, row + x * 4);
+      if (goes_on) row[x * 4 + 3] = last[3];
       continue;
     }
     const WrappedColumn& beyond = level.beyond[static_cast<std::size_t>(x - width)];
@@ -245,14 +264,15 @@ void Pyramid::close_strip_row(Level& level) {
   const std::int64_t in_strip = level.y % plan_.grid.tile_px;
   std::uint8_t* row = level.strip->row(in_strip);
   pad_row(level, row);
-  const std::size_t stride = level.shape.stride_bytes();
   if (level.y == level.px.y0) {
-    for (std::int64_t y = 0; y < in_strip; ++y) std::memcpy(level.strip->row(y), row, stride);
+    const bool beyond_pole = plan_.grid.bounds.north.deg() >= 90.0;
+    for (std::int64_t y = 0; y < in_strip; ++y) fill_row(level, y, row, beyond_pole);
   }
   ++level.y;
   const bool last = level.y == level.px.y1;
   if (!last && level.y % plan_.grid.tile_px != 0) return;
-  for (std::int64_t y = in_strip + 1; y < plan_.grid.tile_px; ++y) std::memcpy(level.strip->row(y), row, stride);
+  const bool beyond_pole = plan_.grid.bounds.south.deg() <= -90.0;
+  for (std::int64_t y = in_strip + 1; y < plan_.grid.tile_px; ++y) fill_row(level, y, row, beyond_pole);
   take_strip_(std::move(level.strip));
   level.strip.reset();
 }

@@ -92,6 +92,8 @@ class Pyramid {
   [[nodiscard]] std::uint8_t* strip_row(Level& level);
   void coarse_row_done(Level& level);
   void close_strip_row(Level& level);
+  void put_beside(const std::uint8_t* edge, std::uint8_t* to) const;
+  void fill_row(Level& level, std::int64_t in_strip, const std::uint8_t* edge, bool beyond_pole) const;
   void pad_row(const Level& level, std::uint8_t* row) const;
   template <class T>
   void halve_into(const Level& from, const T* even, const T* odd, Level& to);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace terrella {
 
@@ -35,6 +36,12 @@ struct Affine {
     return finite && std::abs(x_per_column * y_per_row - x_per_row * y_per_column) > 1e-30;
   }
   [[nodiscard]] bool is_turned() const { return x_per_row != 0.0 || y_per_column != 0.0; }
+};
+
+/// Place of a picture: the transform of its pixels to a coordinate system that PROJ knows.
+struct CrsPlace {
+  Affine to_crs;    ///< of the full-size picture, pixel-is-area
+  std::string crs;  ///< text for Crs::open()
 };
 
 }  // namespace terrella

@@ -164,6 +164,11 @@ bool Crs::is_earth() const {
   return std::abs(facts_.a_m - earth_m) < kOneBody * earth_m;
 }
 
+bool Crs::is_same_as(const Crs& other) const {
+  return proj_is_equivalent_to_with_ctx(context_.get(), crs_.get(), other.crs_.get(),
+                                        PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+}
+
 std::string Crs::degrees_text() const {
   if (is_earth()) return "EPSG:4326";
   return fmt::format("+proj=longlat +a={:.17g} +b={:.17g} +no_defs", facts_.a_m, facts_.b_m);

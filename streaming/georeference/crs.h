@@ -65,6 +65,8 @@ class Crs {
   [[nodiscard]] const CrsFacts& facts() const { return facts_; }
   /// Text for gdalwarp of the system of longitudes and latitudes returned by places(): EPSG:4326 or a PROJ string.
   [[nodiscard]] std::string degrees_text() const;
+  /// True if both systems give the same coordinates to every place; the order of the axes does not count.
+  [[nodiscard]] bool is_same_as(const Crs& other) const;
   /// True if the ellipsoid is Earth's.
   [[nodiscard]] bool is_earth() const;
   /// Converts points of the system to longitudes (x, in any turn) and geodetic latitudes (y), in degrees. These are on

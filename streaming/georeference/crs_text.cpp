@@ -94,6 +94,15 @@ Result<std::string> stated_crs(const std::string& text) {
                            said.substr(0, 100))};
 }
 
+std::string crs_text(const CrsFacts& crs, const std::string& title) {
+  const bool named = !crs.name.empty() && crs.name != "unknown";
+  std::string text = named ? crs.name : (title.empty() ? std::string("a system without a name") : title);
+  if (!crs.code.empty()) text += ", " + crs.code;
+  if (!crs.geographic) text += ", " + crs.method;
+  if (crs.central_meridian_deg) text += fmt::format(" with central meridian {:.9g} degrees", *crs.central_meridian_deg);
+  return text;
+}
+
 Result<bool> is_northing_first(const std::string& text) {
   const ProjContext context = make_proj_context();
   const ProjHandle crs = open_crs(context.get(), text);

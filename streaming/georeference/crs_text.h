@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "streaming/georeference/crs.h"
 
 namespace terrella {
 
@@ -10,6 +11,10 @@ namespace terrella {
 /// URL, CRS:84, "IAU2000:30100" (as IAU_2015), WKT, or a PROJ string. Refuses texts by which PROJ would open other
 /// files: paths, "+init", grids of shifts. The error is the reason alone. thread: any
 [[nodiscard]] Result<std::string> stated_crs(const std::string& text);
+
+/// Name, code, method and central meridian of a system, for messages. `title` is used if the system has no name.
+/// thread: any
+[[nodiscard]] std::string crs_text(const CrsFacts& crs, const std::string& title);
 
 /// Answers from PROJ's own definition: true if the system's first coordinate is the northing or the latitude. `text` is
 /// one for Crs::open(). thread: any

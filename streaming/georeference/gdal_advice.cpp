@@ -19,10 +19,6 @@ std::string with_ending(const PictureFile& picture, const char* ending) {
   return shell_word((picture.path.parent_path() / name).string());
 }
 
-std::string numbers(const DegreeGrid& grid) {
-  return fmt::format("{:.14g} {:.14g} {:.14g} {:.14g}", grid.west_deg, grid.south_deg, grid.east_deg, grid.north_deg);
-}
-
 /// GDAL options for resampling, and for places without pixels.
 std::string pixel_options(const PictureFile& picture) {
   const auto tags = read_geo_tags(picture.path);
@@ -61,22 +57,22 @@ DegreeGrid grid_over(double west_deg, double south_deg, double east_deg, double 
 }
 
 std::string warp_command(const PictureFile& picture, const WarpAdvice& advice) {
-  std::string from = shell_word(picture.path.string());
-  std::string command;
-  if (advice.relabelled) {
-    const std::string between = with_ending(picture, "-relabelled.tif");
-    const DegreeGrid& at = *advice.relabelled;
-    command =
-        fmt::format("gdal_translate -a_srs {} -a_ullr {:.14g} {:.14g} {:.14g} {:.14g} {} {} && ",
-                    shell_word(advice.to_crs), at.west_deg, at.north_deg, at.east_deg, at.south_deg, from, between);
-    from = between;
-  }
-  command += "gdalwarp";
-  if (!advice.from_crs.empty() && !advice.relabelled) command += " -s_srs " + shell_word(advice.from_crs);
-  command += " -t_srs " + shell_word(advice.to_crs);
-  if (advice.grid)
-    command += fmt::format(" -te {} -ts {} {}", numbers(*advice.grid), advice.grid->columns, advice.grid->rows);
-  return fmt::format("{} {} {} {}", command, pixel_options(picture), from, with_ending(picture, "-degrees.tif"));
+  const std::string from = advice.from_crs.empty() ? "" : " -s_srs " + shell_word(advice.from_crs);
+  return fmt::format("gdalwarp{}{} -t_srs {} {} {} {}", advice.by_rpc ? " -rpc" : "", from, shell_word(advice.to_crs),
+                     pixel_options(picture), shell_word(picture.path.string()), with_ending(picture, "-degrees.tif"));
+}
+
+std::string name_system_command(const PictureFile& picture) {
+  return fmt::format("gdal_translate -a_srs EPSG:CODE {} {}", shell_word(picture.path.string()),
+                     with_ending(picture, "-placed.tif"));
+}
+
+std::string join_command(const std::vector<std::filesystem::path>& parts) {
+  const PictureFile first{.path = parts.front()};
+  const std::string list = with_ending(first, "-joined.vrt");
+  std::string command = "gdalbuildvrt " + list;
+  for (const auto& part : parts) command += " " + shell_word(part.string());
+  return fmt::format("{} && gdal_translate {} {}", command, list, with_ending(first, "-joined.tif"));
 }
 
 std::string assign_command(const PictureFile& picture) {

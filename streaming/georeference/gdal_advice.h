@@ -2,13 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "streaming/georeference/georeference.h"
 
 namespace terrella {
 
-/// GDAL command lines that turn a picture into one with a usable place. They write STEM-degrees.tif beside the picture
-/// and can be pasted into a shell. Words in capitals are for the user to fill in. thread: any
+/// GDAL command lines that turn a picture into one with a usable place. They write a file
+/// beside the picture and can be pasted into a shell. Words in capitals are for the user to fill in. thread: any
 
 /// A rectangle of pixels of one size, in a grid from (-180°, 90°).
 struct DegreeGrid {
@@ -23,11 +24,14 @@ struct DegreeGrid {
 /// Parameters of a warp command.
 struct WarpAdvice {
   std::string to_crs = "EPSG:4326";
-  std::string from_crs;                  ///< empty: GDAL reads it from the picture
-  std::optional<DegreeGrid> grid;        ///< none: GDAL chooses
-  std::optional<DegreeGrid> relabelled;  ///< the degrees of the picture's pixels, assigned first without warping
+  std::string from_crs{};  ///< empty: GDAL reads it from the picture
+  bool by_rpc = false;     ///< by the picture's camera model
 };
 [[nodiscard]] std::string warp_command(const PictureFile& picture, const WarpAdvice& advice);
+/// Command that assigns a coordinate system to a picture, with a code that the user knows.
+[[nodiscard]] std::string name_system_command(const PictureFile& picture);
+/// Command that joins the parts of a mosaic into one picture beside the first part.
+[[nodiscard]] std::string join_command(const std::vector<std::filesystem::path>& parts);
 /// Command that assigns a place to a picture, with numbers that the user knows.
 [[nodiscard]] std::string assign_command(const PictureFile& picture);
 /// Command that makes the picture's own tags win over files beside it.

@@ -91,10 +91,16 @@ Status check_figure(const GTIFDefn& defn) {
   return Error{fmt::format("its GeoKeys give the body radii of {:g} and {:g} metres", defn.SemiMajor, defn.SemiMinor)};
 }
 
-/// Checks that keys agree with EPSG's register if they repeat the values of a code.
-Status check_against_register(GTIF* keys, const GTIFDefn& defn, const std::string& code) {
+/// Checks that keys agree with EPSG's register: `key` names a code of its kind, and other keys repeat the code's
+/// values.
+Status check_against_register(GTIF* keys, const GTIFDefn& defn, geokey_t key, const std::string& code) {
   const auto crs = Crs::open(code);
   if (!crs) return Error{fmt::format("its GeoKeys name {}, which is not known", code)};
+  if (crs->facts().geographic != (key == GeographicTypeGeoKey)) {
+    return Error{fmt::format("its GeoKeys contradict each other: {} ({}) is {}, and the key for a {} system names it",
+                             code, crs->facts().name, crs->facts().geographic ? "geographic" : "projected",
+                             crs->facts().geographic ? "projected" : "geographic")};
+  }
   const auto differs = [](double a, double b) { return std::abs(a - b) > kSameFigure * std::abs(b); };
   const CrsFacts& facts = crs->facts();
   const bool figure =
@@ -116,7 +122,7 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
       return Error{fmt::format("its GeoKeys name EPSG:{} and give a projection of their own besides", code)};
     }
     const std::string text = fmt::format("EPSG:{}", code);
-    if (Status same = check_against_register(keys, defn, text); !same) return same.error();
+    if (Status same = check_against_register(keys, defn, ProjectedCSTypeGeoKey, text); !same) return same.error();
     return text;
   }
   constexpr std::string_view kEsriText = "ESRI PE String = ";
@@ -145,7 +151,7 @@ Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std:
   const auto code = short_key(keys, GeographicTypeGeoKey).value_or(KvUserDefined);
   if (code != KvUserDefined && code != 0) {
     const std::string text = fmt::format("EPSG:{}", code);
-    if (Status same = check_against_register(keys, defn, text); !same) return same.error();
+    if (Status same = check_against_register(keys, defn, GeographicTypeGeoKey, text); !same) return same.error();
     return text;
   }
   if (Status plausible = check_figure(defn); !plausible) return plausible.error();
@@ -180,8 +186,10 @@ Result<GeoKeys> interpret(GTIF* keys) {
   GTIFDefn defn{};
   if (GTIFGetDefn(keys, &defn) != 1) return said;
   const auto model = short_key(keys, GTModelTypeGeoKey);
+  // GDAL writes a projection that GeoTIFF does not have as a text in the citation, and calls the model user-defined.
+  const bool own_model = model != ModelTypeGeographic && !text_key(keys, PCSCitationGeoKey).empty();
   const bool names_projected = short_key(keys, ProjectedCSTypeGeoKey) || short_key(keys, ProjCoordTransGeoKey) ||
-                               short_key(keys, ProjectionGeoKey);
+                               short_key(keys, ProjectionGeoKey) || own_model;
   const bool names_geographic = short_key(keys, GeographicTypeGeoKey) || defn.SemiMajor > 0.0;
   if (!model && !names_projected && !names_geographic) return said;
   if (model == ModelTypeGeographic && names_projected) {

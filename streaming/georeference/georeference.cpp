@@ -53,12 +53,14 @@ Result<std::optional<Affine>> tag_transform(const GeoTags& tags, const PictureFi
   return std::optional(by_matrix);
 }
 
-Result<std::optional<Georeference>> from_tags(const PictureFile& picture) {
+/// Without `with_crs`, damaged keys count as none.
+Result<std::optional<Georeference>> from_tags(const PictureFile& picture, bool with_crs) {
   const auto tags = read_geo_tags(picture.path);
   if (!tags) return Error{tags.error().message};
   if (!*tags) return std::optional<Georeference>{};
   auto keys = read_geo_keys(**tags);
-  if (!keys) return keys.error();
+  if (!keys && with_crs) return keys.error();
+  if (!keys) keys = GeoKeys{};
   auto transform = tag_transform(**tags, picture);
   if (!transform) return transform.error();
   Georeference said;
@@ -94,8 +96,8 @@ Status add_claim(Georeference& said, const SideClaim& claim, const PictureFile& 
 
 Error cannot_believe(const PictureFile& picture, const std::string& why) {
   return Error{
-      fmt::format("{}: {}, so where it lies is not known; say it with `terrella cut --bounds W,S,E,N`, or "
-                  "write it into a copy: {}",
+      fmt::format("{}: {}, so where it lies is not known; say it with --crs CRS and --bounds W,S,E,N, or write it into "
+                  "a copy: {}",
                   picture.path.string(), why, assign_command(picture))};
 }
 
@@ -106,8 +108,8 @@ Error contradiction(const PictureFile& picture, const std::string& why) {
 
 }  // namespace
 
-Result<std::optional<Georeference>> read_georeference(const PictureFile& picture) {
-  auto tags = from_tags(picture);
+Result<std::optional<Georeference>> read_georeference(const PictureFile& picture, bool with_crs) {
+  auto tags = from_tags(picture, with_crs);
   if (!tags) return cannot_believe(picture, tags.error().message);
   const auto claims = read_side_files(picture.path);
   if (!claims) return Error{fmt::format("{}: {}", picture.path.string(), claims.error().message)};

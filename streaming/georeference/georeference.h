@@ -30,7 +30,8 @@ struct Georeference {
 };
 
 /// Reads the GeoTIFF tags and the files beside the picture; none if they state no place. The error names the file, the
-/// damage or contradiction, and a cure. thread: any
-[[nodiscard]] Result<std::optional<Georeference>> read_georeference(const PictureFile& picture);
+/// damage or contradiction, and a cure. Without `with_crs`, damaged GeoKeys are no error, because the user has named
+/// the coordinate system. thread: any
+[[nodiscard]] Result<std::optional<Georeference>> read_georeference(const PictureFile& picture, bool with_crs = true);
 
 }  // namespace terrella

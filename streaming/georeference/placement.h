@@ -1,15 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
-#include "geo/body.h"
-#include "geo/coordinates.h"
 #include "streaming/georeference/crs.h"
 #include "streaming/georeference/georeference.h"
-#include "tiles/tile_grid.h"
+#include "streaming/georeference/place_words.h"
 
 namespace terrella {
 
@@ -23,34 +21,21 @@ struct Placement {
 
 /// Place of a picture after checking.
 struct PlacedPicture {
-  std::optional<Georeference> said;    ///< none: the picture states nothing
-  std::optional<CrsFacts> crs;         ///< none: not stated
-  std::optional<Placement> placement;  ///< none: not stated; every pixel corner is within 0.01 pixels of PROJ's result
+  std::optional<Georeference> said;    ///< statement of the picture and the files beside it; none: they state nothing
+  std::optional<CrsFacts> crs;         ///< system used: the user's, else the picture's; none: not stated
+  std::optional<CrsPlace> projected;   ///< place in any system; none: not stated, the picture is a whole planet
+  std::optional<Placement> placement;  ///< the same place in even steps of degrees, if it is one: every pixel corner is
+                                       ///< within 0.01 pixels of PROJ's result
+  std::string claim;                   ///< who states the system: "PATH: its GeoTIFF tags say that it is …"
+  std::vector<std::string> remarks;    ///< statements of the picture that the user's words overrule, for the user
 };
 
-/// Reads and checks the place that the picture states. The error gives the statement, why the picture cannot be drawn,
-/// and the GDAL command that converts it. thread: any
-[[nodiscard]] Result<PlacedPicture> place_picture(const PictureFile& picture);
+/// Reads and checks the place that the user and the picture state. The error gives the statement, why the picture
+/// cannot be drawn, and the option or GDAL command that helps. thread: any
+[[nodiscard]] Result<PlacedPicture> place_picture(const PictureFile& picture, const PlaceWords& words = {});
 
-/// Fails if the picture states another body (a radius over 1 % from `body`'s). Also fails if its rows count
-/// planetocentric latitudes and `latitude` differs. thread: any
-[[nodiscard]] Status check_figure(const PictureFile& picture, const PlacedPicture& placed, const Body& body,
-                                  LatitudeKind latitude);
-
-/// Options that pictures in a coordinate system need.
-struct NeededOptions {
-  std::string body{};                      ///< for --body; empty for Earth, the default
-  bool centric = false;                    ///< adds --latitude centric
-  [[nodiscard]] std::string text() const;  ///< each option after a space
-};
-[[nodiscard]] NeededOptions needed_options(const CrsFacts& crs);
-
-/// Area of the picture; east < west if it crosses ±180°. An area within 0.01 pixels of the whole planet becomes the
-/// whole planet. Fails if no rectangle describes the area: all longitudes from another start than -180°, or places
-/// beyond a pole.
-[[nodiscard]] Result<GeoRect> covered_by(const PictureFile& picture, const Placement& placement);
-
-/// Command that resamples a placed picture to pixels that fit a grid.
-[[nodiscard]] std::string resample_command(const PictureFile& picture, const PlacedPicture& placed);
+/// Place that the user's bounds in degrees, or --west, give to a picture. Fails if a picture of a whole planet is not
+/// 2:1. thread: any
+[[nodiscard]] Result<Placement> place_of_words(const PictureFile& picture, const PlaceWords& words);
 
 }  // namespace terrella

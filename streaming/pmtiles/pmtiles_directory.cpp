@@ -18,18 +18,19 @@ class VarintReader {
 
   std::uint64_t next(std::uint64_t most) {
     std::uint64_t number = 0;
-    for (int shift = 0; shift < 64 && !rest_.empty() && fault_ == nullptr; shift += 7) {
+    for (int shift = 0; fault_ == nullptr; shift += 7) {
+      if (rest_.empty()) {
+        fail("it ends within a number");
+        break;
+      }
       const auto byte = std::to_integer<std::uint64_t>(rest_.front());
       rest_ = rest_.subspan(1);
       const std::uint64_t bits = byte & 0x7F;
-      if (bits << shift >> shift != bits) break;
       number |= bits << shift;
-      if ((byte & 0x80) != 0) continue;
-      if (number <= most) return number;
-      break;
+      if (shift > 56 || number > most) fail("a number in it is too large");
+      if (byte < 0x80) break;
     }
-    fail(rest_.empty() ? "it ends within a number" : "a number in it is too large");
-    return 0;
+    return fault_ == nullptr ? number : 0;
   }
   void fail(const char* why) {
     if (fault_ == nullptr) fault_ = why;

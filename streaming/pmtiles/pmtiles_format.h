@@ -11,7 +11,8 @@
 #include "streaming/byte_range.h"
 
 /// Parts of a PMTiles archive, version 3 (github.com/protomaps/PMTiles, spec/v3). Every function takes hostile bytes;
-/// the errors do not name the file. thread: any
+/// the errors do not name the file.
+// thread: any, for all of this header
 namespace terrella {
 
 inline constexpr std::size_t kPmtilesHeaderBytes = 127;

@@ -2,7 +2,6 @@
 #include <tiffio.h>
 
 #include <array>
-#include <ranges>
 
 #include "streaming/file_bytes.h"
 #include "streaming/raster/open_raster.h"
@@ -79,8 +78,9 @@ Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& 
                     .offset = pyramid->metadata.offset,
                     .unit = pyramid->metadata.unit,
                     .notes = {}};
-  for (const TiffLevel& level : pyramid->levels | std::views::reverse | std::views::drop(1)) {
-    facts.overviews.emplace_back(level.part.picture.width_px, level.part.picture.height_px);
+  for (std::size_t i = pyramid->levels.size() - 1; i-- > 0;) {
+    const TiffPicture& overview = pyramid->levels[i].part.picture;
+    facts.overviews.emplace_back(overview.width_px, overview.height_px);
   }
   auto notes = stretch_notes(*pyramid);
   if (!notes) return notes.error();

@@ -13,11 +13,7 @@
 
 namespace terrella {
 
-/// Place of a raster: the transform of the full-size picture, and its coordinate reference system.
-struct RasterPlace {
-  Affine to_crs;
-  std::string crs;  ///< text for Crs::open()
-};
+using RasterPlace = CrsPlace;
 
 struct RasterOptions {
   bool heights = false;  ///< blocks are numbers: metres = stored value · scale + offset

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace terrella {
@@ -145,8 +146,11 @@ class PictureTags {
   }
 
   Status read_blocks() {
+    if (Status fits = check_memory("rows", static_cast<std::uint64_t>(picture_.width_px)); !fits) return fits;
     picture_.tiled = TIFFIsTiled(tiff_) != 0;
     if (!picture_.tiled) {
+      const std::int64_t rows = tiff_tag<std::uint32_t>(tiff_, TIFFTAG_ROWSPERSTRIP, 0);
+      picture_.rows_per_strip = std::clamp<std::int64_t>(rows, 1, picture_.height_px);
       const tmsize_t row = TIFFScanlineSize(tiff_);
       const bool fits = row > 0 && static_cast<std::size_t>(row) >= picture_.packed_bytes(picture_.width_px);
       return fits ? Status(Done{}) : refuse("rows of an unexpected size");
@@ -160,13 +164,17 @@ class PictureTags {
         tile / row != picture_.tile_height_px) {
       return refuse("tiles of an unexpected size");
     }
-    const auto pixels = static_cast<std::uint64_t>(picture_.tile_width_px * picture_.tile_height_px);
+    return check_memory("tiles", static_cast<std::uint64_t>(picture_.tile_width_px * picture_.tile_height_px));
+  }
+
+  /// Fails if tiles or rows of that many pixels need too much memory.
+  [[nodiscard]] Status check_memory(const char* what, std::uint64_t pixels) const {
     const std::uint64_t held = std::max<std::uint64_t>(4, picture_.samples.pixel_bytes()) * pixels;
     if (held <= kMaxTiffTileBytes) return Done{};
     return Error{
-        fmt::format("{}: one of its tiles needs {} MiB of memory; save it with smaller ones "
-                    "(gdal_translate -co TILED=YES)",
-                    reader_.bytes().name(), held >> 20)};
+        fmt::format("{}: one of its {} needs {} MiB of memory; save it with smaller ones, or fewer bands "
+                    "(gdal_translate -co TILED=YES -b 1 -b 2 -b 3)",
+                    reader_.bytes().name(), what, held >> 20)};
   }
 
   TiffReader& reader_;

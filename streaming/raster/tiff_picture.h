@@ -8,8 +8,8 @@
 
 namespace terrella {
 
-/// Most memory for a decoded tile, bytes. A file with larger tiles is refused with advice.
-inline constexpr std::uint64_t kMaxTiffTileBytes = 256ULL << 20;
+/// Most memory for a decoded tile or row, bytes. A file with larger ones is refused with advice.
+inline constexpr std::uint64_t kMaxTiffTileBytes = 64ULL << 20;
 
 /// One directory of a TIFF: size, blocks and samples, with all values checked against each other.
 struct TiffPicture {
@@ -22,6 +22,7 @@ struct TiffPicture {
   bool separate = false;            ///< each sample has a plane of blocks of its own
   std::int64_t tile_width_px = 0;   ///< 0: strips
   std::int64_t tile_height_px = 0;  ///< 0: strips
+  std::int64_t rows_per_strip = 1;  ///< at most height_px
   int compression = COMPRESSION_NONE;
   TiffSamples samples;
 

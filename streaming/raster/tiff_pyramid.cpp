@@ -39,6 +39,9 @@ Result<std::vector<TiffPart>> read_directories(const std::shared_ptr<const ByteF
   reader.clear_message();
   while (parts.size() < kMaxDirectories && TIFFReadDirectory(reader.get()) == 1) add();
   if (!reader.message().empty()) return damaged_directories(file->name(), reader.message());
+  if (parts.size() < kMaxDirectories && TIFFLastDirectory(reader.get()) == 0) {
+    return damaged_directories(file->name(), "it goes round in a circle");
+  }
   for (const std::uint64_t child : children) {
     if (TIFFSetSubDirectory(reader.get(), child) != 1) return damaged_directories(file->name(), reader.message());
     add();

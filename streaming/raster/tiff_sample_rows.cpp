@@ -62,19 +62,29 @@ Status TiffSampleRows::open_strips() {
   return Done{};
 }
 
+/// Most codecs cannot skip rows inside a strip, so the rows before are decoded too.
 Status TiffSampleRows::decode_strip_row(std::int64_t y) {
   const TiffPicture& picture = part_.picture;
   if (planes_.empty()) {
     if (Status opened = open_strips(); !opened) return opened;
   }
-  for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-    TiffReader& reader = *planes_[plane];
-    if (TIFFReadScanline(reader.get(), packed_.data(), static_cast<std::uint32_t>(y),
-                         static_cast<std::uint16_t>(plane)) != 1) {
-      return Error{reader.message().empty() ? "the data end too early" : reader.message()};
+  const std::int64_t strip = y - y % picture.rows_per_strip;
+  for (std::int64_t row = std::max(next_row_, strip); row <= y; ++row) {
+    for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
+      if (Status decoded = decode_plane_row(plane, row); !decoded) return decoded;
     }
-    place_plane(picture, plane, packed_.data(), picture.width_px, held_.data());
   }
+  next_row_ = y + 1;
+  return Done{};
+}
+
+Status TiffSampleRows::decode_plane_row(std::size_t plane, std::int64_t y) {
+  TiffReader& reader = *planes_[plane];
+  const auto row = static_cast<std::uint32_t>(y);
+  if (TIFFReadScanline(reader.get(), packed_.data(), row, static_cast<std::uint16_t>(plane)) != 1) {
+    return Error{reader.message().empty() ? "the data end too early" : reader.message()};
+  }
+  place_plane(part_.picture, plane, packed_.data(), part_.picture.width_px, held_.data());
   return Done{};
 }
 

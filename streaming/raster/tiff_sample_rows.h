@@ -24,6 +24,7 @@ class TiffSampleRows {
   [[nodiscard]] Error row_error(std::int64_t y, const std::string& why) const;
   [[nodiscard]] Status open_strips();
   [[nodiscard]] Status decode_strip_row(std::int64_t y);
+  [[nodiscard]] Status decode_plane_row(std::size_t plane, std::int64_t y);
   [[nodiscard]] Status decode_tiles(std::int64_t tile_top, std::int64_t first_row);
 
   TiffPart part_;
@@ -31,6 +32,7 @@ class TiffSampleRows {
   TiffReaders readers_;
   std::vector<std::unique_ptr<TiffReader>> planes_;  ///< for strips: each plane's reader
   std::vector<std::uint8_t> packed_;                 ///< for strips: a row of a plane
+  std::int64_t next_row_ = 0;                        ///< for strips: the row after the last one decoded
   std::int64_t held_first_ = -1;                     ///< first row that is held
   std::int64_t held_rows_ = 1;                       ///< rows held at a time
   std::vector<std::uint8_t> held_;

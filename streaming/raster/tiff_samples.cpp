@@ -89,6 +89,8 @@ bool TiffSamples::may_be_clear() const {
 }
 
 ColourConverter::ColourConverter(TiffSamples samples) : samples_(std::move(samples)) {
+  is_plain_rgb_ = samples_.colour == TiffColour::rgb && samples_.per_pixel == 3 && samples_.stored_bits == 8 &&
+                  samples_.type == SampleType::uint8 && !samples_.nodata && !samples_.stretch;
   if (samples_.colour == TiffColour::palette) return;
   const auto fill = [this](auto zero) {
     using T = decltype(zero);
@@ -104,9 +106,10 @@ ColourConverter::ColourConverter(TiffSamples samples) : samples_(std::move(sampl
 }
 
 std::uint8_t ColourConverter::level_of(double value) const {
-  const double most = samples_.type == SampleType::uint16 ? 65535.0 : (1 << samples_.stored_bits) - 1.0;
+  const double most = samples_.stored_bits <= 16 ? (1 << samples_.stored_bits) - 1.0 : 1.0;
   const Stretch range = samples_.stretch.value_or(Stretch{.low = 0.0, .high = most});
-  const double share = std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+  // NaN, which infinite ranges give, becomes 0.
+  const double share = std::min(1.0, std::max(0.0, (value - range.low) / (range.high - range.low)));
   const auto level = static_cast<std::uint8_t>(share * 255.0 + 0.5);
   return samples_.colour == TiffColour::gray_inverted ? static_cast<std::uint8_t>(255 - level) : level;
 }
@@ -147,6 +150,13 @@ void ColourConverter::convert(const std::uint8_t* from, std::size_t pixels, std:
 }
 
 void ColourConverter::to_rgba(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const {
+  if (is_plain_rgb_) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      std::memcpy(rgba + 4 * i, from + 3 * i, 3);
+      rgba[4 * i + 3] = 255;
+    }
+    return;
+  }
   with_sample_type(samples_.type, [&](auto zero) { convert<decltype(zero)>(from, pixels, rgba); });
 }
 

@@ -56,6 +56,7 @@ class ColourConverter {
   [[nodiscard]] std::uint8_t level_of(double value) const;
 
   TiffSamples samples_;
+  bool is_plain_rgb_ = false;         ///< three bytes that are the colours
   std::vector<std::uint8_t> levels_;  ///< result for each value of 8 or 16 bits, by its bits
 };
 

@@ -75,8 +75,10 @@ Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPict
   const std::size_t row_bytes = picture.packed_bytes(width);
   const std::size_t to_row_bytes = static_cast<std::size_t>(width) * picture.samples.pixel_bytes();
   std::vector<std::uint8_t> samples(static_cast<std::size_t>(rows) * to_row_bytes);
-  fill_samples(picture.samples, picture.samples.nodata.value_or(0.0), static_cast<std::size_t>(rows * width),
-               samples.data());
+  if (std::ranges::any_of(planes, [](const auto& bytes) { return bytes.empty(); })) {
+    fill_samples(picture.samples, picture.samples.nodata.value_or(0.0), static_cast<std::size_t>(rows * width),
+                 samples.data());
+  }
   const bool direct = !picture.separate && picture.samples.stored_bits >= 8;
   std::vector<std::uint8_t> packed(direct ? 0 : static_cast<std::size_t>(rows) * row_bytes);
   for (std::size_t plane = 0; plane < picture.planes(); ++plane) {

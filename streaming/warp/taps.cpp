@@ -8,8 +8,8 @@ namespace {
 
 /// A smaller weight is not worth a block: a fifth of one part in 255.
 constexpr double kLeastWeight = 1.0 / 1024.0;
-/// Up to this length the cubic is not stretched. The error is far below that of the cubic itself.
-constexpr double kPlainLength = 1.05;
+/// Up to this length the cubic is not stretched: what it lets through beyond the tile's limit, it also keeps sharper.
+constexpr double kPlainLength = 1.3;
 /// The largest filter, source pixels a side: 4 · 12. It is needed only in tiles of which a part is far smaller.
 constexpr double kMostLength = 12.0;
 

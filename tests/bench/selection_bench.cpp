@@ -2,12 +2,14 @@
 // view pays each frame before anything is drawn.
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/body.h"
-#include "surface/frame_plan.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/frame_plan.h"
+#include "surface/plan/tile_coverage.h"
 
 namespace {
 
@@ -60,22 +62,23 @@ struct Settled {
   }
 
   void frame_once() {
-    FramePlan plan =
-        plan_frame(view, {.layers = {{.tree = &tree, .tiles = &residency}}, .sun = {}, .patch_shuffle = {}}, options);
-    tree.adopt(plan.layers[0].growth);
-    patches = std::move(plan.layers[0].patches);
-    coverage = std::move(plan.layers[0].coverage);
-    note_use(coverage.uses, ++frame, residency);
+    plan = plan_frame(view, {.layers = {{.tree = &tree, .tiles = &residency}}, .sun = {}, .patch_shuffle = {}}, options,
+                      std::move(plan));
+    LayerPlan& layer = plan.layers[0];
+    tree.adopt(layer.growth);
+    std::swap(patches, layer.patches);
+    std::swap(coverage, layer.coverage);
+    coverage.uses.note(++frame, residency);
     tree.end_frame();
     residency.end_frame(frame, kGrid.min_level);
   }
 
   void cover() {
-    TreeGrowth growth(tree);
+    growth.begin(tree);
     cover_with_tiles({.tree = tree, .growth = growth, .view = view, .patches = patches, .residency = residency},
                      coverage);
     tree.adopt(growth);
-    note_use(coverage.uses, ++frame, residency);
+    coverage.uses.note(++frame, residency);
   }
 
   Body body = earth();
@@ -85,6 +88,8 @@ struct Settled {
   TileResidency residency;
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;
+  FramePlan plan;
+  TreeGrowth growth;
   std::uint64_t frame = 0;
   int slots = 0;
 };
@@ -122,12 +127,16 @@ void tiles_alone(benchmark::State& state, const Case& what) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  const char* rounds = std::getenv("SELECTION_BENCH_ROUNDS");  // exactly so many, to count instructions
+  const auto add = [&](const char* kind, auto* function, const Case& what) {
+    auto* added = benchmark::RegisterBenchmark((std::string(kind) + what.name).c_str(), function, what);
+    added->Unit(benchmark::kMicrosecond);
+    if (rounds != nullptr) added->Iterations(std::atoi(rounds));
+  };
   for (const Case& what : cases()) {
-    const std::string name = what.name;
-    using benchmark::RegisterBenchmark;
-    RegisterBenchmark(("frame/" + name).c_str(), frame, what)->Unit(benchmark::kMicrosecond);
-    RegisterBenchmark(("select_patches/" + name).c_str(), patches_alone, what)->Unit(benchmark::kMicrosecond);
-    RegisterBenchmark(("cover_with_tiles/" + name).c_str(), tiles_alone, what)->Unit(benchmark::kMicrosecond);
+    add("frame/", frame, what);
+    add("select_patches/", patches_alone, what);
+    add("cover_with_tiles/", tiles_alone, what);
   }
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -50,26 +50,26 @@ def commands_in(message):
 
 # ---- TIFF written by hand: what GDAL would not write
 
-def tiff(width, height, tags):
-    """A gray picture with extra tags, (number, type, values): 2 ASCII, 3 SHORT, 12 DOUBLE."""
+def tiff(width, height, tags, pixels=None):
+    """A gray picture with extra tags, (number, type, values[, count]): 2 ASCII, 3 SHORT, 12 DOUBLE."""
     sizes, codes = {1: 1, 2: 1, 3: 2, 4: 4, 12: 8}, {1: "B", 2: "c", 3: "H", 4: "I", 12: "d"}
     base = [(256, 4, [width]), (257, 4, [height]), (258, 3, [8]), (259, 3, [1]), (262, 3, [1]), (273, 4, [0]),
             (277, 3, [1]), (278, 4, [height]), (279, 4, [width * height])]
     entries = sorted(base + list(tags))
     data_at = 8 + 2 + 12 * len(entries) + 4
     directory, data = struct.pack("<H", len(entries)), b""
-    pixels_at = data_at + sum(sizes[t] * len(v) for n, t, v in entries if sizes[t] * len(v) > 4)
-    for number, kind, values in entries:
+    pixels_at = data_at + sum(sizes[t] * len(v) for n, t, v, *_ in entries if sizes[t] * len(v) > 4)
+    for number, kind, values, *said in entries:
         if number == 273:
             values = [pixels_at]
         raw = values if isinstance(values, bytes) else struct.pack(f"<{len(values)}{codes[kind]}", *values)
-        count = len(values)
+        count = said[0] if said else len(values)
         if len(raw) > 4:
             directory += struct.pack("<HHII", number, kind, count, data_at + len(data))
             data += raw
         else:
             directory += struct.pack("<HHI", number, kind, count) + raw.ljust(4, b"\0")
-    pixels = bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
+    pixels = pixels or bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
     return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0) + data + pixels
 
 

@@ -168,6 +168,70 @@ void write_float_tiff(const fs::path& path) {
   TIFFClose(tiff);
 }
 
+/// One directory of a seed for fuzz_raster: 48 × 48 pixels, or 24 × 24 if it is reduced.
+struct RasterSeed {
+  int bits = 8;
+  int format = SAMPLEFORMAT_UINT;
+  int samples = 1;
+  int photometric = PHOTOMETRIC_MINISBLACK;
+  int planes = PLANARCONFIG_CONTIG;
+  int compression = COMPRESSION_ADOBE_DEFLATE;
+  bool tiled = true;
+  int kind = 0;  ///< FILETYPE_REDUCEDIMAGE, FILETYPE_MASK
+};
+
+void write_directory(TIFF* tiff, const RasterSeed& seed) {
+  const int side = (seed.kind & FILETYPE_REDUCEDIMAGE) != 0 ? 24 : 48;
+  const auto set = [tiff](std::uint32_t tag, int value) { TIFFSetField(tiff, tag, value); };
+  set(TIFFTAG_SUBFILETYPE, seed.kind);
+  set(TIFFTAG_IMAGEWIDTH, side);
+  set(TIFFTAG_IMAGELENGTH, side);
+  set(TIFFTAG_BITSPERSAMPLE, seed.bits);
+  set(TIFFTAG_SAMPLEFORMAT, seed.format);
+  set(TIFFTAG_SAMPLESPERPIXEL, seed.samples);
+  set(TIFFTAG_PHOTOMETRIC, seed.photometric);
+  set(TIFFTAG_PLANARCONFIG, seed.planes);
+  set(TIFFTAG_COMPRESSION, seed.compression);
+  if (seed.tiled) set(TIFFTAG_TILEWIDTH, 16);
+  if (seed.tiled) set(TIFFTAG_TILELENGTH, 16);
+  if (!seed.tiled) set(TIFFTAG_ROWSPERSTRIP, 10);
+  if (seed.compression == COMPRESSION_JPEG) set(TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
+  std::vector<std::uint8_t> block(static_cast<std::size_t>(seed.tiled ? TIFFTileSize(tiff) : TIFFStripSize(tiff)));
+  for (std::size_t i = 0; i < block.size(); ++i) block[i] = static_cast<std::uint8_t>(i * i / 7);
+  const std::uint32_t blocks = seed.tiled ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  for (std::uint32_t i = 0; i < blocks; ++i) {
+    const auto bytes = static_cast<tmsize_t>(block.size());
+    seed.tiled ? TIFFWriteEncodedTile(tiff, i, block.data(), bytes)
+               : TIFFWriteEncodedStrip(tiff, i, block.data(), bytes);
+  }
+  TIFFWriteDirectory(tiff);
+}
+
+void write_raster(const fs::path& path, const char* mode, const std::vector<RasterSeed>& directories) {
+  fs::create_directories(path.parent_path());
+  TIFF* tiff = TIFFOpen(path.c_str(), mode);
+  for (const RasterSeed& seed : directories) write_directory(tiff, seed);
+  TIFFClose(tiff);
+}
+
+void write_rasters(const fs::path& folder) {
+  const RasterSeed rgb{.samples = 3, .photometric = PHOTOMETRIC_RGB};
+  RasterSeed small = rgb, mask{.bits = 1, .photometric = PHOTOMETRIC_MASK, .kind = FILETYPE_MASK};
+  small.kind = FILETYPE_REDUCEDIMAGE;
+  write_raster(folder / "rgb.tif", "w", {rgb, small, mask});
+  write_raster(folder / "planes.tif", "w8", {{.bits = 16, .samples = 2, .planes = PLANARCONFIG_SEPARATE}});
+  write_raster(folder / "float.tif", "wb", {{.bits = 32, .format = SAMPLEFORMAT_IEEEFP, .tiled = false}});
+  write_raster(folder / "int.tif", "w", {{.bits = 16, .format = SAMPLEFORMAT_INT, .compression = COMPRESSION_LZW}});
+  write_raster(folder / "jpeg.tif", "w",
+               {{.samples = 3, .photometric = PHOTOMETRIC_YCBCR, .compression = COMPRESSION_JPEG}});
+  for (const int scheme : {COMPRESSION_ZSTD, COMPRESSION_WEBP, COMPRESSION_LERC, COMPRESSION_PACKBITS}) {
+    RasterSeed other = rgb;
+    other.compression = scheme;
+    if (TIFFIsCODECConfigured(static_cast<std::uint16_t>(scheme)) == 0) continue;
+    write_raster(folder / (std::to_string(scheme) + ".tif"), "w", {other});
+  }
+}
+
 /// A tile as SQL writes a blob.
 std::string blob_of(const std::vector<std::byte>& bytes) {
   constexpr const char* kDigits = "0123456789ABCDEF";
@@ -252,6 +316,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 256; ++i) heights.push_back(static_cast<std::uint16_t>(i * 257));
   write(folder / "heights/a.png", *encode_gray16_png(heights, 16));
   write_float_tiff(folder / "heights/a.tif");
+  write_rasters(folder / "raster");
   write(folder / "http_headers/content", kFields);
   write(folder / "http_headers/refusal", kRefusal);
   write(folder / "http_headers/header", "X-Key: value");

@@ -64,6 +64,13 @@ TEST(Body, RefusalsNameTheTextAndThePresets) {
   }
 }
 
+TEST(Number, BlanksAtBothEndsAreTrimmed) {
+  EXPECT_EQ(trimmed(" \t\r\na  b\r\n"), "a  b");
+  EXPECT_EQ(trimmed("a"), "a");
+  EXPECT_EQ(trimmed(" \n"), "");
+  EXPECT_EQ(trimmed(""), "");
+}
+
 TEST(Number, WhatIsReadAndWhatIsNot) {
   EXPECT_EQ(read_number("12.5"), 12.5);
   EXPECT_EQ(read_number("\t-1e3 "), -1000.0);

@@ -171,12 +171,12 @@ TEST_F(Misuse, ASourceThatAnswersNothingLeavesThePlainColour) {
     globe->set_camera(camera_at(0, 0, 1.0e6));
     settle(*globe, kMisused);
     EXPECT_EQ(picture().at(16, 16), (Color{30, 38, 52}));
-    ASSERT_FALSE(globe->missing().empty());
-    EXPECT_EQ(globe->missing().back().layer, globe->imagery().front());
+    ASSERT_FALSE(globe->missing_tiles().empty());
+    EXPECT_EQ(globe->missing_tiles().back().layer, globe->imagery().front());
   }
   const auto globe = make_globe(unlit_options(), std::make_shared<OneAnswer>(EncodedTile{}));
   settle(*globe, kMisused);
-  EXPECT_FALSE(globe->missing().empty());
+  EXPECT_FALSE(globe->missing_tiles().empty());
 }
 
 TEST_F(Misuse, ASourceThatNeverAnswersIsWaitedForNoLongerThanTheDeadline) {

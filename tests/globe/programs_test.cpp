@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::set<std::string>;
 constexpr Viewport kProgramsPicture{64, 64};
-const TileGrid kGrid{.tile_px = 64, .max_level = 1};
+const TileGrid kProgramsGrid{.tile_px = 64, .max_level = 1};
 
 /// Of all programs in the context, which are labelled with the file that makes them what they are.
 std::multiset<std::string> all_programs() {
@@ -38,7 +38,7 @@ class Programs : public GlTest {
  protected:
   /// Those that a globe's frame has made.
   Names of(const GlobeOptions& options, const ObjectScene& objects = {}) {
-    const auto globe = make_globe(options, one_colour(kGrid, {200, 120, 40}));
+    const auto globe = make_globe(options, one_colour(kProgramsGrid, {200, 120, 40}));
     if (!objects.empty()) {
       EXPECT_TRUE(globe->add_objects(objects));
     }
@@ -85,10 +85,10 @@ TEST_F(Programs, StereoBringsOneWhereRowsAreToldApartAndNoneElse) {
 }
 
 TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAgain) {
-  const auto globe = make_globe({}, one_colour(kGrid, {200, 120, 40}));
+  const auto globe = make_globe({}, one_colour(kProgramsGrid, {200, 120, 40}));
   globe->set_camera(camera_at(10, 20, 2.0e7));
   const auto count = [&](const ImageLook& look) {
-    EXPECT_TRUE(globe->add_imagery(one_colour(kGrid, {200, 120, 40}), look));
+    EXPECT_TRUE(globe->add_imagery(one_colour(kProgramsGrid, {200, 120, 40}), look));
     settle(*globe, kProgramsPicture);
     const auto all = all_programs();
     return std::pair(all.count("patch_polar.frag"), all.size());

@@ -36,7 +36,7 @@ FAULTS = [
           "block.eye_low_ecef = glm::vec4(eye.low, 0.0F);", "block.eye_low_ecef = glm::vec4(0.0F);",
           "stability_tests", "Stability.NoVertexJitters*"),
     Fault("float where double belongs: tile coordinates", "engine/tiles/tile_grid.cpp",
-          "return {.x = (lon_deg + 180.0) / span,", "return {.x = static_cast<float>(lon_deg + 180.0) / span,",
+          "return {.x = (lon_deg - grid.west_deg) / span,", "return {.x = static_cast<float>(lon_deg - grid.west_deg) / span,",
           "stability_tests", "Stability.WindowPointsAreRight*"),
     Fault("wrong seam side: longitudes do not unwrap around the patch", "engine/surface/patch_tree.cpp",
           "return deg - 360.0 * std::round(deg / 360.0);", "return deg;",

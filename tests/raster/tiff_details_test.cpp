@@ -45,10 +45,11 @@ TEST_P(Masks, MakeTransparent) {
   ASSERT_TRUE(source);
   EXPECT_FALSE(source->info().opaque);
   const std::size_t levels = source->info().levels.size();
-  ASSERT_EQ(levels, 2U);
+  // GDAL makes no overviews of a mask in a file of its own, so the picture's overview is not used.
+  ASSERT_EQ(levels, std::string_view(config) == "NO" ? 1U : 2U);
   for (std::size_t level = 0; level < levels; ++level) {
-    ASSERT_TRUE(translate(level == 0 ? "-oo OVERVIEW_LEVEL=0 -b mask -of ENVI" : "-b mask -of ENVI", folder / "in.tif",
-                          folder / "mask.raw"));
+    ASSERT_TRUE(translate(level + 1 < levels ? "-oo OVERVIEW_LEVEL=0 -b mask -of ENVI" : "-b mask -of ENVI",
+                          folder / "in.tif", folder / "mask.raw"));
     const Image got = whole_picture(*source, level);
     std::ifstream mask(folder / "mask.raw", std::ios::binary);
     for (int y = 0; y < got.height_px; ++y) {
@@ -76,7 +77,9 @@ TEST(TiffDetailsTest, NumbersUnderAMaskAreUnknown) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const float value = got.values[static_cast<std::size_t>(y * kWidth + x)];
-      is_clear(x, y) ? ASSERT_TRUE(std::isnan(value)) : ASSERT_EQ(value, gray(x, y, 0) - 100.0);
+      ASSERT_EQ(std::isnan(value), is_clear(x, y)) << x << " " << y;
+      if (is_clear(x, y)) continue;
+      ASSERT_EQ(value, gray(x, y, 0) - 100.0);
     }
   }
 }

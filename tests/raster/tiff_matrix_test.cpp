@@ -9,8 +9,8 @@ namespace terrella::test {
 namespace {
 
 // Odd sides, so that blocks reach beyond the edges and overviews do not divide evenly.
-constexpr int kWidth = 301;
-constexpr int kHeight = 173;
+constexpr int kWide = 301;
+constexpr int kHigh = 173;
 
 struct NumberType {
   const char* name;
@@ -47,7 +47,7 @@ class NumberMatrix : public testing::TestWithParam<std::tuple<NumberType, Layout
 TEST_P(NumberMatrix, EqualsGdal) {
   const auto& [type, layout] = GetParam();
   const ScratchFolder folder;
-  write_raw(folder / "in.raw", type.name, kWidth, kHeight, 1, [&](int x, int y, int band) {
+  write_raw(folder / "in.raw", type.name, kWide, kHigh, 1, [&](int x, int y, int band) {
     const double value = type.least + noise_at(x, y, band) * (type.most - type.least);
     return type.name[0] == 'F' ? value : std::floor(value);
   });
@@ -85,7 +85,7 @@ class PictureMatrix : public testing::TestWithParam<PictureCase> {};
 TEST_P(PictureMatrix, EqualsGdal) {
   const PictureCase& test = GetParam();
   const ScratchFolder folder;
-  write_raw(folder / "in.raw", "Byte", kWidth, kHeight, test.bands,
+  write_raw(folder / "in.raw", "Byte", kWide, kHigh, test.bands,
             [](int x, int y, int band) { return std::floor(256.0 * noise_at(x / 3, y / 2, band)); });
   ASSERT_TRUE(translate(test.options, folder / "in.raw", folder / "in.tif"));
   ASSERT_TRUE(add_overviews("-r average", folder / "in.tif", "2 4"));

@@ -9,13 +9,13 @@
 namespace terrella::test {
 namespace {
 
-constexpr int kSide = 400;
+constexpr int kThreadSide = 400;
 constexpr int kThreads = 8;
 
 /// Eight threads read all blocks in different orders, and get what one thread gets.
 void expect_same_in_threads(const std::string& options) {
   const ScratchFolder folder;
-  write_raw(folder / "in.raw", "Byte", kSide, kSide, 3,
+  write_raw(folder / "in.raw", "Byte", kThreadSide, kThreadSide, 3,
             [](int x, int y, int band) { return std::floor(256.0 * noise_at(x, y, band)); });
   ASSERT_TRUE(translate(options, folder / "in.raw", folder / "in.tif"));
   const auto alone = open_raster(folder / "in.tif", some_place());

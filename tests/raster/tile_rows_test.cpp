@@ -83,10 +83,10 @@ TEST(TileRowsTest, GiveThePixelsInsideTheBounds) {
     ASSERT_EQ(info.width_px, 31);
     ASSERT_EQ(info.height_px, 101);
     EXPECT_EQ(info.has_alpha, format == ImageFormat::png);
-    EXPECT_EQ(input->bounds.west.deg(), 15.0);
-    EXPECT_EQ(input->bounds.east.deg(), 30.5);
-    EXPECT_EQ(input->bounds.north.deg(), 70.0);
-    EXPECT_EQ(input->bounds.south.deg(), 19.5);
+    EXPECT_NEAR(input->bounds.west.deg(), 15.0, 1e-12);
+    EXPECT_NEAR(input->bounds.east.deg(), 30.5, 1e-12);
+    EXPECT_NEAR(input->bounds.north.deg(), 70.0, 1e-12);
+    EXPECT_NEAR(input->bounds.south.deg(), 19.5, 1e-12);
     std::vector<std::uint8_t> row(31 * 4);
     for (int y = 0; y < 101; ++y) {
       if (y == 10 || y == 60) {
@@ -174,19 +174,19 @@ TEST(TileRowsTest, OtherGridsAreRefused) {
 }
 
 /// One row of tiles is all that is held, also for 86400 columns.
-TEST(TileRowsTest, WidePicturesFitIntoTheirPart) {
-  constexpr std::int64_t kWidth = 86400;
+TEST(WidePictureTest, RowsOfTilesFitIntoTheirPart) {
+  constexpr std::int64_t kPlanetWidth = 86400;
   constexpr long kMost_KiB = 64L << 10;
   TileSetInfo info = half_degree(rect(-180.0, 88.0, 180.0, 90.0));
-  info.grid.tile_px = tile_side_for_rows(kWidth);
+  info.grid.tile_px = tile_side_for_rows(kPlanetWidth);
   EXPECT_EQ(info.grid.tile_px, 128);
   info.grid.max_level = 10;
-  info.grid.root_span_deg = 360.0 / kWidth * info.grid.tile_px * 1024;
+  info.grid.root_span_deg = 360.0 / kPlanetWidth * info.grid.tile_px * 1024;
   const pid_t child = fork();
   if (child == 0) {
     auto input = open_tile_rows(std::make_unique<FormulaTiles>(info), 2, {}, "a.tif");
-    std::vector<std::uint8_t> row(static_cast<std::size_t>(kWidth) * 4);
-    bool good = input.ok() && input->rows->info().width_px == kWidth;
+    std::vector<std::uint8_t> row(static_cast<std::size_t>(kPlanetWidth) * 4);
+    bool good = input.ok() && input->rows->info().width_px == kPlanetWidth;
     for (int y = 0; good && y < 300; ++y) good = input->rows->read_row(row).ok();
     _exit(good ? 0 : 1);
   }

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 namespace terrella {
 namespace {

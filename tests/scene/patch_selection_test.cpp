@@ -1,4 +1,4 @@
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 
 #include <gtest/gtest.h>
 
@@ -257,14 +257,12 @@ TEST(PatchSelection, ACliffBetweenHeightsThatCameAndThatDidNotIsNoRunaway) {
   wavy.add_level(0);
   for (const std::int64_t x : {0, 5, 6, 11}) wavy.add_tile({WavyGround::kLevel, x, 0});
   PatchTree tree(wavy.body(), deep_grid(), 8);
-  tree.set_relief(wavy.relief());
   StereoLook stereo;
   std::vector<SelectedPatch> patches;
   for (const double lat : {90.0, 80.0}) {
     for (const double height_m : {1.0, 2.0e3, 2.0e5}) {
-      wavy.relief().set_mesh_budget(std::numeric_limits<int>::max());
       const View eye = make_view(camera_at(lat, 3.0, height_m, 30, -20), wavy.body(), {64, 32});
-      select_patches(tree, stereo_eyes(eye, wavy.ground(), stereo).both, {}, patches);
+      select_patches(tree, stereo_eyes(eye, wavy.ground(), stereo).both, {.relief = &wavy.relief()}, patches);
       EXPECT_LT(patches.size(), kRunaway / 10) << lat << " " << height_m;
     }
   }
@@ -275,11 +273,11 @@ TEST(Relief, MissingTilesAreForgottenWhereNoViewHasWantedThemForLong) {
   Draw draw(15);
   Relief relief(earth().ellipsoid, {.tile_px = 32, .max_level = 12}, 1.0);
   PatchTree tree(earth().ellipsoid, deep_grid(), 8);
-  tree.set_relief(relief);
   std::vector<SelectedPatch> patches;
   int missing = 0;
   for (int k = 0; k < kViews; ++k) {
-    select_patches(tree, make_view(random_camera(draw, 1.0e3, 1.0e6), earth().ellipsoid, {64, 48}), {}, patches);
+    const View view = make_view(random_camera(draw, 1.0e3, 1.0e6), earth().ellipsoid, {64, 48});
+    select_patches(tree, view, {.relief = &relief, .mesh_budget = 0}, patches);
     for (const WantedTile& tile : relief.want(patches)) {
       relief.tiles().set_missing(tile.id, std::nullopt);
       ++missing;

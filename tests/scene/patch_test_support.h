@@ -8,7 +8,7 @@
 
 #include "geo/body.h"
 #include "geo/camera.h"
-#include "surface/patch_selection.h"
+#include "surface/plan/patch_selection.h"
 #include "tests/geo/geo_test_support.h"
 
 namespace terrella::test {

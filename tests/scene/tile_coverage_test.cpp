@@ -1,4 +1,4 @@
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 
 #include <gtest/gtest.h>
 
@@ -201,7 +201,7 @@ TEST(TileCoverage, TheNearestResidentAncestorStandsIn) {
     EXPECT_EQ(coverage.uncovered, 0);
     for (const WindowCell& cell : coverage.cells) EXPECT_EQ(level_of_slot.at(static_cast<int>(cell & 0xFFFFU)), level);
     EXPECT_EQ(coverage.wanted.empty(), level == 8);
-    EXPECT_EQ(coverage.missing == 0, level == 8);
+    EXPECT_EQ(coverage.pending == 0, level == 8);
   }
 }
 
@@ -256,11 +256,11 @@ TEST(TileCoverage, WantsEachTileOnceNoneOutsideTheGridAndComesToAnEnd) {
         expect_each_once_and_in_the_grid(grid, coverage);
         const bool whole_planet = grid.bounds.north > Angle::degrees(80);
         EXPECT_TRUE(!whole_planet || coverage.uncovered == 0);
-        EXPECT_GE(coverage.tiles, coverage.missing + coverage.missing);
+        EXPECT_GE(coverage.tiles, coverage.pending + coverage.missing);
         serve(coverage, residency, k % 3 == 0 ? 3 : 0, draw, slot);
         ASSERT_LT(frame, 40U) << "something is wanted for ever";
       } while (!coverage.wanted.empty());
-      EXPECT_EQ(coverage.missing, 0);
+      EXPECT_EQ(coverage.pending, 0);
       EXPECT_EQ(coverage.draws.size(), patches.size());
     }
   }

@@ -103,7 +103,7 @@ TEST(TileSetJson, EachFieldIsChecked) {
   for (const char* value : {"-1", "4", "true"}) expect_json_refused("min_level", value);
   for (const char* value : {"\"mercator\"", "1", "[]"}) expect_json_refused("projection", value);
   for (const char* value : {"\"geodetic\"", "false"}) expect_json_refused("latitude", value);
-  for (const char* value : {"\"webp\"", "null"}) expect_json_refused("format", value);
+  for (const char* value : {"\"gif\"", "null"}) expect_json_refused("format", value);
   for (const char* value : {"7", "{}"}) expect_json_refused("name", value);
   for (const char* value : {"\"vulcan\"", "7", "\"-5,0\""}) expect_json_refused("body", value);
   for (const char* value : {"0", "2", "\"1\""}) expect_json_refused("version", value);

@@ -73,7 +73,7 @@ TEST(TmsXml, RefusesWithTheReason) {
   expect_tms_refused({.srs = "EPSG:31467"}, "EPSG:31467");
   expect_tms_refused({.format = R"(<TileFormat width="256" height="128" extension="png"/>)"}, "TileFormat");
   expect_tms_refused({.format = R"(<TileFormat width="1e9" height="1e9" extension="png"/>)"}, "TileFormat");
-  expect_tms_refused({.format = R"(<TileFormat width="256" height="256" extension="webp"/>)"}, "webp");
+  expect_tms_refused({.format = R"(<TileFormat width="256" height="256" extension="gif"/>)"}, "gif");
   expect_tms_refused({.levels = ""}, "no <TileSet>");
   expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="0"/>)"}, "units-per-pixel");
   expect_tms_refused({.levels = R"(<TileSet href="0" units-per-pixel="nan"/>)"}, "units-per-pixel");

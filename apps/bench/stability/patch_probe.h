@@ -9,8 +9,8 @@
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
 #include "surface/patch_mesh.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 
 namespace terrella::bench {
 

@@ -60,6 +60,7 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.tile_set = path.string();
   tiles_options.projection.reset();
   tiles_options.latitude.reset();
+  tiles_options.place = {};
   tiles_options.remote = {};
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);

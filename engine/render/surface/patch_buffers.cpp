@@ -7,8 +7,9 @@ namespace {
 constexpr int kFirstCapacity = 512;
 }
 
-PatchBuffers::PatchBuffers(const PatchTree& tree)
+PatchBuffers::PatchBuffers(const PatchTree& tree, bool has_relief)
     : tree_(tree),
+      has_relief_(has_relief),
       vertices_per_patch_((tree.segments() + 1) * (tree.segments() + 1)),
       indices_(patch_indices(tree.segments())),
       index_buffer_(gl::make_buffer()) {
@@ -29,7 +30,7 @@ void PatchBuffers::grow() {
     buffer = std::move(larger);
   };
   enlarge(vertices_, sizeof(PatchVertex));
-  if (tree_.relief() != nullptr) enlarge(slopes_, sizeof(glm::vec2));
+  if (has_relief_) enlarge(slopes_, sizeof(glm::vec2));
   capacity_ = capacity;
 }
 

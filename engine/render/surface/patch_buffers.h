@@ -13,7 +13,8 @@ namespace terrella {
 /// share. thread: main
 class PatchBuffers {
  public:
-  explicit PatchBuffers(const PatchTree& tree);
+  /// `has_relief`: patches have slopes.
+  PatchBuffers(const PatchTree& tree, bool has_relief);
 
   /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there or if
   /// its heights have changed, in place of the patch drawn longest ago. Places used in the current frame are kept: the
@@ -38,6 +39,7 @@ class PatchBuffers {
   void fill(const PatchNode& node, int place);
 
   const PatchTree& tree_;
+  bool has_relief_;
   int vertices_per_patch_;
   PatchIndices indices_;
   gl::Buffer vertices_, slopes_;

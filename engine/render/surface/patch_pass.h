@@ -14,8 +14,8 @@
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "view/render_modes.h"
 
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_handle.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/tile_coverage.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_residency.h"
 

@@ -103,14 +103,13 @@ Result<MosaicLayout> by_names(const std::vector<MosaicPart>& parts, const std::v
     return Error{fmt::format("{}: is {}x{} pixels; parts of 90 by 90 degrees are square and of one size, here {}",
                              named(parts[i], i), parts[i].width_px, parts[i].height_px, parts[0].width_px)};
   }
-  const auto degrees = [](std::int64_t quarters, double from) {
-    return Angle::degrees(from + 90.0 * static_cast<double>(quarters));
-  };
+  constexpr double kSide_deg = 90.0;
+  const double pixel_deg = kSide_deg / static_cast<double>(parts[0].width_px);
   if (parts.size() < 8) {
-    layout.bounds = GeoRect{.west = degrees(first.x, -180.0),
-                            .south = degrees(-last.y - 1, 90.0),
-                            .east = degrees(last.x + 1, -180.0),
-                            .north = degrees(-first.y, 90.0)};
+    layout.place = Placement{.west_deg = -180.0 + kSide_deg * static_cast<double>(first.x),
+                             .north_deg = 90.0 - kSide_deg * static_cast<double>(first.y),
+                             .pixel_width_deg = pixel_deg,
+                             .pixel_height_deg = pixel_deg};
   }
   return measured(std::move(layout), parts);
 }
@@ -218,26 +217,21 @@ Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& part
   return origin;
 }
 
-/// Sets the bounds stated by the parts. They must agree with bounds from names.
-Result<MosaicLayout> with_said_bounds(MosaicLayout layout, const std::vector<MosaicPart>& parts) {
+/// Sets the place stated by the parts. It must agree with the place from names.
+Result<MosaicLayout> with_said_place(MosaicLayout layout, const std::vector<MosaicPart>& parts) {
   const auto origin = said_origin(parts, layout);
   if (!origin) return origin.error();
   if (!*origin) return layout;
-  const auto bounds = covered_by({parts.front().path, layout.width_px, layout.height_px}, **origin);
-  if (!bounds) {
-    return Error{bounds.error().message + "; give the parts in order from -180 degrees with --mosaic COLSxROWS"};
-  }
-  const GeoRect named_bounds = layout.bounds.value_or(*bounds);
+  const Placement by_name = layout.place.value_or(**origin);
   const double slack = kAlignment_px * (*origin)->pixel_width_deg;
-  if (std::abs(named_bounds.west.deg() - bounds->west.deg()) > slack ||
-      std::abs(named_bounds.north.deg() - bounds->north.deg()) > slack) {
-    return Error{
-        fmt::format("{}: its name puts the mosaic's corner at {:.9g}, {:.9g} degrees, and its georeference at "
-                    "{:.9g}, {:.9g}; rename the parts, or say where they lie with --mosaic and --bounds",
-                    named(parts.front(), 0), named_bounds.west.deg(), named_bounds.north.deg(), bounds->west.deg(),
-                    bounds->north.deg())};
+  if (std::abs(std::remainder(by_name.west_deg - (*origin)->west_deg, 360.0)) > slack ||
+      std::abs(by_name.north_deg - (*origin)->north_deg) > slack) {
+    return Error{fmt::format(
+        "{}: its name puts the mosaic's corner at {:.9g}, {:.9g} degrees, and its georeference at "
+        "{:.9g}, {:.9g}; rename the parts, or say where they lie with --mosaic and --bounds",
+        named(parts.front(), 0), by_name.west_deg, by_name.north_deg, (*origin)->west_deg, (*origin)->north_deg)};
   }
-  layout.bounds = *bounds;
+  layout.place = **origin;
   return layout;
 }
 
@@ -251,7 +245,7 @@ Result<MosaicLayout> lay_out(const std::vector<MosaicPart>& parts, const std::op
   auto layout = grid                           ? by_order(parts, *grid)
                 : cells.size() == parts.size() ? by_names(parts, cells)
                                                : by_places(parts);
-  return layout ? with_said_bounds(*std::move(layout), parts) : layout;
+  return layout ? with_said_place(*std::move(layout), parts) : layout;
 }
 
 }  // namespace terrella

@@ -28,8 +28,8 @@ struct MosaicRow {
 struct MosaicLayout {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  std::vector<MosaicRow> rows;    ///< ordered from the north
-  std::optional<GeoRect> bounds;  ///< area stated by the parts; none: the whole planet
+  std::vector<MosaicRow> rows;     ///< ordered from the north
+  std::optional<Placement> place;  ///< stated by the parts; none: the whole planet
 };
 
 /// Arranges parts into one picture without gaps and overlaps. Uses `grid` if given. Otherwise uses NASA's names: A1 to

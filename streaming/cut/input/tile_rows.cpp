@@ -97,14 +97,35 @@ class TileRows : public RowReader {
   }
 
  private:
+  /// The part of a tile that is in the picture: columns of the grid, and the picture's column of the grid's first one.
+  struct Piece {
+    std::int64_t tile_x = 0;
+    std::int64_t left = 0, right = 0;
+    std::int64_t at_0 = 0;
+  };
+
+  /// Tiles of a row. The columns beyond 180° go on at the grid's first column, which need not be a tile's edge there.
+  [[nodiscard]] std::vector<Piece> pieces_of_row() const {
+    const auto turn = static_cast<std::int64_t>(std::llround(360.0 / range_.pixel_deg));
+    std::vector<Piece> pieces;
+    const auto add = [&](std::int64_t left, std::int64_t right, std::int64_t at_0) {
+      const std::int64_t side = grid_.tile_px;
+      for (std::int64_t tile_x = left / side; tile_x * side < right; ++tile_x) {
+        pieces.push_back({tile_x, std::max(left, tile_x * side), std::min(right, (tile_x + 1) * side), at_0});
+      }
+    };
+    add(range_.x0, std::min(range_.x1, std::max(turn, range_.x0 + 1)), -range_.x0);
+    if (range_.x1 > turn && range_.x0 < turn) add(0, range_.x1 - turn, turn - range_.x0);
+    return pieces;
+  }
+
   Status read_tiles(std::int64_t tile_y) {
     held_.resize(static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(grid_.tile_px) * pixel_bytes_);
-    const std::int64_t first = range_.x0 / grid_.tile_px;
-    const std::int64_t count = (range_.x1 + grid_.tile_px - 1) / grid_.tile_px - first;
+    const std::vector<Piece> pieces = pieces_of_row();
     std::mutex mutex;
     std::optional<Error> failed;
-    in_parallel(jobs_, count, [&](std::int64_t i) {
-      if (Status read = read_tile(first + i, tile_y); !read) {
+    in_parallel(jobs_, static_cast<std::int64_t>(pieces.size()), [&](std::int64_t i) {
+      if (Status read = read_tile(pieces[static_cast<std::size_t>(i)], tile_y); !read) {
         const std::lock_guard lock(mutex);
         if (!failed) failed = read.error();
       }
@@ -112,17 +133,16 @@ class TileRows : public RowReader {
     return failed ? Status(*failed) : Done{};
   }
 
-  /// Writes the part of a tile that is in the picture into the row of tiles. `column` may lie beyond 180°.
-  Status read_tile(std::int64_t column, std::int64_t tile_y) {
-    const TileId id{.level = grid_.max_level, .x = column % columns(grid_, grid_.max_level), .y = tile_y, .squeeze = 0};
+  /// Writes the part of a tile that is in the picture into the row of tiles.
+  Status read_tile(const Piece& piece, std::int64_t tile_y) {
+    const TileId id{.level = grid_.max_level, .x = piece.tile_x, .y = tile_y, .squeeze = 0};
     auto tile = tiles_->read(id);
-    if (!tile) return missing(column, id, tile.error());
-    if (tiles_->info().elevation) return read_numbers(column, id, *tile);
+    if (!tile) return missing(piece, id, tile.error());
+    if (tiles_->info().elevation) return read_numbers(piece, id, *tile);
     const auto image = tile->make_picture ? tile->make_picture() : decoded(*tile);
-    if (!image) return missing(column, id, image.error());
+    if (!image) return missing(piece, id, image.error());
     if (Status fits = check_side(id, image->width_px, image->height_px); !fits) return fits;
-    place(column,
-          [&](std::size_t at, std::uint8_t* to) { std::memcpy(to, image->rgba.data() + 4 * at, pixel_bytes_); });
+    place(piece, [&](std::size_t at, std::uint8_t* to) { std::memcpy(to, image->rgba.data() + 4 * at, pixel_bytes_); });
     return Done{};
   }
 
@@ -132,14 +152,14 @@ class TileRows : public RowReader {
     return *std::move(image);
   }
 
-  Status read_numbers(std::int64_t column, const TileId& id, const EncodedTile& tile) {
+  Status read_numbers(const Piece& piece, const TileId& id, const EncodedTile& tile) {
     if (!tile.make_numbers) return row_of_tiles_error(id, "its heights are stored as pictures and cannot be cut again");
     const auto made = tile.make_numbers();
-    if (!made) return missing(column, id, made.error());
+    if (!made) return missing(piece, id, made.error());
     if (Status fits = check_side(id, made->width_px, made->height_px); !fits) return fits;
     const ElevationInfo& set = *tiles_->info().elevation;
     const ElevationInfo meaning = numbers_.value_or(ElevationInfo{});
-    place(column, [&](std::size_t at, std::uint8_t* to) {
+    place(piece, [&](std::size_t at, std::uint8_t* to) {
       const double number = made->values[at] * tile.number_scale + tile.number_offset;
       const double metres = number * set.scale + set.offset;
       const bool known = !set.nodata || number != *set.nodata;
@@ -152,27 +172,26 @@ class TileRows : public RowReader {
 
   /// Calls `pixel` with the index in the tile and the place in the row of tiles, for each pixel in the picture.
   template <class Pixel>
-  void place(std::int64_t column, const Pixel& pixel) {
+  void place(const Piece& piece, const Pixel& pixel) {
     const std::int64_t side = grid_.tile_px;
-    const std::int64_t left = std::max(range_.x0, column * side);
-    const std::int64_t right = std::min(range_.x1, (column + 1) * side);
     for (std::int64_t y = 0; y < side; ++y) {
-      std::uint8_t* to = held_.data() + static_cast<std::size_t>(y * info_.width_px + left - range_.x0) * pixel_bytes_;
-      for (std::int64_t x = left; x < right; ++x, to += pixel_bytes_) {
-        pixel(static_cast<std::size_t>(y * side + x - column * side), to);
+      const std::int64_t first = y * info_.width_px + piece.left + piece.at_0;
+      std::uint8_t* to = held_.data() + static_cast<std::size_t>(first) * pixel_bytes_;
+      for (std::int64_t x = piece.left; x < piece.right; ++x, to += pixel_bytes_) {
+        pixel(static_cast<std::size_t>(y * side + x - piece.tile_x * side), to);
       }
     }
   }
 
   /// A missing tile is transparent or without heights. Other failures end the reading.
-  Status missing(std::int64_t column, const TileId& id, const TileFailure& failure) {
+  Status missing(const Piece& piece, const TileId& id, const TileFailure& failure) {
     if (failure.kind != MissingKind::absent && failure.kind != MissingKind::blank) {
       return row_of_tiles_error(id, failure.why.empty() ? "a tile cannot be had" : failure.why);
     }
     std::array<std::uint8_t, 4> empty{};
     const float none = std::numeric_limits<float>::quiet_NaN();
     if (tiles_->info().elevation) std::memcpy(empty.data(), &none, sizeof(none));
-    place(column, [&](std::size_t, std::uint8_t* to) { std::memcpy(to, empty.data(), pixel_bytes_); });
+    place(piece, [&](std::size_t, std::uint8_t* to) { std::memcpy(to, empty.data(), pixel_bytes_); });
     return Done{};
   }
 

@@ -6,8 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "geo/body.h"
 #include "streaming/georeference/crs.h"
-#include "streaming/georeference/placement.h"
+#include "streaming/georeference/figure.h"
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/gpkg_schema.h"
@@ -258,9 +259,9 @@ Result<GdalWmsGrid> place_gdal_window(const GdalWmsDocument& said) {
     if (!own) return own.error();
     placed = *std::move(own);
   }
-  const NeededOptions needed = needed_options(crs->facts());
-  placed->body = needed.body.empty() ? "earth" : needed.body;
-  if (needed.centric && !placed->square) placed->grid.latitude = LatitudeKind::centric;
+  placed->body = body_name(crs->facts());
+  const auto body = parse_body(placed->body);
+  if (body && !placed->square) placed->grid.latitude = latitude_of(crs->facts(), *body);
   return *std::move(placed);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,8 @@
 
 #include "apps/commands/option_checks.h"
 #include "apps/commands/remote_set_options.h"
-#include "apps/setup/scene_overlays.h"
+#include "apps/scene/place_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "view/view_limits.h"
@@ -232,14 +233,15 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option("tileset", options.tile_set,
-                  "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture of the whole planet (JPEG, PNG, WebP, "
-                  "TIFF), a URL template "
-                  "with {z}, {x} and {y}, the address of a WMTS or WMS, or a source description (JSON or <GDAL_WMS>) "
-                  "(default: the included Earth)")
+      .add_option(
+          "tileset", options.tile_set,
+          "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS or WMS, or "
+          "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
+  add_place_options(command, options.place);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);

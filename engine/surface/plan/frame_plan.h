@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "surface/daylight.h"
-#include "surface/patch_selection.h"
-#include "surface/tile_coverage.h"
+#include "surface/plan/patch_selection.h"
+#include "surface/plan/tile_coverage.h"
 #include "surface/tree_growth.h"
 
 namespace terrella {
@@ -24,7 +24,7 @@ struct LayerSnapshot {
 };
 
 /// All that a plan reads besides the view: the layers that the frame draws, the lowest first. The trees' bounds must be
-/// up to date (PatchTree::refresh_bounds()).
+/// up to date (Relief::refresh_bounds()).
 struct FrameSnapshot {
   std::vector<LayerSnapshot> layers;
   std::optional<glm::dvec3> sun;          ///< direction; none: there is no night
@@ -37,19 +37,23 @@ struct LayerPlan {
   TileCoverage coverage;
   TreeGrowth growth;
   double detail = 1.0;
+  bool operator==(const LayerPlan&) const = default;
 };
 
 /// Plan of a frame: patches, tiles and meshes to draw and to request.
 struct FramePlan {
-  std::vector<LayerPlan> layers;         ///< as the snapshot's
-  std::vector<const PatchNode*> meshes;  ///< PatchSelection::meshes
-  int put_off = 0;                       ///< patches drawn coarser than their relief asks for, for now
+  std::vector<LayerPlan> layers;  ///< as the snapshot's
+  std::vector<NodeRef> meshes;    ///< PatchSelection::meshes
+  int put_off = 0;                ///< patches drawn coarser than their relief asks for, for now
+  bool operator==(const FramePlan&) const = default;
 };
 
-/// Decides what a frame draws. Changes nothing: nodes and windows missing from the trees are made in the plan, and uses
-/// of tiles are listed in the plan. A view that wants more tiles than a layer has room for takes less detail. `options`
-/// are those of the lowest layer, but for texels_per_pixel and max_tile_level, which the snapshot tells. Snapshots may
-/// be planned from by several threads at once while nothing changes them. thread: any
-[[nodiscard]] FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelectionOptions options);
+/// Decides what a frame draws. Changes nothing: nodes and windows that the trees do not have are made in the plan, and
+/// uses of tiles are listed in the plan. A view that wants more tiles than a layer has room for takes less detail.
+/// `options` are those of the lowest layer, but for texels_per_pixel and max_tile_level, which the snapshot tells.
+/// `recycled`: an old plan, whose memory is used again. Several threads may plan from one snapshot at once while
+/// nothing changes it. thread: any
+[[nodiscard]] FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelectionOptions options,
+                                   FramePlan recycled = {});
 
 }  // namespace terrella

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "geo/camera.h"
-#include "surface/patch_tree.h"
+#include "surface/selected_patch.h"
 #include "surface/tree_growth.h"
 #include "view/render_modes.h"
 
@@ -18,6 +18,8 @@ namespace terrella {
 /// have 1.0.
 constexpr double kPlainFootprint_texels = 12.0;
 
+class Relief;
+
 struct PatchSelectionOptions {
   double max_error_px = 0.2;      ///< of the surface, and of interpolated texture coordinates
   double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
@@ -28,23 +30,8 @@ struct PatchSelectionOptions {
   HorizonCulling horizon_culling = HorizonCulling::automatic;
   double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
   int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has
-};
-
-/// One patch to draw.
-struct SelectedPatch {
-  const PatchNode* node = nullptr;
-  int tile_level = 0;         ///< of its window
-  bool squeezed = true;       ///< takes squeezed tiles where there are any, at that level; else those of the full grid
-  int squeeze = 0;            ///< of its window
-  unsigned coarse_sides = 0;  ///< bit k: the neighbour across PatchSide k is one level coarser
-  bool in_band = false;       ///< needs per-fragment coordinates
-  bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one
-  double pixel_m = 1.0;       ///< what a pixel covers on its nearest part, across the line of sight
-  double footprint_texels = 1.0;       ///< longest extent of a pixel on the patch, in texels of tile_level, estimated
-  const PatchNode* surface = nullptr;  ///< of further imagery: the node of the first tree that it lies on
-
-  /// The node that knows the patch's bounds.
-  [[nodiscard]] const PatchNode& body() const { return surface != nullptr ? *surface : *node; }
+  const Relief* relief = nullptr;      ///< the ground that patches follow; none: the ellipsoid
+  int mesh_budget = std::numeric_limits<int>::max();  ///< new meshes of relief before patches are put off
 };
 
 /// Tiles of another grid over the same patches.
@@ -57,32 +44,24 @@ struct FurtherImagery {
   std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
 };
 
-/// The four side planes of the view, for spheres: dot(normal, p - eye) ≥ -radius is (partly) inside.
-struct ViewPlanes {
-  std::array<glm::dvec3, 4> normals;
-};
-[[nodiscard]] ViewPlanes view_planes(const View& view);
-/// -1 outside, 0 cut, 1 inside.
-[[nodiscard]] int classify(const ViewPlanes& planes, const View& view, const BoundingSphere& sphere);
-
 /// Result of a selection.
 struct PatchSelection {
   std::vector<SelectedPatch> patches;
-  std::vector<const PatchNode*> meshes;  ///< of relief, to be made before the patches are drawn
-  int put_off = 0;    ///< patches drawn coarser than their relief asks for, as the budget of meshes is spent
-  int undecided = 0;  ///< patches of which nothing or nothing new is known until their meshes are made
+  std::vector<NodeRef> meshes;  ///< of relief, to be made before the patches are drawn
+  int put_off = 0;              ///< patches drawn coarser than their relief asks for, as the budget of meshes is spent
+  int undecided = 0;            ///< patches whose relief is unknown or out of date until their meshes are made
 };
 
-/// What a frame draws: patches that tile the visible surface, neighbours at most one level apart. A function of the
-/// view, the tree and the options: nodes missing from the tree are made in the growths, and no mesh is made. An eye
-/// under the surface sees every patch in front of it that the inner sphere does not hide. A view with NaN selects
-/// nothing. Further imagery takes part in what is split: each patch suits all grids. thread: any
+/// Selects the patches of a frame: they tile the visible surface, and neighbours are at most one level apart. A
+/// function of the view, the trees, the relief and the options: nodes that the trees do not have are made in the
+/// growths, and no mesh is made. An eye under the surface sees every patch in front of it that the inner sphere does
+/// not hide. A view with NaN selects nothing. Further imagery takes part in what is split: each patch suits all grids.
+/// `recycled`: an old selection, whose memory is used again. thread: any
 [[nodiscard]] PatchSelection plan_patches(const PatchTree& tree, TreeGrowth& growth, const View& view,
                                           const PatchSelectionOptions& options,
-                                          std::span<const FurtherImagery> further = {});
+                                          std::span<const FurtherImagery> further = {}, PatchSelection recycled = {});
 
 /// Plans until every patch is decided, makes the meshes and lets the tree adopt what was made. thread: main
-void select_patches(PatchTree& tree, const View& view, const PatchSelectionOptions& options,
-                    std::vector<SelectedPatch>& out);
+void select_patches(PatchTree& tree, const View& view, PatchSelectionOptions options, std::vector<SelectedPatch>& out);
 
 }  // namespace terrella

@@ -1,4 +1,4 @@
-#include "apps/setup/scene_overlays.h"
+#include "apps/scene/scene_overlays.h"
 
 #include <fmt/format.h>
 
@@ -29,6 +29,7 @@ Status add_overlays(Globe& globe, const SceneOptions& options) {
     scene.tile_set = overlay.tile_set;
     scene.projection = options.overlay_projection;
     scene.latitude.reset();
+    scene.place = {};
     scene.remote = {};
     // A cache holds one source's tiles.
     if (scene.cache != "off") scene.cache.clear();

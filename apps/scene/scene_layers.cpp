@@ -1,4 +1,4 @@
-#include "apps/setup/scene_layers.h"
+#include "apps/scene/scene_layers.h"
 
 #include <memory>
 #include <utility>
@@ -16,6 +16,7 @@ Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set,
   layer.tile_set = tile_set;
   layer.projection.reset();
   layer.latitude.reset();
+  layer.place = {};
   layer.remote = {};
   if (layer.cache != "off") layer.cache.clear();
   auto tiles = open_imagery(layer);

@@ -9,6 +9,7 @@
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "globe/globe.h"
+#include "streaming/georeference/place_words.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/url.h"
 #include "tiles/tile_grid.h"
@@ -30,6 +31,7 @@ struct SceneOptions {
   std::optional<Body> body;                      ///< absent: the tile set's body, else Earth
   std::optional<Projection> projection;          ///< absent: as the tile set states
   std::optional<LatitudeKind> latitude;          ///< absent: as the tile set states
+  PlaceWords place;                              ///< place of TILESET, if it is a picture
   std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
   std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
   bool unlit = false;

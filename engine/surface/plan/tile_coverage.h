@@ -5,8 +5,10 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "surface/patch_selection.h"
-#include "tiles/tile_residency.h"
+#include "surface/plan/tile_uses.h"
+#include "surface/selected_patch.h"
+#include "surface/tree_growth.h"
+#include "surface/wanted_tile.h"
 
 namespace terrella {
 
@@ -26,43 +28,7 @@ struct PatchDraw {
   glm::vec4 frame;             ///< PatchNode::frame
   glm::vec4 row;      ///< row latitude of the centre, degrees; levels between the window's and the finest; unused
   glm::uvec4 window;  ///< first cell; width | height << 16; column and row of that first cell, modulo 2^24
-};
-
-/// A tile that the view wants, with how much.
-struct WantedTile {
-  TileId id;
-  double priority = 0.0;  ///< larger first: coarse before fine, then large on the screen
-};
-
-/// How a plan uses one tile of a layer.
-struct TileUse {
-  TileId id;
-  TileState state = TileState::unknown;  ///< in the residency, or outside
-  int slot = -1;                         ///< texture slot, if resident
-  bool judged = false;                   ///< a cell in view took the tile into account
-  bool chosen = false;                   ///< a cell would take the tile if all tiles were there
-  bool counted = false;                  ///< in TileCoverage::tiles
-  bool wanted = false;                   ///< in TileCoverage::wanted
-  bool drawn = false;                    ///< a cell draws from the tile
-  bool needed = false;                   ///< drawn where nothing finer can still come
-};
-
-/// The tiles that a plan uses, each once, in the order in which the plan came to them. thread: any, one at a time
-class TileUses {
- public:
-  void clear();
-  /// Index of a tile's use. The residency tells its state when the plan comes to the tile for the first time.
-  [[nodiscard]] std::uint32_t find(const TileId& id, const TileResidency& residency);
-  [[nodiscard]] TileUse& operator[](std::uint32_t index) { return uses_[index]; }
-  [[nodiscard]] const std::vector<TileUse>& all() const { return uses_; }
-
- private:
-  static constexpr std::uint32_t kNone = ~0U;
-  void grow();
-  [[nodiscard]] std::size_t place(const TileId& id) const;
-
-  std::vector<TileUse> uses_;
-  std::vector<std::uint32_t> table_;  ///< indices by hash with linear probing; a power of two long, at most half full
+  bool operator==(const PatchDraw&) const = default;
 };
 
 struct TileCoverage {
@@ -75,6 +41,7 @@ struct TileCoverage {
   int missing = 0;                 ///< of those, replaced by an ancestor for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
+  bool operator==(const TileCoverage&) const = default;
 };
 
 /// Fallback of a cell outside the bounds of the grid.
@@ -88,19 +55,16 @@ struct CoverInput {
   const TileResidency& residency;
   double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
   OutOfBounds out_of_bounds = OutOfBounds::ancestor;
+  bool has_relief = false;  ///< patches have heights
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
-/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile: note_use()
-/// does. Windows missing from the tree are made in the growth. Longitude wraps; cells beyond the planet repeat its
-/// edge. A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell takes a tile whose
-/// texels are a little longer than a pixel if the view would want far more texels of a full grid than it has pixels.
-/// thread: any
+/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile:
+/// TileUses::note() does. Windows that the tree does not have are made in the growth. Longitude wraps; cells beyond the
+/// planet repeat its edge. A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell
+/// takes a tile whose texels are a little longer than a pixel if the view would want far more texels of a full grid
+/// than it has pixels. thread: any
 void cover_with_tiles(const CoverInput& input, TileCoverage& out);
-
-/// Tells the residency which tiles a frame uses: what it draws and needs is not evicted, what it saw not forgotten.
-/// thread: main
-void note_use(const TileUses& uses, std::uint64_t frame, TileResidency& residency);
 
 /// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).
 [[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);

@@ -1,7 +1,8 @@
-#include "surface/frame_plan.h"
+#include "surface/plan/frame_plan.h"
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -28,11 +29,13 @@ void plan_all_patches(const View& view, const FrameSnapshot& snapshot, PatchSele
   const LayerSnapshot& first = snapshot.layers.front();
   options.texels_per_pixel = first.texels_per_pixel * plan.layers.front().detail;
   options.max_tile_level = first.max_tile_level;
+  std::vector<SelectedPatch>& patches = plan.layers.front().patches;
   PatchSelection selection =
-      plan_patches(*first.tree, plan.layers.front().growth, view, options, further_imagery(snapshot, plan));
+      plan_patches(*first.tree, plan.layers.front().growth, view, options, further_imagery(snapshot, plan),
+                   {.patches = std::move(patches), .meshes = std::move(plan.meshes)});
   plan.meshes = std::move(selection.meshes);
   plan.put_off = selection.put_off + selection.undecided;
-  std::vector<SelectedPatch>& patches = plan.layers.front().patches = std::move(selection.patches);
+  patches = std::move(selection.patches);
   if (snapshot.patch_shuffle) std::ranges::shuffle(patches, std::mt19937(*snapshot.patch_shuffle));
 }
 
@@ -44,7 +47,7 @@ void leave_out_other_side(const LayerSnapshot& layer, const glm::dvec3& sun, std
   });
 }
 
-void plan_tiles(const View& view, const FrameSnapshot& snapshot, FramePlan& plan) {
+void plan_tiles(const View& view, const FrameSnapshot& snapshot, bool has_relief, FramePlan& plan) {
   for (std::size_t k = 0; k < plan.layers.size(); ++k) {
     const LayerSnapshot& layer = snapshot.layers[k];
     LayerPlan& out = plan.layers[k];
@@ -55,7 +58,8 @@ void plan_tiles(const View& view, const FrameSnapshot& snapshot, FramePlan& plan
                       .patches = out.patches,
                       .residency = *layer.tiles,
                       .texels_per_pixel = layer.texels_per_pixel * out.detail,
-                      .out_of_bounds = k == 0 ? OutOfBounds::ancestor : OutOfBounds::nothing},
+                      .out_of_bounds = k == 0 ? OutOfBounds::ancestor : OutOfBounds::nothing,
+                      .has_relief = has_relief},
                      out.coverage);
   }
 }
@@ -74,16 +78,17 @@ bool coarsen(const FrameSnapshot& snapshot, FramePlan& plan) {
 }  // namespace
 
 // A view that wants more tiles than there is room for is drawn a little coarser rather than never finished.
-FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelectionOptions options) {
-  FramePlan plan;
-  for (const LayerSnapshot& layer : snapshot.layers) {
-    LayerPlan& own = plan.layers.emplace_back();
-    own.growth = TreeGrowth(*layer.tree, plan.layers.size() == 1 ? layer.tree->relief() : nullptr);
-    own.detail = layer.detail;
+FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelectionOptions options,
+                     FramePlan recycled) {
+  FramePlan plan = std::move(recycled);
+  plan.layers.resize(snapshot.layers.size());
+  for (std::size_t k = 0; k < plan.layers.size(); ++k) {
+    plan.layers[k].growth.begin(*snapshot.layers[k].tree, options.relief);
+    plan.layers[k].detail = snapshot.layers[k].detail;
   }
   for (int step = 0; step <= kMostCoarser; ++step) {
     plan_all_patches(view, snapshot, options, plan);
-    plan_tiles(view, snapshot, plan);
+    plan_tiles(view, snapshot, options.relief != nullptr, plan);
     if (!coarsen(snapshot, plan)) break;
   }
   return plan;

@@ -1,0 +1,124 @@
+#include "apps/commands/picture_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/scene/place_options.h"
+#include "geo/body.h"
+#include "streaming/cut.h"
+#include "streaming/georeference/figure.h"
+#include "streaming/georeference/geo_tags.h"
+#include "streaming/georeference/warp_extent.h"
+#include "streaming/other_formats.h"
+
+namespace terrella {
+namespace {
+
+Result<PictureFacts> measure(const std::filesystem::path& picture) {
+  PictureFacts facts;
+  const auto file = measure_picture(picture);
+  if (!file) return file.error();
+  facts.file = *file;
+  if (const auto rows = open_rows(picture)) facts.orientation = (*rows)->info().orientation;
+  const auto tags = read_geo_tags(picture);
+  facts.is_heights = tags && *tags && ((*tags)->samples == SampleKind::int16 || (*tags)->samples == SampleKind::floats);
+  const auto raster = describe_raster(picture);
+  if (!raster) return raster.error();
+  facts.raster = *raster;
+  return facts;
+}
+
+std::string words_text(const PlaceWords& words) {
+  std::string text;
+  if (!words.crs.empty()) text += " --crs " + shell_word(words.crs);
+  if (const auto& b = words.bounds) {
+    text += fmt::format(" --bounds{}{:.15g},{:.15g},{:.15g},{:.15g}", b->west < 0 ? "=" : " ", b->west, b->south,
+                        b->east, b->north);
+  }
+  if (words.west_deg) text += fmt::format(" --west{}{:.15g}", *words.west_deg < 0 ? "=" : " ", *words.west_deg);
+  return text;
+}
+
+/// Tests with the cutter whether the picture is accepted, on the body that the picture states.
+void try_out(PictureFacts& facts) {
+  const std::string body = facts.crs ? body_option(*facts.crs) : std::string();
+  CutOptions cut;
+  cut.images = {facts.file.path};
+  cut.body = body.substr(body.empty() ? 0 : std::string_view(" --body ").size());
+  set_place(cut, facts.words);
+  // A given scale avoids reading pixels to find the range of heights.
+  if (facts.is_heights) cut.elevation = CutElevation{.scale = 1.0, .offset = 0.0};
+  const std::string name = shell_word(facts.file.path.string()) + body + words_text(facts.words);
+  facts.command = facts.is_heights ? fmt::format("terrella cut {} --elevation -o HEIGHTS.gpkg", name)
+                                   : fmt::format("terrella view {}", name);
+  if (const Status can = check_pictures(cut); !can) facts.refused = can.error().message;
+  if (auto place = find_place(cut, facts.file)) facts.place = *std::move(place);
+}
+
+/// Angle and distance between two places on a sphere.
+double arc_deg(const CrsPoint& p, const CrsPoint& q) {
+  const double to_rad = M_PI / 180.0;
+  const double east = std::remainder(q.x - p.x, 360.0) * std::cos(0.5 * (p.y + q.y) * to_rad);
+  return std::hypot(east, q.y - p.y);
+}
+
+/// Bounds in degrees and the size of a pixel, by PROJ.
+void locate(PictureFacts& facts, const CrsPlace& at) {
+  const auto crs = Crs::open(at.crs);
+  if (!crs) return;
+  facts.transform = at.to_crs;
+  if (!facts.bounds_deg) {
+    Georeference said;
+    said.transform = at.to_crs;
+    if (const auto extent = warp_extent(facts.file, said, *crs)) {
+      facts.bounds_deg = CrsBounds{extent->west_deg, extent->south_deg, extent->east_deg, extent->north_deg};
+    }
+  }
+  const double x = std::floor(0.5 * static_cast<double>(facts.file.width_px));
+  const double y = std::floor(0.5 * static_cast<double>(facts.file.height_px));
+  const auto corners = crs->places({at.to_crs.at(x, y), at.to_crs.at(x + 1.0, y), at.to_crs.at(x, y + 1.0)});
+  if (!corners || !std::isfinite((*corners)[0].x)) return;
+  const double wide = arc_deg((*corners)[0], (*corners)[1]), high = arc_deg((*corners)[0], (*corners)[2]);
+  const double degree_m = (facts.crs ? facts.crs->a_m : earth().ellipsoid.a_m()) * M_PI / 180.0;
+  facts.pixel = PixelSize{wide, high, wide * degree_m, high * degree_m};
+}
+
+}  // namespace
+
+Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words) {
+  auto facts = measure(picture);
+  if (!facts) return facts;
+  facts->words = words;
+  if (auto said = read_georeference(facts->file, words.crs.empty())) facts->said = *std::move(said);
+  const std::string crs_text = !words.crs.empty() || !facts->said ? words.crs : facts->said->crs;
+  if (!crs_text.empty()) {
+    if (const auto crs = Crs::open(crs_text)) facts->crs = crs->facts();
+  }
+  if (const auto placed = place_picture(facts->file, words)) {
+    facts->remarks = placed->remarks;
+    if (const auto& at = placed->placement) {
+      facts->bounds_deg =
+          CrsBounds{at->west_deg, at->north_deg - static_cast<double>(facts->file.height_px) * at->pixel_height_deg,
+                    at->west_deg + static_cast<double>(facts->file.width_px) * at->pixel_width_deg, at->north_deg};
+    }
+    if (placed->projected) locate(*facts, *placed->projected);
+  }
+  try_out(*facts);
+  return facts;
+}
+
+CrsBounds own_bounds(const PictureFacts& facts) {
+  const auto width = static_cast<double>(facts.file.width_px), height = static_cast<double>(facts.file.height_px);
+  const Affine& t = *facts.transform;
+  const std::array corners = {t.at(0, 0), t.at(width, 0), t.at(0, height), t.at(width, height)};
+  CrsBounds b{corners[0].x, corners[0].y, corners[0].x, corners[0].y};
+  for (const CrsPoint& p : corners) {
+    b = {std::min(b.west, p.x), std::min(b.south, p.y), std::max(b.east, p.x), std::max(b.north, p.y)};
+  }
+  return b;
+}
+
+}  // namespace terrella

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/cut/input/picture_place.h"
+#include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
+
+namespace terrella {
+
+/// Size of the pixel in the middle of the picture.
+struct PixelSize {
+  double width_deg, height_deg;  ///< angles at the planet's centre
+  double width_m, height_m;
+};
+
+/// Facts about a picture and its place; unknown ones are absent.
+struct PictureFacts {
+  PictureFile file;
+  PlaceWords words;
+  std::optional<RasterFacts> raster{};  ///< of a TIFF
+  int orientation = 1;                  ///< EXIF orientation by which the picture is turned; 1: not turned
+  bool is_heights = false;              ///< true for pixel types used only for heights
+  std::optional<Georeference> said;
+  std::optional<CrsFacts> crs;
+  std::optional<Affine> transform;
+  std::optional<CrsBounds> bounds_deg;
+  std::optional<PixelSize> pixel;
+  std::optional<PicturePlace> place;
+  std::vector<std::string> remarks;
+  std::string command;  ///< command that shows the picture
+  std::string refused;  ///< reason for a refusal; empty if the picture is accepted
+};
+
+/// Looks at a picture and the files beside it, with the user's words about its place. Reads no pixels, except for the
+/// values that a TIFF shows as black and white. Fails if the file is not a readable picture. thread: any
+[[nodiscard]] Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words);
+
+/// Smallest rectangle around the picture in its own system; `transform` is set.
+[[nodiscard]] CrsBounds own_bounds(const PictureFacts& facts);
+
+}  // namespace terrella

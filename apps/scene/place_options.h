@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "base/result.h"
+#include "streaming/cut.h"
+#include "streaming/georeference/place_words.h"
+
+namespace terrella {
+
+/// Adds --crs, --bounds and --west for the place of a picture; `words` must outlive the parse, which checks
+/// them. thread: main
+void add_place_options(CLI::App& command, PlaceWords& words);
+
+/// Gives the words to a cut. thread: any
+void set_place(CutOptions& cut, const PlaceWords& words);
+
+}  // namespace terrella

@@ -1,0 +1,241 @@
+#include "surface/plan/tile_coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "surface/plan/cell_view.h"
+#include "surface/plan/texel_demand.h"
+
+namespace terrella {
+namespace {
+
+class Coverer {
+ public:
+  Coverer(const CoverInput& input, TileCoverage& out)
+      : input_(input),
+        grid_(input.tree.grid()),
+        memo_(grid_, input.residency, out.uses),
+        out_(out),
+        cells_(input.view, input.tree.ellipsoid(), input.has_relief),
+        demand_(input.view, input.tree.ellipsoid(), grid_, input.texels_per_pixel) {}
+
+  // First the tile that each cell would take by itself, then the tiles: a cell that could do with a coarser one takes
+  // the finer one if another cell asks for that anyhow.
+  void cover() {
+    find_windows();
+    choose_levels();
+    if (demand_.is_too_much(chosen_)) {
+      demand_.lengthen_narrow_texels();
+      for (const Choice& choice : choices_) {
+        if (choice.use != kUnseen) out_.uses[choice.use].chosen = false;
+      }
+      choose_levels();
+    }
+    out_.draws.reserve(input_.patches.size());
+    out_.cells.reserve(choices_.size());
+    const Choice* choice = choices_.data();
+    for (std::size_t k = 0; k < input_.patches.size(); ++k) {
+      cover(input_.patches[k], *windows_[k], choice);
+      choice += windows_[k]->cells.size();
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kUnseen = ~0U;  ///< the cell is out of view
+  /// The tile that a cell would take by itself.
+  struct Choice {
+    std::uint32_t use = kUnseen;
+    int spare = 0;  ///< levels coarser than the window
+  };
+
+  void find_windows() {
+    std::size_t cells = 0;
+    windows_.reserve(input_.patches.size());
+    for (const SelectedPatch& patch : input_.patches) {
+      windows_.push_back(&input_.growth.window(*patch.node, patch.tile_level, patch.squeeze));
+      cells += windows_.back()->cells.size();
+    }
+    choices_.resize(cells);
+  }
+
+  void choose_levels() {
+    Choice* choice = choices_.data();
+    for (std::size_t k = 0; k < input_.patches.size(); ++k)
+      choice = choose_levels(input_.patches[k], *windows_[k], choice);
+  }
+
+  Choice* choose_levels(const SelectedPatch& patch, const TileWindow& win, Choice* choice) {
+    const TileId last = last_tile(win.level);
+    const double most_texels = TexelDemand::coarse_enough(win.level);
+    for (int y = 0; y < win.h; ++y) {
+      for (int x = 0; x < win.w; ++x, ++choice) {
+        *choice = {};
+        if (!cells_.sees(patch, win, x, y, input_.growth)) continue;
+        const TileId id = tile_of(win, x, y, last);
+        choice->spare = demand_.levels_to_spare(id, win.cell(x, y), most_texels);
+        choice->use = memo_.judged(coarser(id, choice->spare), patch.squeezed || choice->spare > 0);
+        TileUse& use = out_.uses[choice->use];
+        if (!use.chosen) ++chosen_;
+        use.chosen = true;
+      }
+    }
+    return choice;
+  }
+
+  void cover(const SelectedPatch& patch, const TileWindow& win, const Choice* choice) {
+    out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
+    const TileId last = last_tile(win.level);
+    bool uncovered = false;
+    for (int y = 0; y < win.h; ++y) {
+      for (int x = 0; x < win.w; ++x, ++choice) {
+        const Found found = find(patch, tile_of(win, x, y, last), *choice);
+        uncovered = uncovered || found.uncovered;
+        out_.cells.push_back(window_cell(found.slot, found.levels_up, found.levels_up + found.squeeze - win.squeeze));
+      }
+    }
+    if (uncovered) ++out_.uncovered;
+  }
+
+  [[nodiscard]] TileId last_tile(int level) {
+    std::optional<TileId>& last = last_[static_cast<std::size_t>(level)];
+    if (!last) last = TileId{level, columns(grid_, level) - 1, rows(grid_, level) - 1};
+    return *last;
+  }
+
+  // Cells beyond the planet repeat its edge.
+  static TileId tile_of(const TileWindow& win, int x, int y, const TileId& last) {
+    return {win.level, std::min((win.x0 + x) << win.squeeze, last.x), std::min(win.y0 + y, last.y)};
+  }
+
+  static TileId coarser(const TileId& id, int levels) { return {id.level - levels, id.x >> levels, id.y >> levels}; }
+
+  struct Found {
+    int levels_up = 0;
+    int squeeze = 0;
+    int slot = 0;
+    bool uncovered = false;
+  };
+
+  // A cell out of view takes what is there; nobody asks for its tile or counts it.
+  Found find_unseen(const SelectedPatch& patch, const TileId& id) {
+    for (int up = 0;; ++up) {
+      TileUse& use = out_.uses[memo_.find(coarser(id, up), patch.squeezed || up > 0)];
+      if (use.state == TileState::resident) return drawn(use, up);
+      if (id.level - up <= grid_.min_level) return {up, use.id.squeeze, 0, false};
+    }
+  }
+
+  Found find(const SelectedPatch& patch, const TileId& id, const Choice& choice) {
+    if (choice.use == kUnseen) return find_unseen(patch, id);
+    for (int up = 0; up < choice.spare; ++up) {
+      const std::uint32_t use = memo_.find(coarser(id, up), patch.squeezed || up > 0);
+      if (out_.uses[use].chosen) return find_seen(patch, id, up, use);
+    }
+    return find_seen(patch, id, choice.spare, choice.use);
+  }
+
+  // Climbs from a tile `up` levels coarser than the cell's.
+  Found find_seen(const SelectedPatch& patch, const TileId& id, int up, std::uint32_t index) {
+    bool counted = false;
+    bool in_bounds = true;
+    bool asked = false;  // one tile is asked for: the finest that can still come
+    for (;; index = memo_.judged(coarser(id, ++up), true)) {
+      TileUse& use = out_.uses[index];
+      if (use.state == TileState::outside && input_.out_of_bounds == OutOfBounds::nothing) {
+        return {up, use.id.squeeze, 0, false};
+      }
+      if (use.state == TileState::outside) in_bounds = in_bounds && counted;
+      if (!counted && use.state != TileState::outside) {
+        counted = true;
+        count(use);
+      }
+      if (use.state == TileState::resident) {
+        use.needed = use.needed || !asked;
+        out_.shown = out_.shown || in_bounds;
+        return drawn(use, up);
+      }
+      if (!asked && use.state == TileState::unknown) {
+        asked = true;
+        want(patch, use);
+      }
+      if (id.level - up <= grid_.min_level) return {up, use.id.squeeze, 0, true};
+    }
+  }
+
+  [[nodiscard]] static Found drawn(TileUse& use, int levels_up) {
+    use.drawn = true;
+    return {levels_up, use.id.squeeze, use.slot, false};
+  }
+
+  void want(const SelectedPatch& patch, TileUse& use) {
+    if (use.wanted) return;
+    use.wanted = true;
+    const BoundingSphere& sphere = patch.body().sphere;
+    const double depth = std::max(1.0, glm::dot(sphere.center_m - input_.view.eye.xyz_m, input_.view.forward));
+    out_.wanted.push_back({use.id, -use.id.level + sphere.radius_m / (depth + sphere.radius_m)});
+  }
+
+  void count(TileUse& use) {
+    if (use.counted) return;
+    use.counted = true;
+    ++out_.tiles;
+    if (use.state == TileState::unknown) ++out_.pending;
+    if (use.state == TileState::missing) ++out_.missing;
+  }
+
+  [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
+    const double row = node.row_center_deg;
+    const TileXY center = tile_xy(grid_, win.level, row, node.lon_center_deg);
+    const double per_deg = 1.0 / tile_span_deg(grid_, win.level);
+    PatchDraw draw;
+    draw.center_and_scale =
+        glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(win.x0),
+                  center.y - static_cast<double>(win.y0), std::ldexp(per_deg, -win.squeeze), per_deg);
+    draw.frame = glm::vec4(node.frame);
+    draw.row = glm::vec4(row, static_cast<double>(grid_.max_level - win.level), 0.0, 0.0);
+    const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
+    draw.window = glm::uvec4(first, static_cast<std::uint32_t>(win.w) | static_cast<std::uint32_t>(win.h) << 16U,
+                             low(win.x0), low(win.y0));
+    return draw;
+  }
+
+  const CoverInput& input_;
+  const TileGrid& grid_;
+  UseMemo memo_;
+  TileCoverage& out_;
+  CellView cells_;
+  TexelDemand demand_;
+  std::vector<const TileWindow*> windows_;                     ///< of the patches in order
+  std::vector<Choice> choices_;                                ///< of all cells in order
+  int chosen_ = 0;                                             ///< tiles that cells would take by themselves
+  std::array<std::optional<TileId>, kMaxTileLevel + 1> last_;  ///< of each level that was needed
+};
+
+}  // namespace
+
+std::vector<TileId> root_tiles(const TileGrid& grid) {
+  std::vector<TileId> tiles;
+  for (std::int64_t y = 0; y < rows(grid, grid.min_level); ++y) {
+    const std::int64_t step = std::int64_t{1} << squeeze_of_row(grid, grid.min_level, y);
+    for (std::int64_t x = 0; x < columns(grid, grid.min_level); x += step) {
+      const TileId id = reduced_tile(grid, {grid.min_level, x, y});
+      if (exists(grid, id)) tiles.push_back(id);
+    }
+  }
+  return tiles;
+}
+
+void cover_with_tiles(const CoverInput& input, TileCoverage& out) {
+  out.draws.clear();
+  out.cells.clear();
+  out.wanted.clear();
+  out.uses.clear();
+  out.tiles = out.pending = out.missing = out.uncovered = 0;
+  out.shown = false;
+  Coverer(input, out).cover();
+}
+
+}  // namespace terrella

@@ -1,0 +1,86 @@
+#include "streaming/cut/input/warped_input.h"
+
+#include <cmath>
+
+#include "geo/body.h"
+#include "streaming/cut/input/picture_raster.h"
+#include "streaming/cut/input/rolled_rows.h"
+#include "streaming/cut/input/tile_rows.h"
+#include "streaming/warp/warp_source.h"
+
+namespace terrella {
+namespace {
+
+double width_deg(const GeoRect& bounds) {
+  const double width = bounds.east.deg() - bounds.west.deg();
+  return width > 0.0 ? width : width + 360.0;
+}
+
+bool is_planet(const GeoRect& bounds) {
+  constexpr double kRounding_deg = 1e-9;
+  return width_deg(bounds) > 360.0 - kRounding_deg && bounds.north.deg() - bounds.south.deg() > 180.0 - kRounding_deg;
+}
+
+/// Rows without transparency, so that tiles become JPEG.
+class OpaqueRows : public RowReader {
+ public:
+  explicit OpaqueRows(std::unique_ptr<RowReader> rows) : rows_(std::move(rows)), info_(rows_->info()) {
+    info_.has_alpha = false;
+  }
+  [[nodiscard]] const PictureInfo& info() const override { return info_; }
+  [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
+    Status read = rows_->read_row(rgba);
+    for (std::size_t i = 3; i < rgba.size(); i += 4) rgba[i] = 255;
+    return read;
+  }
+  [[nodiscard]] Status skip_rows(std::int64_t rows) override { return rows_->skip_rows(rows); }
+
+ private:
+  std::unique_ptr<RowReader> rows_;
+  PictureInfo info_;
+};
+
+/// Makes a picture of all longitudes from one that crosses ±180° and would reach the same tile from both sides.
+void roll_if_needed(const CutOptions& options, WarpedInput& warped, bool heights) {
+  const PictureInfo& info = warped.rows->info();
+  if (!meets_itself(options, info, warped.bounds)) return;
+  const double pixel_deg = width_deg(warped.bounds) / static_cast<double>(info.width_px);
+  const auto turn = std::llround(360.0 / pixel_deg);
+  const auto first = std::llround((warped.bounds.west.deg() + 180.0) / pixel_deg);
+  warped.rows = rolled_rows(std::move(warped.rows), first, turn, heights);
+  warped.bounds = all_round(warped.bounds);
+}
+
+}  // namespace
+
+Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& picture, const PicturePlace& place,
+                                const std::optional<HeightPlan>& heights) {
+  const std::string name = picture.path.string();
+  const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
+  if (!body) return body.error();
+  RasterOptions reading = heights ? raster_of(*heights) : RasterOptions{};
+  reading.work_folder = options.output.parent_path();
+  reading.jobs = options.jobs;
+  auto raster = open_picture_raster(picture.path, *place.from, reading);
+  if (!raster) return raster.error();
+  const bool opaque = (*raster)->info().opaque && place.placed.placement;
+  WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};
+  const auto grid = warp_grid((*raster)->info(), warp, name);
+  if (!grid) return grid.error();
+  const double columns = width_deg(grid->bounds) * grid->tile_px / tile_span_deg(*grid, grid->max_level);
+  warp.tile_px = tile_side_for_rows(std::llround(columns));
+  auto tiles = warp_source(*std::move(raster), warp, name);
+  if (!tiles) return tiles.error();
+  auto rows =
+      open_tile_rows(*std::move(tiles), options.jobs, heights ? std::optional(heights->elevation) : std::nullopt, name);
+  if (!rows) return rows.error();
+  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds};
+  // Parallels and meridians as edges leave no gap on a whole planet.
+  if (opaque && !heights && is_planet(warped.bounds)) {
+    warped.rows = std::make_unique<OpaqueRows>(std::move(warped.rows));
+  }
+  roll_if_needed(options, warped, heights.has_value());
+  return warped;
+}
+
+}  // namespace terrella

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/result.h"
+#include "streaming/cut.h"
+#include "streaming/cut/input/height_input.h"
+#include "streaming/cut/input/picture_place.h"
+#include "streaming/cut/input/row_reader.h"
+
+namespace terrella {
+
+/// A picture of any projection, resampled to the pixels of a grid from (-180°, 90°).
+struct WarpedInput {
+  std::unique_ptr<RowReader> rows;  ///< with `heights`, in units of the tiles' numbers
+  GeoRect bounds{};
+};
+
+/// Opens a picture by `place.from`. Reads no pixels, except for the values that a TIFF shows as black and white.
+/// thread: any
+[[nodiscard]] Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& picture,
+                                              const PicturePlace& place, const std::optional<HeightPlan>& heights);
+
+}  // namespace terrella
