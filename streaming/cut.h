@@ -41,7 +41,8 @@ struct CutOptions {
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;
-  std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency, else JPEG
+  std::optional<ImageFormat>
+      format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
   /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself

@@ -184,7 +184,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
            const auto* const name = std::ranges::find(kImageFormatNames, text);
            cut.format = static_cast<ImageFormat>(name - kImageFormatNames.begin());
          },
-         "Set the tile format (default: png if the picture has transparency, else jpg)")
+         "Set the tile format (default: png if the picture has transparency, else jpg with png tiles at its outline)")
       ->check(CLI::IsMember(std::vector<std::string>(kImageFormatNames.begin(), kImageFormatNames.end())))
       ->type_name("jpg|png|webp");
   add_input_options(sub, *command);

@@ -26,9 +26,21 @@ int encoder_count(int jobs) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
 }
 
-PixelKind pixel_kind(const CutInput& input) {
+/// True if tiles are JPEG where they are opaque, and PNG at the picture's outline.
+bool has_png_outline(const CutOptions& options, const CutInput& input) {
+  const PictureInfo& picture = input.rows->info();
+  return !options.format && !input.elevation && (!picture.has_alpha || picture.opaque_inside);
+}
+
+bool is_planet(const CutPlan& plan) {
+  return plan.wraps && plan.finest.y0 == 0 && begins_at_planet(plan.grid) &&
+         static_cast<double>(plan.finest.y1) * plan.pixel_deg > 180.0 - plan.pixel_deg;
+}
+
+PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
   if (input.elevation) return PixelKind::height;
-  return input.rows->info().has_alpha ? PixelKind::alpha : PixelKind::opaque;
+  if (input.rows->info().has_alpha) return PixelKind::alpha;
+  return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
@@ -37,7 +49,7 @@ std::optional<std::uint16_t> nodata_of(const CutInput& input) {
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
-  const bool needs_png = input.rows->info().has_alpha || input.elevation;
+  const bool needs_png = !has_png_outline(options, input);
   return {.name = options.name,
           .attribution = options.attribution,
           .body = options.body,
@@ -59,9 +71,12 @@ struct Job {
     return {.plan = plan,
             .pieces = pieces_of(plan),
             .layout = bands_of(plan),
-            .pixels = pixel_kind(input),
+            .pixels = pixel_kind(options, input, plan),
             .nodata = nodata_of(input),
-            .coding = {.format = info.format, .quality = options.quality, .heights = input.elevation.has_value()},
+            .coding = {.format = info.format,
+                       .quality = options.quality,
+                       .heights = input.elevation.has_value(),
+                       .png_outline = has_png_outline(options, input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,
             .progress = options.progress};

@@ -109,7 +109,7 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made);
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
-  info.format = ImageFormat::png;
+  info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // of tiles inside the raster
   if (from.elevation) {
     info.elevation = ElevationInfo{.scale = from.elevation->scale, .offset = from.elevation->offset, .floats = true};
   }

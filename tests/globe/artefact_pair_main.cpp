@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/scene_objects.h"
+#include "apps/scene/scene_objects.h"
 #include "apps/scene/scene_options.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/write_file.h"

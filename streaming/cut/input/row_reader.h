@@ -18,8 +18,9 @@ inline constexpr std::uint64_t kMaxHeldBytes = 1ULL << 30;
 struct PictureInfo {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  bool has_alpha = false;  ///< false: all alpha values are 255
-  int orientation = 1;     ///< EXIF orientation that the reader has applied, 1…8; 1: rows as stored
+  bool has_alpha = false;      ///< false: all alpha values are 255
+  bool opaque_inside = false;  ///< set with has_alpha if only the picture's outline is transparent
+  int orientation = 1;         ///< EXIF orientation that the reader has applied, 1…8; 1: rows as stored
 };
 
 /// Reads a picture from the top, row by row, as RGBA8, not premultiplied. Memory does not grow with the height. 16-bit

@@ -63,7 +63,8 @@ class TileRows : public RowReader {
         where_(std::move(where)) {
     info_.width_px = range_.x1 - range_.x0;
     info_.height_px = range_.y1 - range_.y0;
-    info_.has_alpha = !tiles_->info().elevation && tiles_->info().format != ImageFormat::jpeg;
+    info_.has_alpha = !tiles_->info().elevation;
+    info_.opaque_inside = info_.has_alpha && tiles_->info().format == ImageFormat::jpeg;
     pixel_bytes_ = info_.has_alpha || tiles_->info().elevation ? 4 : 3;
   }
 

@@ -21,6 +21,17 @@ Image copy_of_tile(const Strip& strip, std::int64_t index) {
   return image;
 }
 
+bool is_opaque(const Strip& strip, std::int64_t index) {
+  const auto side = static_cast<std::size_t>(strip.tile_px);
+  for (std::size_t y = 0; y < side; ++y) {
+    const std::uint8_t* row = strip.tile(index) + y * strip.stride_bytes();
+    for (std::size_t x = 0; x < side; ++x) {
+      if (row[x * 4 + 3] != 255) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<std::uint16_t> heights_of_tile(const Strip& strip, std::int64_t index) {
   const auto side = static_cast<std::size_t>(strip.tile_px);
   std::vector<std::uint16_t> heights;
@@ -42,7 +53,8 @@ TileEncoder::TileEncoder(const TileCoding& coding) : coding_(coding) {
 
 Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int64_t index) {
   if (coding_.heights) return encode_gray16_png(heights_of_tile(strip, index), strip.tile_px);
-  if (coding_.format == ImageFormat::jpeg) return encode_jpeg_tile(strip, index);
+  const bool outline = coding_.png_outline && !is_opaque(strip, index);
+  if (coding_.format == ImageFormat::jpeg && !outline) return encode_jpeg_tile(strip, index);
   const Image tile = copy_of_tile(strip, index);
   return coding_.format == ImageFormat::webp ? encode_webp(tile, coding_.quality) : encode_png(tile);
 }

@@ -15,7 +15,8 @@ namespace terrella {
 struct TileCoding {
   ImageFormat format = ImageFormat::jpeg;
   int quality = 85;
-  bool heights = false;  ///< 16-bit gray PNG
+  bool heights = false;      ///< 16-bit gray PNG
+  bool png_outline = false;  ///< a tile with transparent pixels becomes PNG instead of JPEG
 };
 
 /// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG and WebP:
