@@ -7,8 +7,8 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/commands/place_options.h"
 #include "apps/setup/console.h"
-#include "apps/setup/place_options.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
 #include "base/number.h"

@@ -11,11 +11,11 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/picture_report.h"
+#include "apps/commands/place_options.h"
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/verify_tiles.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/place_options.h"
 #include "apps/setup/stop_signals.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/sets/open_tile_set.h"

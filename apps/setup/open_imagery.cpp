@@ -10,11 +10,11 @@
 #include <span>
 #include <string_view>
 
+#include "apps/commands/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_remote.h"
-#include "apps/setup/place_options.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/user_folder.h"

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "apps/commands/option_checks.h"
+#include "apps/commands/place_options.h"
 #include "apps/commands/remote_set_options.h"
-#include "apps/setup/place_options.h"
 #include "apps/setup/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
