@@ -7,7 +7,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
-#include "apps/commands/place_options.h"
+#include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"

@@ -11,9 +11,9 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/picture_report.h"
-#include "apps/commands/place_options.h"
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/verify_tiles.h"
+#include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"

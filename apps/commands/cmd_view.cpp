@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "apps/commands/commands.h"
+#include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_objects.h"
+#include "apps/scene/scene_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/scene_layers.h"
-#include "apps/setup/scene_objects.h"
-#include "apps/setup/scene_options.h"
-#include "apps/setup/scene_overlays.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/remote/describe_remote.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "base/number.h"
 
 namespace terrella {

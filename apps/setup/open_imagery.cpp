@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "apps/commands/place_options.h"
+#include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"

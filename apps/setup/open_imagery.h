@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "base/result.h"
 #include "tiles/elevation_source.h"
 #include "tiles/tile_source.h"

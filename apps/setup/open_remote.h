@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "base/result.h"
 #include "tiles/tile_source.h"
 

@@ -64,8 +64,6 @@ Result<Image> decode_webp(std::span<const std::byte> bytes, const DecodeLimits& 
   if (!size) return size.error();
   const auto width = static_cast<std::uint64_t>(size->width_px), height = static_cast<std::uint64_t>(size->height_px);
   if (Status fits = check_size(width, height, limits); !fits) return Error{"WebP: " + fits.error().message};
-  // libwebp accepts a file that is shorter than its own length if the picture itself is complete.
-  if (webp_length(bytes) > bytes.size()) return webp_error(VP8_STATUS_NOT_ENOUGH_DATA);
   WebPDecoderConfig config;
   if (WebPInitDecoderConfig(&config) == 0) return Error{"WebP: libwebp is of another version"};
   Image image{.width_px = size->width_px, .height_px = size->height_px, .rgba = {}};

@@ -106,9 +106,10 @@ ColourConverter::ColourConverter(TiffSamples samples) : samples_(std::move(sampl
 }
 
 std::uint8_t ColourConverter::level_of(double value) const {
-  const double most = samples_.type == SampleType::uint16 ? 65535.0 : (1 << samples_.stored_bits) - 1.0;
+  const double most = samples_.stored_bits <= 16 ? (1 << samples_.stored_bits) - 1.0 : 1.0;
   const Stretch range = samples_.stretch.value_or(Stretch{.low = 0.0, .high = most});
-  const double share = std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+  // NaN, which infinite ranges give, becomes 0.
+  const double share = std::min(1.0, std::max(0.0, (value - range.low) / (range.high - range.low)));
   const auto level = static_cast<std::uint8_t>(share * 255.0 + 0.5);
   return samples_.colour == TiffColour::gray_inverted ? static_cast<std::uint8_t>(255 - level) : level;
 }

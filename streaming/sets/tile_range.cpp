@@ -37,8 +37,9 @@ TileSpan rows_in_bounds(const TileGrid& grid, int level) {
 /// to the bounds that begin at -180°.
 std::vector<TileSpan> columns_in_bounds(const TileGrid& grid, int level) {
   TileGrid wedge = grid;
-  wedge.bounds.south = GeoRect{}.south;
-  wedge.bounds.north = GeoRect{}.north;
+  const double top_deg = grid.projection == Projection::projected ? 180.0 : 90.0;
+  wedge.bounds.south = Angle::degrees(-top_deg);
+  wedge.bounds.north = Angle::degrees(top_deg);
   const double west_deg = grid.bounds.west.deg();
   const double east_deg = grid.bounds.east.deg() + (grid.bounds.east < grid.bounds.west ? 360.0 : 0.0);
   std::vector<TileSpan> spans;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/patch.h"
 #include "streaming/warp/taps.h"
 
 namespace terrella {

@@ -1,8 +1,10 @@
 #include "streaming/warp/resample_patch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <optional>
+#include <vector>
 
 #include "streaming/warp/taps.h"
 #include "streaming/warp/tile_pixels.h"
@@ -10,118 +12,160 @@
 namespace terrella {
 namespace {
 
-/// Pixels of a tile with one shape of the filter.
-constexpr int kSquare_px = 16;
-/// Steps of the tables per source pixel. Half a step moves a picture by a thousandth of a pixel.
-constexpr int kPhases = 512;
+/// Side of the squares of a tile with one shape of the filter.
+constexpr int kSquare_px = 32;
 
-/// Weights of four pixels around a place at a fraction of a pixel after the middle of the second.
-const std::array<std::array<float, 4>, kPhases + 1>& plain_weights() {
-  static const auto table = [] {
-    std::array<std::array<float, 4>, kPhases + 1> made{};
-    for (int k = 0; k <= kPhases; ++k) {
-      for (int i = 0; i < 4; ++i) {
-        made[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)] =
-            static_cast<float>(catmull_rom(i - 1.0 - static_cast<double>(k) / kPhases));
+/// Weights of the pixels around a place, by the fraction of a pixel at which the place lies. The taps are even in
+/// number.
+class PhaseTable {
+ public:
+  /// Half a step of 1 / phases moves a picture by that much.
+  PhaseTable(double length, int phases)
+      : taps_(2 * static_cast<int>(std::ceil(2.0 * length))), phases_(phases), before_(2.0 * length - 0.5) {
+    for (int phase = 0; phase <= phases; ++phase) {
+      const std::size_t first = weights_.size();
+      double all = 0.0;
+      for (int i = 0; i < taps_; ++i) {
+        const double weight = catmull_rom((i - static_cast<double>(phase) / phases - 2.0 * length + 1.0) / length);
+        weights_.push_back(static_cast<float>(weight));
+        all += weight;
       }
+      for (std::size_t k = first; k < weights_.size(); ++k) weights_[k] = static_cast<float>(weights_[k] / all);
     }
-    return made;
-  }();
-  return table;
-}
+  }
+  static const PhaseTable& plain() {
+    static const PhaseTable table(1.0, 512);
+    return table;
+  }
 
-/// The cubic at multiples of 1 / kPhases.
-const std::array<float, 2 * kPhases + 2>& cubic_table() {
-  static const auto table = [] {
-    std::array<float, 2 * kPhases + 2> made{};
-    for (int k = 0; k <= 2 * kPhases; ++k) {
-      made[static_cast<std::size_t>(k)] = static_cast<float>(catmull_rom(static_cast<double>(k) / kPhases));
-    }
-    return made;
-  }();
-  return table;
-}
-
-struct Rows {
-  std::int64_t first, last;
-};
-Rows reached(double middle, double length, std::int64_t size) {
-  const auto clamped = [size](double at) {
-    return static_cast<std::int64_t>(std::clamp(at, 0.0, static_cast<double>(size - 1)));
+  struct Taps {
+    std::int64_t first;
+    const float* weights;
   };
-  return {clamped(std::ceil(middle - 0.5 - 2.0 * length)), clamped(std::floor(middle - 0.5 + 2.0 * length))};
+  /// The taps around a place in `size` pixels. All of them lie inside.
+  [[nodiscard]] Taps at(double place, std::int64_t size) const {
+    const double from = std::clamp(place - before_, 0.0, static_cast<double>(size - taps_) - 1e-6);
+    const auto first = static_cast<std::int64_t>(from);
+    const auto phase = static_cast<std::int64_t>((from - static_cast<double>(first)) * phases_ + 0.5);
+    return {first, weights_.data() + phase * taps_};
+  }
+  [[nodiscard]] int taps() const { return taps_; }
+
+ private:
+  int taps_;
+  int phases_;
+  double before_;  ///< from the first tap's outer edge to the place, at phase 0
+  std::vector<float> weights_;
+};
+
+/// All channels of a pixel, summed at once.
+template <std::size_t kChannels>
+struct Lanes;
+template <>
+struct Lanes<4> {
+  using Vector = float __attribute__((vector_size(16)));
+};
+template <>
+struct Lanes<2> {
+  using Vector = float __attribute__((vector_size(8)));
+};
+template <std::size_t kChannels>
+typename Lanes<kChannels>::Vector load(const float* from) {
+  typename Lanes<kChannels>::Vector lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
 }
 
 template <std::size_t kChannels>
 class Sampler {
  public:
-  Sampler(const Canvas<kChannels>& canvas, const KernelShape& shape)
-      : canvas_(canvas), shape_(shape), plain_(plain_weights()), cubic_(cubic_table()) {}
+  using Vector = typename Lanes<kChannels>::Vector;
 
-  /// The weighted sum around a place of the canvas. `least` is the smallest weight that counts.
-  void sum(double u, double v, float least, float* out) const {
-    shape_.is_plain ? sum_plain(u, v, least, out) : sum_shape(u, v, least, out);
+  Sampler(const Canvas<kChannels>& canvas, const KernelShape& shape) : canvas_(canvas), shear_(shape.shear) {
+    constexpr int kPhases = 64;
+    if (shape.length_u > 1.0) own_u_.emplace(shape.length_u, kPhases);
+    if (shape.length_v > 1.0) own_v_.emplace(shape.length_v, kPhases);
+    by_u_ = own_u_ ? &*own_u_ : &PhaseTable::plain();
+    by_v_ = own_v_ ? &*own_v_ : &PhaseTable::plain();
   }
 
- private:
-  struct Phase {
-    std::int64_t first;
-    std::size_t step;
-  };
-  static Phase phase(double at, std::int64_t size) {
-    const double from = std::clamp(at - 0.5, 1.0, static_cast<double>(size) - 3.0);
-    const double whole = std::floor(from);
-    return {static_cast<std::int64_t>(whole) - 1, static_cast<std::size_t>((from - whole) * kPhases + 0.5)};
+  /// The weighted sum around a place of the canvas.
+  void sum(double u, double v, float* out) const {
+    const Vector all = own_u_ || own_v_ ? shaped(u, v) : shear_ == 0.0 ? plain(u, v) : leaning(u, v);
+    std::memcpy(out, &all, sizeof(all));
   }
 
-  void sum_plain(double u, double v, float least, float* out) const {
-    const Phase column = phase(u, canvas_.rect.width()), row = phase(v, canvas_.rect.height());
-    const auto &by_u = plain_[column.step], &by_v = plain_[row.step];
-    const auto stride = static_cast<std::size_t>(canvas_.rect.width()) * kChannels;
-    const float* from = canvas_.at(column.first, row.first);
-    float all[kChannels] = {};
+  /// The same without negative weights.
+  void sum_positive(double u, double v, float* out) const {
+    Vector all{};
     float weights = 0.0F;
-    for (std::size_t j = 0; j < 4; ++j, from += stride) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const float weight = std::max(by_v[j] * by_u[i], least);
-        for (std::size_t c = 0; c < kChannels; ++c) all[c] += weight * from[i * kChannels + c];
+    const PhaseTable::Taps rows = by_v_->at(v, canvas_.rect.height());
+    for (int j = 0; j < by_v_->taps(); ++j) {
+      const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
+      for (int i = 0; i < by_u_->taps(); ++i) {
+        const float weight = std::max(rows.weights[j], 0.0F) * std::max(columns.weights[i], 0.0F);
+        all += weight * load<kChannels>(canvas_.at(columns.first + i, rows.first + j));
         weights += weight;
       }
     }
-    const float scale = 1.0F / weights;
-    for (std::size_t c = 0; c < kChannels; ++c) out[c] = all[c] * scale;
+    all *= weights > 0.0F ? 1.0F / weights : 0.0F;
+    std::memcpy(out, &all, sizeof(all));
   }
 
-  [[nodiscard]] float weight(double distance) const {
-    const double at = std::abs(distance) * kPhases + 0.5;
-    return at < 2.0 * kPhases + 1.0 ? cubic_[static_cast<std::size_t>(at)] : 0.0F;
+ private:
+  [[nodiscard]] PhaseTable::Taps columns_at(double u, double v, std::int64_t row) const {
+    return by_u_->at(u + shear_ * (static_cast<double>(row) + 0.5 - v), canvas_.rect.width());
   }
 
-  void sum_shape(double u, double v, float least, float* out) const {
-    float all[kChannels] = {};
-    float weights = 0.0F;
-    const Rows rows = reached(v, shape_.length_v, canvas_.rect.height());
-    const double by_u = 1.0 / shape_.length_u, by_v = 1.0 / shape_.length_v;
-    for (std::int64_t row = rows.first; row <= rows.last; ++row) {
-      const double down = static_cast<double>(row) + 0.5 - v;
-      const double middle = u + shape_.shear * down;
-      const float row_weight = weight(down * by_v);
-      const Rows columns = reached(middle, shape_.length_u, canvas_.rect.width());
-      const float* from = canvas_.at(columns.first, row);
-      for (std::int64_t column = columns.first; column <= columns.last; ++column, from += kChannels) {
-        const float weighed = std::max(row_weight * weight((static_cast<double>(column) + 0.5 - middle) * by_u), least);
-        for (std::size_t c = 0; c < kChannels; ++c) all[c] += weighed * from[c];
-        weights += weighed;
-      }
+  [[nodiscard]] Vector plain(double u, double v) const {
+    const PhaseTable::Taps columns = by_u_->at(u, canvas_.rect.width()), rows = by_v_->at(v, canvas_.rect.height());
+    const float* from = canvas_.at(columns.first, rows.first);
+    const std::int64_t stride = canvas_.rect.width() * static_cast<std::int64_t>(kChannels);
+    Vector all{};
+    for (int j = 0; j < 4; ++j, from += stride) {
+      Vector row{};
+      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * load<kChannels>(from + i * kChannels);
+      all += rows.weights[j] * row;
     }
-    const float scale = weights > 1e-6F ? 1.0F / weights : 0.0F;
-    for (std::size_t c = 0; c < kChannels; ++c) out[c] = all[c] * scale;
+    return all;
+  }
+
+  /// Four columns in four rows, which begin at places of their own.
+  [[nodiscard]] Vector leaning(double u, double v) const {
+    const PhaseTable::Taps rows = by_v_->at(v, canvas_.rect.height());
+    Vector all{};
+    for (int j = 0; j < 4; ++j) {
+      const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
+      const float* from = canvas_.at(columns.first, rows.first + j);
+      Vector row{};
+      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * load<kChannels>(from + i * kChannels);
+      all += rows.weights[j] * row;
+    }
+    return all;
+  }
+
+  [[nodiscard]] Vector shaped(double u, double v) const {
+    const PhaseTable::Taps rows = by_v_->at(v, canvas_.rect.height());
+    Vector all{};
+    for (int j = 0; j < by_v_->taps(); ++j) {
+      const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
+      const float* from = canvas_.at(columns.first, rows.first + j);
+      // Two sums, so that an addition need not wait for the one before.
+      Vector even{}, odd{};
+      for (int i = 0; i < by_u_->taps(); i += 2, from += 2 * kChannels) {
+        even += columns.weights[i] * load<kChannels>(from);
+        odd += columns.weights[i + 1] * load<kChannels>(from + kChannels);
+      }
+      all += rows.weights[j] * (even + odd);
+    }
+    return all;
   }
 
   const Canvas<kChannels>& canvas_;
-  const KernelShape shape_;
-  const std::array<std::array<float, 4>, kPhases + 1>& plain_;
-  const std::array<float, 2 * kPhases + 2>& cubic_;
+  const double shear_;
+  std::optional<PhaseTable> own_u_, own_v_;
+  const PhaseTable* by_u_;
+  const PhaseTable* by_v_;
 };
 
 /// A square of a patch: its filter, and where its pixels lie in the canvas.
@@ -148,22 +192,34 @@ float coverage_at(const CrsPoint& at, const RasterArea& area, const Jacobian& j)
   return static_cast<float>(by_columns * covered(at.y, area.height_px, j.v_x, j.v_y));
 }
 
+/// A row of a patch: the source pixel as a parabola over s.
+struct PatchRow {
+  PatchRow(const Patch& patch, double t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = (patch.u[6 + i] * t + patch.u[3 + i]) * t + patch.u[i];
+      v[i] = (patch.v[6 + i] * t + patch.v[3 + i]) * t + patch.v[i];
+    }
+  }
+  [[nodiscard]] CrsPoint at(double s) const { return {(u[2] * s + u[1]) * s + u[0], (v[2] * s + v[1]) * s + v[0]}; }
+  double u[3], v[3];
+};
+
 template <class Tile>
 void fill(const Patch& patch, const Square& square, const RasterArea& area, bool inside,
           const Canvas<Tile::kChannels>& canvas, typename Tile::Pixels& to) {
   const Sampler<Tile::kChannels> sampler(canvas, kernel_shape(square.slopes));
-  constexpr float kAll = -1e9F;
+  const double step = 2.0 / (patch.x1 - patch.x0), first = patch.s_of(0.5);
   for (int y = square.y0; y < square.y1; ++y) {
-    const double t = patch.t_of(y + 0.5);
+    const PatchRow row(patch, patch.t_of(y + 0.5));
+    const std::size_t line = static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width_px);
     for (int x = square.x0; x < square.x1; ++x) {
-      const CrsPoint at = patch.at(patch.s_of(x + 0.5), t);
+      const CrsPoint at = row.at(first + x * step);
       const float coverage = inside ? 1.0F : coverage_at(at, area, square.slopes);
       if (coverage <= 0.0F) continue;
-      float sum[Tile::kChannels];
-      sampler.sum(at.x + square.shift.x, at.y + square.shift.y, kAll, sum);
-      if (!Tile::is_whole(sum)) sampler.sum(at.x + square.shift.x, at.y + square.shift.y, 0.0F, sum);
-      Tile::write(sum, coverage, to,
-                  static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width_px) + static_cast<std::size_t>(x));
+      float sum[Tile::kChannels] = {};
+      sampler.sum(at.x + square.shift.x, at.y + square.shift.y, sum);
+      if (!Tile::is_whole(sum)) sampler.sum_positive(at.x + square.shift.x, at.y + square.shift.y, sum);
+      Tile::write(sum, coverage, to, line + static_cast<std::size_t>(x));
     }
   }
 }

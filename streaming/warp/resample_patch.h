@@ -1,7 +1,7 @@
 #pragma once
 
 #include "streaming/warp/canvas.h"
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/patch.h"
 
 namespace terrella {
 

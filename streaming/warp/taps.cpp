@@ -8,8 +8,13 @@ namespace {
 
 /// A smaller weight is not worth a block: a fifth of one part in 255.
 constexpr double kLeastWeight = 1.0 / 1024.0;
-/// Up to this length the cubic is not stretched. The error is far below that of the cubic itself.
-constexpr double kPlainLength = 1.05;
+/// Up to this length the cubic is not stretched: what it lets through beyond the tile's limit, it also keeps sharper.
+constexpr double kPlainLength = 1.3;
+/// A length up to this is one pixel, for a filter of four pixels.
+constexpr double kRounded = 1.05;
+/// The least width of the ellipse, source pixels. Below a pixel the cubic itself keeps the width; the ellipse then only
+/// says how it leans. Leaning more would skip pixels between rows.
+constexpr double kLeastWidth = 0.5;
 /// The largest filter, source pixels a side: 4 · 12. It is needed only in tiles of which a part is far smaller.
 constexpr double kMostLength = 12.0;
 
@@ -97,14 +102,14 @@ KernelShape kernel_shape(const Jacobian& j) {
   const double longest = mean + apart, shortest = mean - apart;
   if (!(longest > kPlainLength * kPlainLength)) return {};
   const double most = kMostLength * kMostLength;
-  const double length = std::clamp(longest, 1.0, most), width = std::clamp(shortest, 1.0, most);
+  const double length = std::clamp(longest, 1.0, most);
+  const double width = std::clamp(shortest, kLeastWidth * kLeastWidth, most);
   const double part = apart > 1e-12 * mean ? (length - width) / (2.0 * apart) : 0.0;
   const double ellipse_uu = width + part * (uu - shortest), ellipse_vv = width + part * (vv - shortest);
   const double shear = part * uv / ellipse_vv;
-  return {.length_u = std::sqrt(std::max(ellipse_uu - shear * part * uv, 1.0)),
-          .length_v = std::sqrt(ellipse_vv),
-          .shear = shear,
-          .is_plain = false};
+  const auto at_least_one = [](double square) { return square < kRounded * kRounded ? 1.0 : std::sqrt(square); };
+  return {
+      .length_u = at_least_one(ellipse_uu - shear * part * uv), .length_v = at_least_one(ellipse_vv), .shear = shear};
 }
 
 double covered(double at, double size, double by_x, double by_y) {

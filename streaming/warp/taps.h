@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/patch.h"
 
 namespace terrella {
 
@@ -38,7 +38,6 @@ struct KernelShape {
   double length_u = 1.0;  ///< along a row
   double length_v = 1.0;
   double shear = 0.0;
-  bool is_plain = true;  ///< 4 × 4 pixels: the source is not finer than the tile
   /// Reach to each side of the middle.
   [[nodiscard]] double reach_u() const { return 2.0 * (length_u + std::abs(shear) * length_v); }
   [[nodiscard]] double reach_v() const { return 2.0 * length_v; }

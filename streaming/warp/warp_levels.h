@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "streaming/raster/raster_source.h"
-#include "streaming/warp/tile_patches.h"
+#include "streaming/warp/map/tile_patches.h"
 
 namespace terrella {
 

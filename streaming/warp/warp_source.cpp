@@ -8,7 +8,7 @@
 
 #include "streaming/sets/tileset_check.h"
 #include "streaming/warp/make_warp_source.h"
-#include "streaming/warp/raster_extent.h"
+#include "streaming/warp/map/raster_extent.h"
 
 namespace terrella {
 namespace {

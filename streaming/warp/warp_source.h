@@ -6,7 +6,7 @@
 #include <string>
 
 #include "streaming/raster/raster_source.h"
-#include "streaming/warp/ground_map.h"
+#include "streaming/warp/map/ground_map.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

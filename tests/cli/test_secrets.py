@@ -139,7 +139,7 @@ class ProgramKeepsSecretsTest(SecretsTest):
 
     def test_when_a_description_is_wrong(self):
         base = {"url": secret_address(NOBODY + "/{z}/{x}/{y}.jpg"), "max_level": 2, "headers": [f"X-Key: {HEADER}"]}
-        for more in ({"max_level": None}, {"bounds": [1, 2, 3]}, {"url": base["url"].replace("{z}", "{q}")},
+        for more in ({"max_level": None}, {"bounds": [1, 2, 3]}, {"url": base["url"].replace("{z}", "{tile}")},
                      {"headers": [f"Host: {HEADER}"]}, {"tile_px": 3}, {"unknown": HEADER}, {"url": None},
                      {"url": base["url"].replace("http:", "ftp:")}, {"projection": "mercator"}):
             self.keeps(FAILED, "render", self.describe(**{**base, **more}), "-o", "a.png", *VIEW, says=["source.json"])

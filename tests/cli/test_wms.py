@@ -16,8 +16,8 @@ import wms_server  # noqa: E402
 
 TILE_PX = 64
 # Places in each system, away from the pole, where its longitudes turn within a pixel.
-PLACES = {"EPSG:4326": [(11, 48), (-120.5, -33), (151, -65.3), (-3, 2)],
-          "CRS:84": [(11, 48), (-120.5, -33), (151, -65.3), (-3, 2)],
+PLACES = {"EPSG:4326": [(11.03, 48.07), (-120.51, -33.02), (151.03, -65.31), (-3.01, 2.03)],
+          "CRS:84": [(11.03, 48.07), (-120.51, -33.02), (151.03, -65.31), (-3.01, 2.03)],
           "EPSG:3857": [(1.2e6, 6.1e6), (-1.3e7, -3.9e6), (1.7e7, 1.1e7)],
           "EPSG:3413": [(2.1e6, -2.4e6), (-3.3e6, -1.0e6), (-1.5e6, 3.7e6), (4.0e6, 4.0e6)],
           "sinu": [(1.0e6, 1.0e6), (-3.1e6, -0.4e6), (0.3e6, -2.2e6)],
@@ -144,7 +144,8 @@ class GdalWmsTest(PlacedTest):
         text = XML.format(address=server.address, crs=crs, window=f"{west},{north},{east},{south}", block=block,
                           count=f"{columns}x{rows}", west=west, north=north, east=east, south=south, level=level, size=size,
                           origin=origin, projection=projection, query=query, more=more)
-        return self.write("tiles.xml", text.replace("\n", "").encode())
+        # A cache belongs to a file's name.
+        return self.write(f"{name.replace(' ', '-')}-{block}.xml", text.replace("\n", "").encode())
 
     def test_a_pixel_is_the_one_that_gdal_reads_from_the_same_file(self):
         for name, (crs, *_) in WINDOWS.items():
@@ -159,7 +160,7 @@ class GdalWmsTest(PlacedTest):
         crs, (west, north, east, south), _, _ = WINDOWS[name]
         places = PLACES[crs.replace("-", ":")]
         if name in ("a part", "beside the grid"):
-            places = [(11, 48), (-22.3, 33), (27, 74 - 1e-3)]
+            places = [(11.03, 48.07), (-22.31, 33.02), (27.03, 73.91)]
         if name == "from 0":
             places = [(x % 360, y) for x, y in places]
         return places

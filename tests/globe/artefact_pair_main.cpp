@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "scene/scene_objects.h"
+#include "apps/scene/scene_options.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/scene_objects.h"
-#include "apps/setup/scene_options.h"
 #include "apps/setup/write_file.h"
 #include "codecs/image.h"
 #include "globe/experiments.h"

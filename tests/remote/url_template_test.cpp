@@ -73,7 +73,7 @@ TEST(UrlTemplate, RefusesByNameWhatItIsNot) {
   expect_template_refused("https://example.com/{z}/{y}.png", "no {x}");
   expect_template_refused("https://example.com/{z}/{x}.png", "no {y}");
   expect_template_refused("https://example.com/{z}/{x}/{y}/{-y}.png", "both {y} and {-y}");
-  expect_template_refused("https://example.com/{z}/{x}/{y}/{q}.png", "unknown placeholder {q}");
+  expect_template_refused("https://example.com/{z}/{x}/{y}/{tile}.png", "unknown placeholder {tile}");
   expect_template_refused("https://example.com/{z}/{x}/{y", "brace");
   expect_template_refused("https://example.com/{z}/{x}/{y}}", "brace");
   expect_template_refused("https://{z}.example.com/{z}/{x}/{y}", "in its host");

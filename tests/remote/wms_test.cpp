@@ -8,6 +8,7 @@
 
 #include "streaming/raster/tile_raster.h"
 #include "streaming/remote/describe_remote.h"
+#include "streaming/sets/tile_range.h"
 
 namespace terrella {
 namespace {
@@ -184,6 +185,7 @@ TEST(Wms, AProjectedLayerIsARasterOfItsSystem) {
   const CrsPoint end = finest.to_crs.at(4096, 2048);
   EXPECT_NEAR(end.x, 1e6, 1e-3);
   EXPECT_NEAR(end.y, -2e6, 1e-3);
+  EXPECT_EQ(count_places(set->info.grid, 3), 32) << "all tiles of the box are listed";
   // A block of the raster is the request for the rectangle that its transform gives.
   EXPECT_EQ(raster->read({2, 3, 1}).error().why, "3/3/1");
   EXPECT_EQ(bbox(*set, {3, 3, 1}), "-1500000,-1000000,-1000000,-500000");

@@ -45,16 +45,15 @@ PaintedRaster::PaintedRaster(const PaintedOptions& options, Ground red, Ground g
 Image PaintedRaster::paint(const TileId& block) const {
   const RasterLevel& level = info_.levels[static_cast<std::size_t>(block.level)];
   const Places places(options_.crs);
+  const int rays = options_.rays << (info_.levels.size() - 1 - static_cast<std::size_t>(block.level));
   Image image{level.block_width_px, level.block_height_px, {}};
   for (int j = 0; j < image.height_px; ++j) {
     for (int i = 0; i < image.width_px; ++i) {
       double red = 0.0, green = 0.0;
       int placed = 0;
-      for (int ray = 0; ray < options_.rays * options_.rays; ++ray) {
-        const double column =
-            static_cast<double>(block.x * level.block_width_px + i) + (ray % options_.rays + 0.5) / options_.rays;
-        const double row =
-            static_cast<double>(block.y * level.block_height_px + j) + (ray / options_.rays + 0.5) / options_.rays;
+      for (int ray = 0; ray < rays * rays; ++ray) {
+        const double column = static_cast<double>(block.x * level.block_width_px + i) + (ray % rays + 0.5) / rays;
+        const double row = static_cast<double>(block.y * level.block_height_px + j) + (ray / rays + 0.5) / rays;
         const CrsPoint at = level.to_crs.at(column, row);
         const Places::Place place = places.of(at.x, at.y);
         if (!std::isfinite(place.lat_deg) || !std::isfinite(place.lon_deg)) continue;

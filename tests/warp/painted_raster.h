@@ -40,7 +40,7 @@ struct PaintedOptions {
   int block_px = 64;
   int overviews = 0;
   bool numbers = false;
-  int rays = 4;  ///< the value of a pixel is the mean of so many places a side
+  int rays = 4;  ///< the value of a pixel of the finest level is the mean of so many places a side
 };
 
 /// A raster in any coordinate system, painted as it is read: each pixel the mean of its places. Red goes by the first

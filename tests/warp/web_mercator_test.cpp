@@ -12,6 +12,7 @@
 #include "mercator_planet.h"
 #include "streaming/warp/web_mercator.h"
 #include "tests/streaming/streaming_test_support.h"
+#include "tiles/height_decoder.h"
 #include "tiles/tile_loader.h"
 
 namespace terrella {
@@ -258,6 +259,52 @@ TEST(Mercator, SetsBeyondItsEndAreRefused) {
   auto pole = std::make_unique<MercatorPlanet>(waves(20.0, 20.0), kMercatorPx, 5);
   pole->change().grid.bounds.south = Angle::degrees(86.0);
   EXPECT_FALSE(as_geodetic(std::move(pole), "pole.gpkg"));
+}
+
+/// Heights of 100 m for each degree of latitude, with a tile of scale 2 and offset 7.
+class HeightPlanet : public TileSource {
+ public:
+  HeightPlanet() {
+    info_.grid = {
+        .root_span_deg = 360.0, .tile_px = kMercatorPx, .max_level = 4, .projection = Projection::web_mercator};
+    info_.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .floats = true};
+  }
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
+    EncodedTile tile{.bytes = {}, .number_scale = 2.0, .number_offset = 7.0};
+    tile.make_numbers = [id]() -> Result<Numbers, TileFailure> {
+      Numbers numbers{kMercatorPx, kMercatorPx, {}};
+      for (int j = 0; j < kMercatorPx; ++j) {
+        const double down = (static_cast<double>(id.y) + (j + 0.5) / kMercatorPx) * std::ldexp(1.0, -id.level);
+        const double y = std::numbers::pi * (1.0 - 2.0 * down);
+        const double lat = std::atan(std::sinh(y)) * 180.0 / std::numbers::pi;
+        numbers.values.insert(numbers.values.end(), kMercatorPx, static_cast<float>((100.0 * lat - 7.0) / 2.0));
+      }
+      return numbers;
+    };
+    return tile;
+  }
+
+ private:
+  TileSetInfo info_;
+};
+
+TEST(Mercator, HeightsAreNumbersOfTheSameMeaning) {
+  const auto tiles = as_geodetic(std::make_unique<HeightPlanet>(), "heights");
+  ASSERT_TRUE(tiles) << tiles.error().message;
+  const TileId id{4, 5, 3};  // 22.5° to 0°
+  const auto tile = (*tiles)->read(id);
+  ASSERT_TRUE(tile);
+  const auto heights = decode_heights(id, *tile, *(*tiles)->info().elevation, kMercatorPx);
+  ASSERT_TRUE(heights) << heights.error().why;
+  for (int j = 0; j < kMercatorPx; ++j) {
+    const double lat = 22.5 - (j + 0.5) * 22.5 / kMercatorPx;
+    ASSERT_NEAR(heights->heights_m[static_cast<std::size_t>(j * kMercatorPx + 9)], 100.0 * lat, 0.5) << j;
+  }
+  const auto end = (*tiles)->read({4, 5, 0});
+  ASSERT_TRUE(end);
+  EXPECT_TRUE(std::isnan(end->make_numbers()->values.front())) << "the pole";
+  EXPECT_FALSE(std::isnan(end->make_numbers()->values.back()));
 }
 
 // ---- behind a network

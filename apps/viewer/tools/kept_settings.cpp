@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "apps/setup/user_folder.h"
 #include "apps/setup/write_file.h"
 #include "streaming/file_bytes.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "apps/setup/write_file.h"
 #include "codecs/image.h"
 

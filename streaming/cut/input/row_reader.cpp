@@ -93,8 +93,8 @@ Error row_error(const std::string& name, std::int64_t row, std::int64_t rows, st
 
 Error refuse_heights(const std::string& name) {
   return Error{
-      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF of one sample a pixel, Int16, "
-                  "UInt16 or Float32; convert it (gdal_translate -ot Int16)",
+      fmt::format("{}: heights are read from PNG of one channel of 16 bits, or TIFF without colours; convert it "
+                  "(gdal_translate -b 1)",
                   name)};
 }
 

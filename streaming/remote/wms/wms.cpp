@@ -124,9 +124,9 @@ Result<Times> choose_times(const WmsLayer& layer, const std::string& wanted) {
     if (!is_time && !dimension.otherwise.empty()) continue;
     const Result<ChosenTime> chosen = choose_time(dimension, is_time ? wanted : std::string());
     if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
-    const bool standard = is_time || same_letters(dimension.name, "elevation");
-    times.parameters +=
-        fmt::format("&{}{}={}", standard ? "" : "DIM_", percent_encode(dimension.name), percent_encode(chosen->value));
+    const bool is_height = same_letters(dimension.name, "elevation");
+    const std::string name = is_time ? "TIME" : is_height ? "ELEVATION" : "DIM_" + percent_encode(dimension.name);
+    times.parameters += fmt::format("&{}={}", name, percent_encode(chosen->value));
     times.newest = times.newest || (is_time && chosen->newest);
     has_time = has_time || is_time;
   }

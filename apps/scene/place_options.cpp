@@ -1,4 +1,4 @@
-#include "apps/commands/place_options.h"
+#include "apps/scene/place_options.h"
 
 #include <fmt/format.h>
 

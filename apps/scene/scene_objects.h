@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 #include "globe/globe.h"
 
 namespace terrella {

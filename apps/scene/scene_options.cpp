@@ -1,13 +1,13 @@
-#include "apps/setup/scene_options.h"
+#include "apps/scene/scene_options.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
 #include "apps/commands/option_checks.h"
-#include "apps/commands/place_options.h"
 #include "apps/commands/remote_set_options.h"
-#include "apps/setup/scene_overlays.h"
+#include "apps/scene/place_options.h"
+#include "apps/scene/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "view/view_limits.h"

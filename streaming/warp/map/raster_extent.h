@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "streaming/warp/ground_map.h"
+#include "streaming/warp/map/ground_map.h"
 
 namespace terrella {
 

@@ -1,4 +1,4 @@
-#include "streaming/warp/ground_map.h"
+#include "streaming/warp/map/ground_map.h"
 
 #include <algorithm>
 #include <cmath>

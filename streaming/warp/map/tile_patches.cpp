@@ -1,4 +1,4 @@
-#include "streaming/warp/tile_patches.h"
+#include "streaming/warp/map/tile_patches.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "apps/setup/scene_overlays.h"
+#include "apps/scene/scene_overlays.h"
 
 #include <fmt/format.h>
 

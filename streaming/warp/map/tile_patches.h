@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "streaming/warp/ground_map.h"
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/ground_map.h"
+#include "streaming/warp/map/patch.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {

@@ -1,4 +1,4 @@
-#include "apps/setup/scene_layers.h"
+#include "apps/scene/scene_layers.h"
 
 #include <memory>
 #include <utility>

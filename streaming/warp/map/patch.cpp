@@ -1,4 +1,4 @@
-#include "streaming/warp/patch.h"
+#include "streaming/warp/map/patch.h"
 
 namespace terrella {
 namespace {

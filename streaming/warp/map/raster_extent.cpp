@@ -1,4 +1,4 @@
-#include "streaming/warp/raster_extent.h"
+#include "streaming/warp/map/raster_extent.h"
 
 #include <algorithm>
 #include <array>

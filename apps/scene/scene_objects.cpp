@@ -1,4 +1,4 @@
-#include "apps/setup/scene_objects.h"
+#include "apps/scene/scene_objects.h"
 
 #include <fmt/core.h>
 
