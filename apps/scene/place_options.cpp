@@ -28,21 +28,25 @@ Result<CrsBounds> parse_bounds(const std::string& text) {
   return CrsBounds{sides[0], sides[1], sides[2], sides[3]};
 }
 
-/// Checks bounds in degrees.
-Status check_degrees(const CrsBounds& b) {
-  const bool longitudes = std::abs(b.west) <= kMostLongitude_deg && std::abs(b.east) <= kMostLongitude_deg &&
-                          b.west != b.east && b.east - b.west <= 360.0 && b.west - b.east < 360.0;
-  if (longitudes && b.south >= -90.0 && b.north <= 90.0 && b.south < b.north) return Done{};
-  return Error{
-      "it takes WEST and EAST in -360...360, at most 360 apart (WEST > EAST crosses 180 degrees), and SOUTH < "
-      "NORTH in -90...90"};
+std::string text_of(const CrsBounds& b) {
+  return fmt::format("{:.15g},{:.15g},{:.15g},{:.15g}", b.west, b.south, b.east, b.north);
 }
 
 Status check_words(const PlaceWords& words) {
   if (!words.bounds) return Done{};
-  if (words.crs.empty()) return check_degrees(*words.bounds);
-  if (words.bounds->west < words.bounds->east && words.bounds->south < words.bounds->north) return Done{};
-  return Error{"with --crs it takes WEST < EAST and SOUTH < NORTH, in the units of that system"};
+  const CrsBounds& b = *words.bounds;
+  if (!words.crs.empty()) {
+    if (b.west < b.east && b.south < b.north) return Done{};
+    return Error{
+        fmt::format("{}: with --crs it takes WEST < EAST and SOUTH < NORTH, in the units of that system", text_of(b))};
+  }
+  const bool longitudes = std::abs(b.west) <= kMostLongitude_deg && std::abs(b.east) <= kMostLongitude_deg &&
+                          b.west != b.east && b.east - b.west <= 360.0 && b.west - b.east < 360.0;
+  if (longitudes && b.south >= -90.0 && b.north <= 90.0 && b.south < b.north) return Done{};
+  return Error{
+      fmt::format("{}: it takes WEST and EAST in -360...360, at most 360 apart (WEST > EAST crosses 180 "
+                  "degrees), and SOUTH < NORTH in -90...90",
+                  text_of(b))};
 }
 
 }  // namespace
