@@ -113,6 +113,20 @@ TEST(TileSetJson, EachFieldIsChecked) {
   }
 }
 
+TEST(TileSetJson, TheSystemOfASquareNamesNoFile) {
+  const auto with_system = [](const std::string& crs) {
+    return R"({"root_span_deg": 360, "tile_px": 256, "max_level": 3, "format": "jpg", "projection": "projected", )"
+           R"("square": {"west": 0, "north": 0, "unit_per_deg": 1, "crs": ")" +
+           crs + R"("}})";
+  };
+  for (const char* crs : {"/etc/passwd", "+init=/etc/passwd:1", "+proj=utm +zone=33 +nadgrids=/etc/passwd"}) {
+    EXPECT_NE(json_error_of(with_system(crs)).find("square"), std::string::npos) << crs;
+  }
+  for (const char* crs : {"EPSG:32633", "IAU_2015:30100", "+proj=stere +lat_0=90 +R=1737400 +type=crs"}) {
+    EXPECT_TRUE(parse_tileset_json(with_system(crs), "good")) << crs;
+  }
+}
+
 TEST(TileSetJson, TextsHaveALimit) { expect_json_refused("name", '"' + std::string(20000, 'x') + '"'); }
 
 TEST(TileSetJson, SaysWhereTheTextIsNotJson) {
