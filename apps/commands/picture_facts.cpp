@@ -58,11 +58,10 @@ void try_out(PictureFacts& facts) {
   if (auto place = find_place(cut, facts.file)) facts.place = *std::move(place);
 }
 
-/// Angle and distance between two places on a sphere.
-double arc_deg(const CrsPoint& p, const CrsPoint& q) {
-  const double to_rad = M_PI / 180.0;
-  const double east = std::remainder(q.x - p.x, 360.0) * std::cos(0.5 * (p.y + q.y) * to_rad);
-  return std::hypot(east, q.y - p.y);
+/// Distance between two near places: of arc, or as the numbers of longitude and latitude differ.
+double apart_deg(const CrsPoint& p, const CrsPoint& q, bool of_arc) {
+  const double shrink = of_arc ? std::cos(0.5 * (p.y + q.y) * M_PI / 180.0) : 1.0;
+  return std::hypot(std::remainder(q.x - p.x, 360.0) * shrink, q.y - p.y);
 }
 
 /// Bounds in degrees and the size of a pixel, by PROJ.
@@ -81,9 +80,11 @@ void locate(PictureFacts& facts, const CrsPlace& at) {
   const double y = std::floor(0.5 * static_cast<double>(facts.file.height_px));
   const auto corners = crs->places({at.to_crs.at(x, y), at.to_crs.at(x + 1.0, y), at.to_crs.at(x, y + 1.0)});
   if (!corners || !std::isfinite((*corners)[0].x)) return;
-  const double wide = arc_deg((*corners)[0], (*corners)[1]), high = arc_deg((*corners)[0], (*corners)[2]);
+  const auto wide = [&](bool of_arc) { return apart_deg((*corners)[0], (*corners)[1], of_arc); };
+  const auto high = [&](bool of_arc) { return apart_deg((*corners)[0], (*corners)[2], of_arc); };
+  const bool of_arc = !crs->facts().geographic;
   const double degree_m = (facts.crs ? facts.crs->a_m : earth().ellipsoid.a_m()) * M_PI / 180.0;
-  facts.pixel = PixelSize{wide, high, wide * degree_m, high * degree_m};
+  facts.pixel = PixelSize{of_arc, wide(of_arc), high(of_arc), wide(true) * degree_m, high(true) * degree_m};
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace terrella {
 
 /// Size of the pixel in the middle of the picture.
 struct PixelSize {
-  double width_deg, height_deg;  ///< angles at the planet's centre
+  bool of_arc;                   ///< true if the degrees are of arc; false: of longitude and latitude
+  double width_deg, height_deg;  ///< pixels of geographic systems: longitude, latitude; of projected ones: arc
   double width_m, height_m;
 };
 

@@ -83,8 +83,8 @@ std::string place_lines(const PictureFacts& facts) {
                         without_dust(b->west), without_dust(b->south), without_dust(b->east), without_dust(b->north));
   }
   if (const auto& p = facts.pixel) {
-    text += fmt::format("pixel size   {:.6g}° by {:.6g}°, {:.6g} m by {:.6g} m in the middle\n", p->width_deg,
-                        p->height_deg, p->width_m, p->height_m);
+    text += fmt::format("pixel size   {:.6g}° by {:.6g}° of {}, {:.6g} m by {:.6g} m in the middle\n", p->width_deg,
+                        p->height_deg, p->of_arc ? "arc" : "longitude and latitude", p->width_m, p->height_m);
   }
   return text;
 }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "streaming/warp/phase_table.h"
 #include "streaming/warp/taps.h"
 #include "streaming/warp/tile_pixels.h"
 
@@ -14,49 +16,8 @@ namespace {
 
 /// Side of the squares of a tile with one shape of the filter.
 constexpr int kSquare_px = 32;
-
-/// Weights of the pixels around a place, by the fraction of a pixel at which the place lies. The taps are even in
-/// number.
-class PhaseTable {
- public:
-  /// Half a step of 1 / phases moves a picture by that much.
-  PhaseTable(double length, int phases)
-      : taps_(2 * static_cast<int>(std::ceil(2.0 * length))), phases_(phases), before_(2.0 * length - 0.5) {
-    for (int phase = 0; phase <= phases; ++phase) {
-      const std::size_t first = weights_.size();
-      double all = 0.0;
-      for (int i = 0; i < taps_; ++i) {
-        const double weight = catmull_rom((i - static_cast<double>(phase) / phases - 2.0 * length + 1.0) / length);
-        weights_.push_back(static_cast<float>(weight));
-        all += weight;
-      }
-      for (std::size_t k = first; k < weights_.size(); ++k) weights_[k] = static_cast<float>(weights_[k] / all);
-    }
-  }
-  static const PhaseTable& plain() {
-    static const PhaseTable table(1.0, 512);
-    return table;
-  }
-
-  struct Taps {
-    std::int64_t first;
-    const float* weights;
-  };
-  /// The taps around a place in `size` pixels. All of them lie inside.
-  [[nodiscard]] Taps at(double place, std::int64_t size) const {
-    const double from = std::clamp(place - before_, 0.0, static_cast<double>(size - taps_) - 1e-6);
-    const auto first = static_cast<std::int64_t>(from);
-    const auto phase = static_cast<std::int64_t>((from - static_cast<double>(first)) * phases_ + 0.5);
-    return {first, weights_.data() + phase * taps_};
-  }
-  [[nodiscard]] int taps() const { return taps_; }
-
- private:
-  int taps_;
-  int phases_;
-  double before_;  ///< from the first tap's outer edge to the place, at phase 0
-  std::vector<float> weights_;
-};
+/// Least height of a square for two passes.
+constexpr int kLeast_px = 8;
 
 /// All channels of a pixel, summed at once.
 template <std::size_t kChannels>
@@ -82,16 +43,16 @@ class Sampler {
   using Vector = typename Lanes<kChannels>::Vector;
 
   Sampler(const Canvas<kChannels>& canvas, const KernelShape& shape) : canvas_(canvas), shear_(shape.shear) {
-    constexpr int kPhases = 64;
-    if (shape.length_u > 1.0) own_u_.emplace(shape.length_u, kPhases);
-    if (shape.length_v > 1.0) own_v_.emplace(shape.length_v, kPhases);
+    constexpr int kBits = 6;
+    if (shape.length_u > 1.0) own_u_.emplace(shape.length_u, kBits);
+    if (shape.length_v > 1.0) own_v_.emplace(shape.length_v, kBits);
     by_u_ = own_u_ ? &*own_u_ : &PhaseTable::plain();
     by_v_ = own_v_ ? &*own_v_ : &PhaseTable::plain();
   }
 
   /// The weighted sum around a place of the canvas.
   void sum(double u, double v, float* out) const {
-    const Vector all = own_u_ || own_v_ ? shaped(u, v) : shear_ == 0.0 ? plain(u, v) : leaning(u, v);
+    const Vector all = with_taps([&](auto taps) { return sum_rows<taps>(u, v); });
     std::memcpy(out, &all, sizeof(all));
   }
 
@@ -112,53 +73,61 @@ class Sampler {
     std::memcpy(out, &all, sizeof(all));
   }
 
+  /// The weighted sum along one row of the canvas.
+  [[nodiscard]] Vector sum_row(double u, std::int64_t row) const {
+    const PhaseTable::Taps columns = by_u_->at(u, canvas_.rect.width());
+    const float* from = canvas_.at(columns.first, row);
+    return with_taps([&](auto taps) { return this->row<taps>(columns, from); });
+  }
+  /// The rows around a place, and their number.
+  [[nodiscard]] PhaseTable::Taps rows_at(double v) const { return by_v_->at(v, canvas_.rect.height()); }
+  [[nodiscard]] bool leans() const { return shear_ != 0.0; }
+  [[nodiscard]] int rows() const { return by_v_->taps(); }
+
  private:
   [[nodiscard]] PhaseTable::Taps columns_at(double u, double v, std::int64_t row) const {
     return by_u_->at(u + shear_ * (static_cast<double>(row) + 0.5 - v), canvas_.rect.width());
   }
 
-  [[nodiscard]] Vector plain(double u, double v) const {
-    const PhaseTable::Taps columns = by_u_->at(u, canvas_.rect.width()), rows = by_v_->at(v, canvas_.rect.height());
-    const float* from = canvas_.at(columns.first, rows.first);
-    const std::int64_t stride = canvas_.rect.width() * static_cast<std::int64_t>(kChannels);
-    Vector all{};
-    for (int j = 0; j < 4; ++j, from += stride) {
-      Vector row{};
-      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * load<kChannels>(from + i * kChannels);
-      all += rows.weights[j] * row;
+  /// Calls `sum` with the number of columns as a constant for the usual filters, otherwise with 0.
+  template <class Sum>
+  [[nodiscard]] Vector with_taps(const Sum& sum) const {
+    switch (by_u_->taps()) {
+      case 4:
+        return sum(std::integral_constant<int, 4>{});
+      case 6:
+        return sum(std::integral_constant<int, 6>{});
+      case 8:
+        return sum(std::integral_constant<int, 8>{});
+      default:
+        return sum(std::integral_constant<int, 0>{});
     }
-    return all;
   }
 
-  /// Four columns in four rows, which begin at places of their own.
-  [[nodiscard]] Vector leaning(double u, double v) const {
+  /// `kTaps` is the number of columns, if the compiler is to know it; otherwise 0.
+  template <int kTaps>
+  [[nodiscard]] Vector sum_rows(double u, double v) const {
     const PhaseTable::Taps rows = by_v_->at(v, canvas_.rect.height());
-    Vector all{};
-    for (int j = 0; j < 4; ++j) {
-      const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
-      const float* from = canvas_.at(columns.first, rows.first + j);
-      Vector row{};
-      for (std::size_t i = 0; i < 4; ++i) row += columns.weights[i] * load<kChannels>(from + i * kChannels);
-      all += rows.weights[j] * row;
-    }
-    return all;
-  }
-
-  [[nodiscard]] Vector shaped(double u, double v) const {
-    const PhaseTable::Taps rows = by_v_->at(v, canvas_.rect.height());
+    PhaseTable::Taps columns = columns_at(u, v, rows.first);
     Vector all{};
     for (int j = 0; j < by_v_->taps(); ++j) {
-      const PhaseTable::Taps columns = columns_at(u, v, rows.first + j);
-      const float* from = canvas_.at(columns.first, rows.first + j);
-      // Two sums, so that an addition need not wait for the one before.
-      Vector even{}, odd{};
-      for (int i = 0; i < by_u_->taps(); i += 2, from += 2 * kChannels) {
-        even += columns.weights[i] * load<kChannels>(from);
-        odd += columns.weights[i + 1] * load<kChannels>(from + kChannels);
-      }
-      all += rows.weights[j] * (even + odd);
+      if (shear_ != 0.0 && j > 0) columns = columns_at(u, v, rows.first + j);
+      all += rows.weights[j] * row<kTaps>(columns, canvas_.at(columns.first, rows.first + j));
     }
     return all;
+  }
+
+  template <int kTaps>
+  [[nodiscard]] Vector row(const PhaseTable::Taps& columns, const float* from) const {
+    const int taps = kTaps > 0 ? kTaps : by_u_->taps();
+    // Two sums, so that an addition need not wait for the one before.
+    Vector even{}, odd{};
+#pragma GCC unroll 4
+    for (int i = 0; i < taps; i += 2, from += 2 * kChannels) {
+      even += columns.weights[i] * load<kChannels>(from);
+      odd += columns.weights[i + 1] * load<kChannels>(from + kChannels);
+    }
+    return even + odd;
   }
 
   const Canvas<kChannels>& canvas_;
@@ -204,20 +173,88 @@ struct PatchRow {
   double u[3], v[3];
 };
 
+/// True if the rows of the patch lie along rows of the source, within less than the map's own error, and neither far
+/// apart nor close together there.
+bool is_along_rows(const Patch& patch) {
+  constexpr double kStraight_px = 0.005, kLeastRows = 0.5, kLeastSlopeOverBend = 8.0;
+  double off = 0.0;
+  for (const std::size_t i : {1, 2, 4, 5, 7, 8}) off += std::abs(patch.v[i]);
+  return off <= kStraight_px && 2.0 * std::abs(patch.v[3]) >= kLeastRows * (patch.y1 - patch.y0) &&
+         std::abs(patch.v[3]) >= kLeastSlopeOverBend * std::abs(patch.v[6]);
+}
+
+/// Rows of the source, resampled at the columns of a square. The columns of the square are then resampled from these
+/// rows. Such two passes (Catmull and Smith 1980) need fewer sums than one. The filter leans along the columns.
+template <std::size_t kChannels>
+class SquareRows {
+ public:
+  using Vector = typename Lanes<kChannels>::Vector;
+
+  SquareRows(const Sampler<kChannels>& sampler, const Patch& patch, const Square& square)
+      : sampler_(sampler), width_(square.x1 - square.x0) {
+    const double top = v_of(patch, square, square.y0 + 0.5), bottom = v_of(patch, square, square.y1 - 0.5);
+    first_ = sampler.rows_at(std::min(top, bottom)).first;
+    const std::int64_t end = sampler.rows_at(std::max(top, bottom)).first + sampler.rows();
+    sums_.reserve(static_cast<std::size_t>((end - first_) * width_));
+    const double step = 2.0 / (patch.x1 - patch.x0), s = patch.s_of(square.x0 + 0.5);
+    double t = patch.t_of(square.y0 + 0.5);
+    for (std::int64_t row = first_; row < end; ++row) {
+      t = t_of(patch, static_cast<double>(row) + 0.5 - square.shift.y, t);
+      const PatchRow places(patch, t);
+      for (int x = 0; x < width_; ++x)
+        sums_.push_back(sampler.sum_row(places.at(s + x * step).x + square.shift.x, row));
+    }
+  }
+
+  void sum(int x, const PhaseTable::Taps& rows, float* out) const {
+    const Vector* from = sums_.data() + (rows.first - first_) * width_ + x;
+    Vector all{};
+    for (int j = 0; j < sampler_.rows(); ++j, from += width_) all += rows.weights[j] * *from;
+    std::memcpy(out, &all, sizeof(all));
+  }
+
+ private:
+  static double v_of(const Patch& patch, const Square& square, double y) {
+    const double t = patch.t_of(y);
+    return (patch.v[6] * t + patch.v[3]) * t + patch.v[0] + square.shift.y;
+  }
+  /// Where the patch reaches a row of the source, by Newton's method from a place near it.
+  static double t_of(const Patch& patch, double v, double t) {
+    for (int step = 0; step < 3; ++step) {
+      t -= ((patch.v[6] * t + patch.v[3]) * t + patch.v[0] - v) / (2.0 * patch.v[6] * t + patch.v[3]);
+    }
+    return t;
+  }
+
+  const Sampler<kChannels>& sampler_;
+  int width_;
+  std::int64_t first_ = 0;
+  std::vector<Vector> sums_;
+};
+
 template <class Tile>
 void fill(const Patch& patch, const Square& square, const RasterArea& area, bool inside,
           const Canvas<Tile::kChannels>& canvas, typename Tile::Pixels& to) {
   const Sampler<Tile::kChannels> sampler(canvas, kernel_shape(square.slopes));
+  std::optional<SquareRows<Tile::kChannels>> two_passes;
+  if (is_along_rows(patch) && sampler.leans() && square.y1 - square.y0 >= kLeast_px) {
+    two_passes.emplace(sampler, patch, square);
+  }
   const double step = 2.0 / (patch.x1 - patch.x0), first = patch.s_of(0.5);
   for (int y = square.y0; y < square.y1; ++y) {
     const PatchRow row(patch, patch.t_of(y + 0.5));
+    const PhaseTable::Taps rows = sampler.rows_at(row.at(0.0).y + square.shift.y);
     const std::size_t line = static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width_px);
     for (int x = square.x0; x < square.x1; ++x) {
       const CrsPoint at = row.at(first + x * step);
       const float coverage = inside ? 1.0F : coverage_at(at, area, square.slopes);
       if (coverage <= 0.0F) continue;
       float sum[Tile::kChannels] = {};
-      sampler.sum(at.x + square.shift.x, at.y + square.shift.y, sum);
+      if (two_passes) {
+        two_passes->sum(x - square.x0, rows, sum);
+      } else {
+        sampler.sum(at.x + square.shift.x, at.y + square.shift.y, sum);
+      }
       if (!Tile::is_whole(sum)) sampler.sum_positive(at.x + square.shift.x, at.y + square.shift.y, sum);
       Tile::write(sum, coverage, to, line + static_cast<std::size_t>(x));
     }

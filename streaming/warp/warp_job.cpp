@@ -57,7 +57,7 @@ std::vector<TileId> WarpJob::missing() const {
     if (piece.state == State::missing) tiles.push_back(blocks_->stored(piece.from));
   }
   std::ranges::sort(tiles);
-  tiles.erase(std::ranges::unique(tiles).begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
   return tiles;
 }
 

@@ -77,6 +77,16 @@ class Drawn(GeoreferenceTest):
         self.picture(name, *options, size=size)
         self.assert_drawn_as_gdal_says(name, crs, *cut)
 
+    def test_pixel_size_is_of_longitude_and_latitude_or_of_arc(self):
+        make(self.folder / "in.tif", 100, 40, "-a_srs", "EPSG:4326", "-a_ullr", 5, 47, 10, 45)
+        self.assertIn("pixel size   0.05° by 0.05° of longitude and latitude, 3866", self.assert_done("info", "in.tif").stdout)
+        for ours, true in zip(self.info("in.tif")["pixel_deg"], (0.05, 0.05)):
+            self.assertAlmostEqual(ours, true, 9)
+        wide_m, high_m = self.info("in.tif")["pixel_m"]
+        self.assertAlmostEqual(wide_m / high_m, math.cos(math.radians(46)), 3)
+        make(self.folder / "in.tif", 100, 40, "-a_srs", "EPSG:32632", "-a_ullr", 500000, 5100000, 600000, 5060000)
+        self.assertRegex(self.assert_done("info", "in.tif").stdout, r"pixel size   0\.00897\d*° by 0\.00900\d*° of arc, 99\d")
+
     def test_says_nothing_and_is_two_to_one(self):
         self.picture("in.tif")
         self.assertIsNone(self.info("in.tif")["georeference"])

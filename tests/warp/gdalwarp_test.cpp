@@ -1,11 +1,12 @@
-// Tiles beside gdalwarp's of the same raster: no farther from the truth, a function of the place met by 64 rays a
-// pixel.
+// Tiles beside gdalwarp's of the same raster: in the same place, and no farther from the truth, a function of the place
+// met by 64 rays a pixel.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
+#include <optional>
 
 #include "painted_raster.h"
 #include "streaming/warp/warp_source.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// Rounding to bytes alone leaves 0.29 levels; two roundings differ by less than this.
 constexpr double kRounding = 0.03;
+/// Pixels of the tile; the tiles are no finer than the rasters.
+constexpr double kSamePlace_px = 0.05;
 constexpr int kRays = 8;
 
 struct Warped {
@@ -41,7 +44,21 @@ double waves_at(double lat, double lon, double pixel_deg) {
                          std::sin(2.0 * std::numbers::pi * (0.6 * x - 0.8 * y) / (19.0 * pixel)));
 }
 
-struct Target;
+/// A tile, and the truth of its pixels.
+struct Target {
+  TileGrid grid;
+  TileId id;
+  [[nodiscard]] double step_deg() const { return tile_span_deg(grid, id.level) / grid.tile_px; }
+  [[nodiscard]] double truth(int x, int y, const test::Ground& ground) const {
+    const TileBounds bounds = tile_bounds(grid, id);
+    double sum = 0.0;
+    for (int ray = 0; ray < kRays * kRays; ++ray) {
+      sum += ground(bounds.north_deg - (y + (ray / kRays + 0.5) / kRays) * step_deg(),
+                    bounds.west_deg + (x + (ray % kRays + 0.5) / kRays) * step_deg());
+    }
+    return sum / (kRays * kRays);
+  }
+};
 
 class BesideGdalwarp : public testing::TestWithParam<Warped> {
  protected:
@@ -67,24 +84,18 @@ class BesideGdalwarp : public testing::TestWithParam<Warped> {
                std::to_string(lower.x) + " " + std::to_string(lower.y) + " raster.ppm raster.tif") &&
            run(std::string(GDALADDO) + " -q -r average raster.tif 2 4 8");
   }
-  [[nodiscard]] std::vector<unsigned char> warp(const Target& target, const std::string& overview) const;
-  test::ScratchFolder folder_;
-};
+  [[nodiscard]] std::vector<unsigned char> warp(const std::string& overview) const;
+  /// Makes the tile by both programs.
+  void make();
+  /// How far the content of ours lies beside gdalwarp's in a quarter of the tile, by least squares along the slopes of
+  /// the ground. None if the raster does not cover most of the quarter.
+  [[nodiscard]] std::optional<CrsPoint> displacement(int x0, int y0) const;
 
-/// A tile, and the truth of its pixels.
-struct Target {
-  TileGrid grid;
-  TileId id;
-  [[nodiscard]] double step_deg() const { return tile_span_deg(grid, id.level) / grid.tile_px; }
-  [[nodiscard]] double truth(int x, int y, const test::Ground& ground) const {
-    const TileBounds bounds = tile_bounds(grid, id);
-    double sum = 0.0;
-    for (int ray = 0; ray < kRays * kRays; ++ray) {
-      sum += ground(bounds.north_deg - (y + (ray / kRays + 0.5) / kRays) * step_deg(),
-                    bounds.west_deg + (x + (ray % kRays + 0.5) / kRays) * step_deg());
-    }
-    return sum / (kRays * kRays);
-  }
+  Target target;
+  test::Ground ground;
+  std::vector<unsigned char> fine;  ///< gdalwarp's, of the finest level
+  Image ours;
+  test::ScratchFolder folder_;
 };
 
 Target target_of(const Warped& given, const WarpOptions& options) {
@@ -95,7 +106,7 @@ Target target_of(const Warped& given, const WarpOptions& options) {
 }
 
 /// Red of gdalwarp's pixels; empty if it fails. `overview`: NONE, or its number.
-std::vector<unsigned char> BesideGdalwarp::warp(const Target& target, const std::string& overview) const {
+std::vector<unsigned char> BesideGdalwarp::warp(const std::string& overview) const {
   const TileBounds bounds = tile_bounds(target.grid, target.id);
   char area[256];
   std::snprintf(area, sizeof(area), " -te %.12f %.12f %.12f %.12f -ts %d %d", bounds.west_deg, bounds.south_deg,
@@ -110,31 +121,76 @@ std::vector<unsigned char> BesideGdalwarp::warp(const Target& target, const std:
   return red;
 }
 
-TEST_P(BesideGdalwarp, TilesAreNoFartherFromTheTruth) {
+std::optional<CrsPoint> BesideGdalwarp::displacement(int x0, int y0) const {
+  const TileBounds bounds = tile_bounds(target.grid, target.id);
+  const double step = target.step_deg();
+  double xx = 0.0, xy = 0.0, yy = 0.0, xd = 0.0, yd = 0.0;
+  int pixels = 0;
+  for (int y = y0; y < y0 + 32; ++y) {
+    for (int x = x0; x < x0 + 32; ++x) {
+      const auto at = static_cast<std::size_t>(y * target.grid.tile_px + x);
+      if (ours.rgba[4 * at + 3] < 255 || fine[at] == 0) continue;
+      const double lat = bounds.north_deg - (y + 0.5) * step, lon = bounds.west_deg + (x + 0.5) * step;
+      const double by_x = ground(lat, lon + 0.5 * step) - ground(lat, lon - 0.5 * step);
+      const double by_y = ground(lat - 0.5 * step, lon) - ground(lat + 0.5 * step, lon);
+      const double difference = ours.rgba[4 * at] - static_cast<double>(fine[at]);
+      xx += by_x * by_x;
+      xy += by_x * by_y;
+      yy += by_y * by_y;
+      xd += by_x * difference;
+      yd += by_y * difference;
+      ++pixels;
+    }
+  }
+  const double det = xx * yy - xy * xy;
+  if (pixels < 512) return std::nullopt;
+  return CrsPoint{(yy * xd - xy * yd) / det, (xx * yd - xy * xd) / det};
+}
+
+void BesideGdalwarp::make() {
   const Warped& given = GetParam();
   const WarpOptions options{.figure = {.ellipsoid = Ellipsoid(6378137.0, 0.0)}, .body = "sphere", .tile_px = 64};
-  const Target target = target_of(given, options);
-  const auto ground = [&](double lat, double lon) { return waves_at(lat, lon, target.step_deg()); };
+  target = target_of(given, options);
+  ground = [step = target.step_deg()](double lat, double lon) { return waves_at(lat, lon, step); };
   auto one_block = given.raster;
   one_block.block_px = static_cast<int>(std::max(one_block.width_px, one_block.height_px));
   one_block.overviews = 0;
   test::PaintedRaster whole(one_block, ground, ground);
   ASSERT_TRUE(write_raster(whole, given.raster));
-  // A level of the tile's resolution is not far from an overview's. gdalwarp may take either, and so may the tiles.
-  const auto fine = warp(target, "NONE");
-  const auto coarse = given.coarser == 0 ? fine : warp(target, std::to_string(given.coarser - 1));
-  ASSERT_FALSE(fine.empty() || coarse.empty());
-
+  fine = warp("NONE");
+  ASSERT_FALSE(fine.empty());
   const auto tiles = warp_source(std::make_unique<test::PaintedRaster>(given.raster, ground, ground), options, "it");
   ASSERT_TRUE(tiles) << tiles.error().message;
-  const auto ours = (*tiles)->read(target.id)->make_picture();
-  ASSERT_TRUE(ours) << ours.error().why;
+  auto made = (*tiles)->read(target.id)->make_picture();
+  ASSERT_TRUE(made) << made.error().why;
+  ours = *std::move(made);
+}
+
+TEST_P(BesideGdalwarp, TilesShowThingsInTheSamePlace) {
+  ASSERT_NO_FATAL_FAILURE(make());
+  double most = 0.0;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const auto moved = displacement(32 * (quarter % 2), 32 * (quarter / 2));
+    if (!moved) continue;
+    EXPECT_LE(std::hypot(moved->x, moved->y), kSamePlace_px) << "quarter " << quarter;
+    most = std::max(most, std::hypot(moved->x, moved->y));
+  }
+  EXPECT_GT(most, 0.0) << "nothing was compared";
+  RecordProperty("displacement", std::to_string(most));
+}
+
+TEST_P(BesideGdalwarp, TilesAreNoFartherFromTheTruth) {
+  const Warped& given = GetParam();
+  ASSERT_NO_FATAL_FAILURE(make());
+  // A level of the tile's resolution is not far from an overview's. gdalwarp may take either, and so may the tiles.
+  const auto coarse = given.coarser == 0 ? fine : warp(std::to_string(given.coarser - 1));
+  ASSERT_FALSE(coarse.empty());
   double our_error = 0.0, fine_error = 0.0, coarse_error = 0.0;
   int pixels = 0;
   for (std::size_t at = 0; at < fine.size(); ++at) {
-    if (ours->rgba[4 * at + 3] < 255 || fine[at] == 0 || coarse[at] == 0) continue;
+    if (ours.rgba[4 * at + 3] < 255 || fine[at] == 0 || coarse[at] == 0) continue;
     const double truth = target.truth(static_cast<int>(at) % 64, static_cast<int>(at) / 64, ground);
-    our_error += (ours->rgba[4 * at] - truth) * (ours->rgba[4 * at] - truth);
+    our_error += (ours.rgba[4 * at] - truth) * (ours.rgba[4 * at] - truth);
     fine_error += (fine[at] - truth) * (fine[at] - truth);
     coarse_error += (coarse[at] - truth) * (coarse[at] - truth);
     ++pixels;
