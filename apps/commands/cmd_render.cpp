@@ -147,12 +147,12 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
   if (!imagery) return imagery.error();
-  Result<std::optional<ElevationSource>> elevation = open_elevation(command.scene);
-  if (!elevation) return elevation.error();
   const Result<Body> body = scene_body(command.scene, (*imagery)->info());
   if (!body) return body.error();
   SceneOptions layers = command.scene;
   layers.body = *body;
+  Result<std::optional<ElevationSource>> elevation = open_elevation(layers);
+  if (!elevation) return elevation.error();
   if (const Status eye = check_eye(command.scene, *body, command.scene.size); !eye) {
     throw CLI::ValidationError("--camera", eye.error().message);
   }

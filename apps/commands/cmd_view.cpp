@@ -110,10 +110,12 @@ int view(const ViewOptions& options) {
   std::optional<StopSignals> signals(std::in_place);
   auto imagery = open_imagery(options.scene);
   if (!imagery) return fail("view", imagery.error().message);
-  auto elevation = open_elevation(options.scene);
-  if (!elevation) return fail("view", elevation.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
+  SceneOptions layers = options.scene;
+  layers.body = *body;
+  auto elevation = open_elevation(layers);
+  if (!elevation) return fail("view", elevation.error().message);
   if (const Status eye = check_eye(options.scene, *body, options.scene.size); !eye) {
     throw CLI::ValidationError("--camera", eye.error().message);
   }
@@ -121,8 +123,6 @@ int view(const ViewOptions& options) {
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
   const TileSetInfo first = (*imagery)->info();
-  SceneOptions layers = options.scene;
-  layers.body = *body;
   auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
   if (!globe) return fail("view", globe.error().message);
   set_paper_texturing(**globe, options.scene);

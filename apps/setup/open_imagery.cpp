@@ -21,6 +21,7 @@
 #include "codecs/image.h"
 #include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
+#include "streaming/georeference/figure.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
@@ -203,10 +204,23 @@ Status find_imagery(const SceneOptions& options) {
   return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 
+/// Fails if the tiles are of another body than the globe.
+Status check_body(const SceneOptions& options, const TileSetInfo& info) {
+  if (!options.body || info.body.empty()) return Done{};
+  const auto said = parse_body(info.body);
+  if (said && !are_two_bodies(*said, *options.body)) return Done{};
+  const std::string radius = said ? fmt::format(" (radius {:.0f} m)", said->ellipsoid.a_m()) : std::string();
+  return Error{
+      fmt::format("{}: its tiles are of the body {}{}, and the globe is {} (radius {:.0f} m); say which it is "
+                  "with --body, or leave this tile set out",
+                  options.tile_set.redacted(), info.body, radius, options.body->name, options.body->ellipsoid.a_m())};
+}
+
 Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
   auto tiles = open_named(options, progress);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
+  if (Status same = check_body(options, info); !same) return same.error();
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
   if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
     return Error{options.tile_set.redacted() +

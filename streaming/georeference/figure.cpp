@@ -41,6 +41,12 @@ LatitudeKind latitude_of(const CrsFacts& crs, const Body& body) {
   return centric ? LatitudeKind::centric : LatitudeKind::graphic;
 }
 
+bool are_two_bodies(const Body& one, const Body& other) {
+  const auto polar_m = [](const Body& body) { return body.ellipsoid.a_m() * (1.0 - body.ellipsoid.f()); };
+  const bool spheres = one.ellipsoid.f() == 0.0 || other.ellipsoid.f() == 0.0;
+  return differ(one.ellipsoid.a_m(), other.ellipsoid.a_m()) || (!spheres && differ(polar_m(one), polar_m(other)));
+}
+
 std::string body_option(const CrsFacts& crs) {
   return is_other_body(crs, earth()) ? " --body " + body_name(crs) : std::string();
 }

@@ -23,6 +23,10 @@ namespace terrella {
 /// for a flattened body other than the Earth. thread: any
 [[nodiscard]] LatitudeKind latitude_of(const CrsFacts& crs, const Body& body);
 
+/// True if a radius of two bodies differs by over 1 %. A sphere stands for a flattened body of its equatorial radius.
+/// thread: any
+[[nodiscard]] bool are_two_bodies(const Body& one, const Body& other);
+
 /// Option for the body of a picture in a coordinate system: " --body moon"; empty for the Earth, the default.
 [[nodiscard]] std::string body_option(const CrsFacts& crs);
 

@@ -7,7 +7,7 @@ import zlib
 
 import geopackages
 import georeferenced
-from pictures import heights_png, png_of
+from pictures import heights_png, png, png_of
 from program import DONE_IN_PART, FAILED, NATURAL_EARTH, ProgramTest
 
 # The least that a render of a broken tile set may leave: said and exit 3, or refused and exit 1.
@@ -122,6 +122,17 @@ class ProjectedGeoPackages(ProgramTest):
         self.SIZE = 700, 500
         self.make("part", self.UTM, "-ot", "Int16")
         self.assert_fails(FAILED, "render", "--elevation", "part.gpkg", *RENDER, says=["its heights cover 13.61"])
+
+
+class Bodies(ProgramTest):
+    def test_tiles_of_another_body_are_refused_by_both_names(self):
+        self.write("in.png", png(128, 64))
+        self.assert_done("cut", "in.png", "--body", "moon", "-o", "moon.gpkg")
+        render = ("render", "--size", "32x32", "-o", "out.png")
+        self.assert_done(*render, "moon.gpkg")
+        self.assert_done(*render, "moon.gpkg", "--body", "1737000,0")  # under 1 % is the same body
+        self.assert_fails(FAILED, *render, "moon.gpkg", "--body", "mars", says=["moon.gpkg", "moon (", "mars (", "--body"])
+        self.assert_fails(FAILED, *render, "--overlay", "moon.gpkg", says=["moon.gpkg", "moon (", "earth ("])
 
 
 class Folders(ProgramTest):

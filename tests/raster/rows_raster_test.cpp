@@ -26,8 +26,8 @@ std::uint8_t formula(std::int64_t x, std::int64_t y, std::int64_t c) {
 class Stores : public testing::TestWithParam<std::tuple<bool, std::size_t>> {};
 
 TEST_P(Stores, GiveBlocksInAnyOrderAndLeaveNothing) {
-  const auto& [large, pixel_bytes] = GetParam();
-  const StoredPixels pixels = size_of(large, pixel_bytes);
+  const std::size_t pixel_bytes = std::get<1>(GetParam());
+  const StoredPixels pixels = size_of(std::get<0>(GetParam()), pixel_bytes);
   const ScratchFolder folder;
   std::int64_t rows_read = 0;
   BlockStore store(pixels, folder.path(), [&](std::span<std::uint8_t> row) -> Status {

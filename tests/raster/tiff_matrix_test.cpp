@@ -45,7 +45,8 @@ class NumberMatrix : public testing::TestWithParam<std::tuple<NumberType, Layout
 
 /// Numbers of every type come out as GDAL reads them, at all levels.
 TEST_P(NumberMatrix, EqualsGdal) {
-  const auto& [type, layout] = GetParam();
+  const NumberType& type = std::get<0>(GetParam());
+  const Layout& layout = std::get<1>(GetParam());
   const ScratchFolder folder;
   write_raw(folder / "in.raw", type.name, kWide, kHigh, 1, [&](int x, int y, int band) {
     const double value = type.least + noise_at(x, y, band) * (type.most - type.least);
