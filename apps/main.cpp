@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <iterator>
 #include <new>
 #include <numeric>
@@ -92,7 +91,7 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = where.remaining();
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (missing && &where == &app && unknown.empty()) {
-    app.exit(CLI::CallForHelp(), std::cerr);
+    write_help(app.help());
     return kWrongUsage;
   }
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();

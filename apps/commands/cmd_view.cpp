@@ -35,7 +35,8 @@ constexpr const char* kHelpFooter =
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
-    "  terrella view moon.jpg --body moon                 a picture of the whole Moon\n"
+    "  terrella view moon.tif --body moon                 a picture of the whole Moon, also from 0 to 360 degrees\n"
+    "  terrella view --overlay flight_in_utm.tif          a picture in any projection, over the Earth\n"
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
 
 struct ViewOptions {

@@ -18,8 +18,8 @@ Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote
   auto set = fetch_description(source, remote, http);
   if (!set) return set.error();
   PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
-  opened.make_origin = [http = within_limits(http, *set), set = *std::move(set)](ReplyQueue& answers) {
-    return network_origin(set, http, answers);
+  opened.make_origin = [limits = within_limits(http, *set), set = *set](ReplyQueue& answers) {
+    return network_origin(set, limits, answers);
   };
   return opened;
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ranges>
 #include <utility>
 
 #include "apps/setup/console.h"
@@ -162,7 +161,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
     help_.draw(0.0F);
   } else {
     const float foot = draw_status(status(view), window_.pixels_per_unit().x);
-    for (Part* part : parts_ | std::views::reverse) part->draw(foot);
+    for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
     if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
   }
   ui_.end_frame();

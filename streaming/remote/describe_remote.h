@@ -22,7 +22,7 @@ using FetchDocument =
 [[nodiscard]] bool is_remote(const Url& tile_set);
 
 /// Finds the addresses of a set's tiles. `tile_set` is a URL template, or the address or file of a WMTS or WMS
-/// capabilities document, a GetMap request, a tilemapresource.xml, a <GDAL_WMS> or a JSON source description. `options`
+/// capabilities document, a GetMap request, a tilemapresource.xml, a GDAL_WMS or a JSON source description. `options`
 /// override a description. A document from the network may not point to files. Headers are only sent to the scheme,
 /// host and port for which they were given. Fetches at most two documents. thread: any
 [[nodiscard]] Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options,

@@ -36,7 +36,7 @@ bool in_range(const std::optional<std::int64_t>& value, std::int64_t low, std::i
 }
 
 /// Fault of a single row.
-std::optional<std::string> fault_of(const MatrixRow& row) {
+std::optional<std::string> fault_of(const MatrixRow& row, double unit_deg) {
   constexpr auto kMost = static_cast<std::int64_t>(kMaxTilesASide);
   if (!in_range(row.zoom, 0, kMaxZoom)) return fmt::format("a zoom_level is not a whole number in [0, {}]", kMaxZoom);
   const auto of_zoom = [&](const std::string& text) { return fmt::format("at zoom_level {} {}", *row.zoom, text); };
@@ -52,7 +52,10 @@ std::optional<std::string> fault_of(const MatrixRow& row) {
   }
   const double texels = static_cast<double>(std::max(*row.columns, *row.rows)) * static_cast<double>(*row.width_px);
   if (std::abs(*row.pixel_x_deg / *row.pixel_y_deg - 1.0) * texels > kSlackTexels) {
-    return of_zoom(fmt::format("pixels are not square: {} by {} degrees", *row.pixel_x_deg, *row.pixel_y_deg));
+    return of_zoom(fmt::format(
+        "pixels are not square: {:.9g} by {:.9g} units. Write it again with `gdalwarp -of GPKG -tr {:.9g} {:.9g}`",
+        *row.pixel_x_deg / unit_deg, *row.pixel_y_deg / unit_deg, *row.pixel_y_deg / unit_deg,
+        *row.pixel_y_deg / unit_deg));
   }
   return std::nullopt;
 }
@@ -72,7 +75,7 @@ bool fills(std::int64_t tiles, double span_deg, double extent_deg, double slack_
   return count * span_deg >= extent_deg - slack_deg && (count - 1.0) * span_deg <= extent_deg + slack_deg;
 }
 
-std::optional<std::string> fault_in_extent(const TileMatrix& matrix, const Extent& extent) {
+std::optional<std::string> fault_in_extent(const TileMatrix& matrix, const Extent& extent, double unit_deg) {
   const double slack_deg = kSlackTexels * matrix.span_deg / matrix.tile_px;
   const double width_deg = extent.east - extent.west;
   const double height_deg = extent.north - extent.south;
@@ -80,8 +83,11 @@ std::optional<std::string> fault_in_extent(const TileMatrix& matrix, const Exten
       fills(matrix.rows, matrix.span_deg, height_deg, slack_deg)) {
     return std::nullopt;
   }
-  return fmt::format("zoom_level {} has {}×{} tiles of {}°, which do not fill the {}°×{}° of gpkg_tile_matrix_set",
-                     matrix.zoom, matrix.columns, matrix.rows, matrix.span_deg, width_deg, height_deg);
+  return fmt::format(
+      "zoom_level {} has {}×{} tiles of {:.9g} units, which do not fill the {:.9g}×{:.9g} of "
+      "gpkg_tile_matrix_set",
+      matrix.zoom, matrix.columns, matrix.rows, matrix.span_deg / unit_deg, width_deg / unit_deg,
+      height_deg / unit_deg);
 }
 
 /// Number of halvings between a matrix and the finest; nullopt if the ratio is no power of two.
@@ -93,17 +99,16 @@ std::optional<int> halvings(const TileMatrix& matrix, const TileMatrix& finest) 
   return stretch * texels <= kSlackTexels ? std::optional(whole) : std::nullopt;
 }
 
-std::optional<std::string> fault_among(const std::vector<TileMatrix>& matrices) {
+std::optional<std::string> fault_among(const std::vector<TileMatrix>& matrices, double unit_deg) {
   const TileMatrix& finest = matrices.front();
   for (std::size_t i = 1; i < matrices.size(); ++i) {
     const TileMatrix& coarser = matrices[i];
     if (coarser.tile_px != finest.tile_px) return "its zoom levels have tiles of different sizes in pixels";
     if (coarser.span_deg == matrices[i - 1].span_deg || !halvings(coarser, finest)) {
       return fmt::format(
-          "its zoom levels do not halve: a tile spans {}° at zoom_level {} and {}° at zoom_level {}. Write it again "
-          "with "
-          "gdal_translate -of GPKG -co TILING_SCHEME=InspireCRS84Quad, or with `terrella cut`",
-          coarser.span_deg, coarser.zoom, matrices[i - 1].span_deg, matrices[i - 1].zoom);
+          "its zoom levels do not halve: a tile spans {:.9g} units at zoom_level {} and {:.9g} at zoom_level {}. Write "
+          "it again with `gdal_translate -of GPKG`, without a TILING_SCHEME",
+          coarser.span_deg / unit_deg, coarser.zoom, matrices[i - 1].span_deg / unit_deg, matrices[i - 1].zoom);
     }
   }
   return std::nullopt;
@@ -121,18 +126,19 @@ std::optional<GeoPackageLevel> place(const TileMatrix& matrix, const Extent& ext
   const auto first_column = whole_tiles(extent.west - grid.west_deg, matrix);
   const auto first_row = whole_tiles(top_row_deg(grid) - extent.north, matrix);
   if (!first_column || !first_row) return std::nullopt;
+  const bool goes_round = grid.projection != Projection::projected;
   return GeoPackageLevel{.zoom = matrix.zoom,
                          .columns = matrix.columns,
                          .rows = matrix.rows,
                          .first_column = *first_column,
                          .first_row = *first_row,
-                         .turn_columns = whole_tiles(360.0, matrix).value_or(0)};
+                         .turn_columns = goes_round ? whole_tiles(360.0, matrix).value_or(0) : 0};
 }
 
 /// Moves the grid's origin to a corner of the tiles, if the tiles of a region do not begin a whole number of tiles from
 /// the planet's corner. All levels share the corner.
 void place_origin(const std::vector<TileMatrix>& matrices, const Extent& extent, TileGrid& grid) {
-  if (grid.projection == Projection::web_mercator) return;
+  if (grid.projection == Projection::web_mercator || grid.projection == Projection::projected) return;
   const double step = matrices.back().span_deg;
   if (!whole_tiles(grid.north_deg - extent.north, matrices.front())) {
     grid.north_deg = extent.north + std::ceil((90.0 - extent.north) / step) * step;
@@ -186,14 +192,14 @@ Result<std::vector<TileMatrix>> read_matrices(SqliteReader& reader, const Matrix
     if (!*more) break;
     if (matrices.size() == kMaxMatrices) return refuse(fmt::format("more than {} zoom levels", kMaxMatrices));
     const MatrixRow row = get_row(*query, table.unit_deg);
-    if (const auto fault = fault_of(row)) return refuse(*fault);
+    if (const auto fault = fault_of(row, table.unit_deg)) return refuse(*fault);
     matrices.push_back(to_matrix(row));
-    if (const auto fault = fault_in_extent(matrices.back(), extent)) return refuse(*fault);
+    if (const auto fault = fault_in_extent(matrices.back(), extent, table.unit_deg)) return refuse(*fault);
   }
   if (matrices.empty()) return refuse("gpkg_tile_matrix has no zoom level of it");
   std::sort(matrices.begin(), matrices.end(),
             [](const TileMatrix& a, const TileMatrix& b) { return a.span_deg < b.span_deg; });
-  if (const auto fault = fault_among(matrices)) return refuse(*fault);
+  if (const auto fault = fault_among(matrices, table.unit_deg)) return refuse(*fault);
   return matrices;
 }
 

@@ -9,6 +9,7 @@
 
 #include "streaming/sets/geopackage_matrix.h"
 #include "streaming/sets/gpkg_coverage.h"
+#include "streaming/sets/gpkg_crs.h"
 #include "streaming/sets/gpkg_schema.h"
 #include "streaming/sets/tile_range.h"
 #include "streaming/sets/tileset_check.h"
@@ -18,48 +19,64 @@ namespace terrella {
 namespace {
 
 constexpr double kMaxCoordinateDeg = 1e6;
+constexpr double kMaxCoordinate = 1e12;  // of any unit
 constexpr int kMaxTables = 1000;
 
 /// A row of gpkg_contents with its row of gpkg_tile_matrix_set.
 struct TileTable {
   std::string name, identifier, description;
-  std::int64_t srs_id = 0;
   Extent set;
   std::optional<Extent> data;
   bool is_coverage = false;
-  Projection projection = Projection::equirectangular;
-  GridUnits units = {};  ///< of its reference system
+  GpkgCrs crs;                           ///< of Terrella's own files only the projection
+  std::optional<CrsSquare> square = {};  ///< of a projected table
+  GridUnits units = {};                  ///< of its reference system
 };
 
-std::optional<Extent> get_extent(const SqliteQuery& query, int first_column, const GridUnits& units) {
+std::optional<CrsBounds> get_bounds(const SqliteQuery& query, int first_column) {
   std::array<double, 4> sides{};
   for (int i = 0; i < 4; ++i) {
     const std::optional<double> side = query.number(first_column + i);
-    if (!side) return std::nullopt;
-    const double degrees = (*side - (i % 2 == 0 ? units.x_of_0 : units.y_of_0)) / units.per_deg;
-    if (!(std::abs(degrees) <= kMaxCoordinateDeg)) return std::nullopt;
-    sides[static_cast<std::size_t>(i)] = degrees;
+    if (!side || std::abs(*side) > kMaxCoordinate) return std::nullopt;
+    sides[static_cast<std::size_t>(i)] = *side;
   }
-  const Extent extent{sides[0], sides[1], sides[2], sides[3]};
-  return extent.west < extent.east && extent.south < extent.north ? std::optional(extent) : std::nullopt;
+  const CrsBounds bounds{sides[0], sides[1], sides[2], sides[3]};
+  return bounds.west < bounds.east && bounds.south < bounds.north ? std::optional(bounds) : std::nullopt;
 }
 
-/// Name of a reference system, for example "EPSG:4326".
-std::string srs_name(SqliteReader& reader, std::int64_t srs_id) {
-  Result<SqliteQuery, SqlError> query = reader.prepare(
-      "SELECT upper(organization), organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?1");
-  if (query) {
-    query->bind(1, srs_id);
-    const Result<bool, SqlError> row = query->step();
-    if (row && *row && query->text(0) && query->integer(1)) {
-      return fmt::format("{}:{}", *query->text(0), *query->integer(1));
+std::optional<Extent> in_degrees(const std::optional<CrsBounds>& bounds, const GridUnits& units) {
+  if (!bounds) return std::nullopt;
+  const auto x = [&](double side) { return (side - units.x_of_0) / units.per_deg; };
+  const auto y = [&](double side) { return (side - units.y_of_0) / units.per_deg; };
+  const Extent extent{x(bounds->west), y(bounds->south), x(bounds->east), y(bounds->north)};
+  for (const double side : {extent.west, extent.south, extent.east, extent.north}) {
+    if (!(std::abs(side) <= kMaxCoordinateDeg)) return std::nullopt;
+  }
+  return extent;
+}
+
+/// The square from the corner of a tile matrix set that holds it.
+CrsSquare square_over(const CrsBounds& set, const std::string& crs) {
+  const double side = std::max(set.east - set.west, set.north - set.south);
+  return {.crs = crs, .west = set.west, .north = set.north, .unit_per_deg = side / 360.0};
+}
+
+/// Finds the reference system of a table. `ours` is Terrella's own description, or null.
+Status find_system(SqliteReader& reader, std::int64_t srs_id, const CrsBounds& set, const TileSetInfo* ours,
+                   TileTable& table) {
+  if (ours != nullptr && ours->square) {
+    table.crs.projection = Projection::projected;
+    table.square = ours->square;
+  } else if (Result<GpkgCrs> crs = read_gpkg_crs(reader, srs_id, set, table.is_coverage && ours == nullptr); crs) {
+    table.crs = *std::move(crs);
+    if (table.crs.projection == Projection::projected && ours == nullptr) {
+      table.square = square_over(set, table.crs.text);
     }
+  } else if (ours == nullptr) {
+    return crs.error();
   }
-  return fmt::format("srs_id {}", srs_id);
-}
-
-bool is_epsg(SqliteReader& reader, std::int64_t srs_id, int code) {
-  return srs_id == code || srs_name(reader, srs_id) == fmt::format("EPSG:{}", code);
+  table.units = units_of(table.crs.projection, table.square);
+  return Done{};
 }
 
 Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, const TileSetInfo* ours,
@@ -72,27 +89,31 @@ Result<TileTable> get_table(SqliteReader& reader, const SqliteQuery& query, cons
   TileTable table{.name = *name,
                   .identifier = query.text(1).value_or(*name),
                   .description = query.text(2).value_or(""),
-                  .srs_id = *srs_id,
                   .set = {},
                   .data = {},
-                  .is_coverage = query.text(12) == kCoverageDataType};
-  if (is_epsg(reader, *srs_id, kSrsWebMercator)) table.projection = Projection::web_mercator;
-  if (ours != nullptr && ours->square) table.projection = Projection::projected;
-  table.units = units_of(table.projection, ours != nullptr ? ours->square : std::nullopt);
-  const std::optional<Extent> set = get_extent(query, 8, table.units);
-  if (!set) {
+                  .is_coverage = query.text(12) == kCoverageDataType,
+                  .crs = {}};
+  const std::optional<CrsBounds> set = get_bounds(query, 8);
+  if (set) {
+    if (Status found = find_system(reader, *srs_id, *set, ours, table); !found) {
+      return Error{fmt::format("{}: the {} of \"{}\" are {}", where, table.is_coverage ? "heights" : "tiles", *name,
+                               found.error().message)};
+    }
+  }
+  const std::optional<Extent> extent = in_degrees(set, table.units);
+  if (!extent) {
     return Error{
         fmt::format("{}: gpkg_tile_matrix_set: min_x, min_y, max_x, max_y of \"{}\" are not the corners of a "
-                    "rectangle in degrees",
+                    "rectangle in its reference system",
                     where, *name)};
   }
-  table.set = *set;
-  table.data = get_extent(query, 4, table.units);
+  table.set = *extent;
+  table.data = in_degrees(get_bounds(query, 4), table.units);
   return table;
 }
 
 /// First usable tile table, pictures before heights. In a file of Terrella's, whose description is `ours`, any
-/// reference system is usable, else EPSG:4326 and EPSG:3857.
+/// reference system is usable.
 Result<TileTable> find_table(SqliteReader& reader, const TileSetInfo* ours, const std::string& where) {
   Result<SqliteQuery, SqlError> query = reader.prepare(
       "SELECT c.table_name, c.identifier, c.description, m.srs_id, c.min_x, c.min_y, c.max_x, c.max_y, m.min_x, "
@@ -106,16 +127,8 @@ Result<TileTable> find_table(SqliteReader& reader, const TileSetInfo* ours, cons
     if (!more) return Error{fmt::format("{}: gpkg_contents: {}", where, more.error().message)};
     if (!*more) break;
     Result<TileTable> table = get_table(reader, *query, ours, where);
-    if (!table) return table;
-    const bool mercator = table->projection == Projection::web_mercator && !table->is_coverage;
-    if (ours != nullptr || mercator || is_epsg(reader, table->srs_id, kSrsGeodetic)) return table;
-    if (!refused) {
-      refused =
-          Error{fmt::format("{}: the {} of \"{}\" are in {}, they must be in EPSG:4326{} (gdalwarp -t_srs "
-                            "EPSG:4326 makes a picture that `terrella cut` takes)",
-                            where, table->is_coverage ? "heights" : "tiles", table->name,
-                            srs_name(reader, table->srs_id), table->is_coverage ? "" : " or EPSG:3857")};
-    }
+    if (table) return table;
+    if (!refused) refused = table.error();
   }
   if (refused) return *refused;
   return Error{where + ": a GeoPackage without tiles (gpkg_contents names no table of the data_type 'tiles')"};
@@ -133,6 +146,15 @@ GeoRect bounds_of(const Extent& extent) {
           .south = Angle::degrees(std::clamp(extent.south, -90.0, 90.0)),
           .east = Angle::degrees(east),
           .north = Angle::degrees(std::clamp(extent.north, -90.0, 90.0))};
+}
+
+/// Bounds of an extent in the degrees of a square.
+GeoRect bounds_in_square(const Extent& extent) {
+  const auto within = [](double side) { return Angle::degrees(std::clamp(side, -180.0, 180.0)); };
+  return {.west = within(extent.west),
+          .south = within(extent.south),
+          .east = within(extent.east),
+          .north = within(extent.north)};
 }
 
 Extent in_latitude(Extent extent, Projection projection) {
@@ -223,7 +245,7 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   tiles.is_coverage = table->is_coverage;
   if (ours) {
     const bool mercator = tiles.info.grid.projection == Projection::web_mercator;
-    if (mercator != (table->projection == Projection::web_mercator)) {
+    if (mercator != (table->crs.projection == Projection::web_mercator)) {
       return Error{fmt::format(
           "{}: its description and its gpkg_tile_matrix_set differ on whether it is in Web Mercator", where)};
     }
@@ -232,8 +254,12 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   }
   tiles.info.name = table->identifier;
   tiles.info.attribution = table->description;
-  tiles.info.grid.projection = table->projection;
-  tiles.info.grid.bounds = bounds_of(in_latitude(table->data.value_or(table->set), table->projection));
+  tiles.info.body = table->crs.body;
+  tiles.info.square = table->square;
+  tiles.info.grid.projection = table->crs.projection;
+  tiles.info.grid.latitude = table->crs.latitude;
+  const Extent data = table->data.value_or(table->set);
+  tiles.info.grid.bounds = table->square ? bounds_in_square(data) : bounds_of(in_latitude(data, table->crs.projection));
   tiles.info.format = format_of(reader, table->name);
   if (table->is_coverage) {
     const Result<ElevationInfo> elevation = read_coverage(reader, table->name, where);

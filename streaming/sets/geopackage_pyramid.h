@@ -30,9 +30,10 @@ struct GeoPackageTiles {
 };
 
 /// Finds the tiles in a GeoPackage: those that its table `terrella_tileset` describes, else the first tile table, else
-/// the first gridded coverage (heights). The table must be in EPSG:4326 or EPSG:3857, its zoom levels must halve, and
-/// its corner must be a whole number of tiles from (-180°, 90°). Coarse levels that do not fit are left out. OGC
-/// 12-128r18, clauses 2.2.6 to 2.2.8. The error begins with `where`.
+/// the first gridded coverage (heights). A table in degrees gets a geodetic grid, pictures in EPSG:3857 Web Mercator,
+/// and a table in another reference system a `projected` grid over its tile matrix set (gpkg_crs.h). The zoom levels
+/// must halve. In degrees the corner must be a whole number of tiles from (-180°, 90°). Coarse levels that do not fit
+/// are left out. OGC 12-128r18, clauses 2.2.6 to 2.2.8. The error begins with `where`.
 [[nodiscard]] Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where);
 
 }  // namespace terrella

@@ -26,10 +26,10 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   if (begins_as_pmtiles(*head)) return open_pmtiles(path);
   const std::string hint = convert_hint(path, {reinterpret_cast<const char*>(head->data()), head->size()});
   if (!hint.empty()) return Error{fmt::format("{}: {}", path.string(), hint)};
-  return Error{fmt::format(
-      "{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, WebP, TIFF), a GeoPackage in "
-      "EPSG:4326 or EPSG:3857, MBTiles, PMTiles, and a directory of tiles with tileset.json or tilemapresource.xml",
-      path.string())};
+  return Error{
+      fmt::format("{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, WebP, TIFF), a GeoPackage, "
+                  "MBTiles, PMTiles, and a directory of tiles with tileset.json or tilemapresource.xml",
+                  path.string())};
 }
 
 Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path, bool geodetic_mbtiles) {

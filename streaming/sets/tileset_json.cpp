@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/body.h"
+#include "streaming/georeference/crs_text.h"
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
 #include "streaming/sets/elevation_json.h"
@@ -33,6 +34,8 @@ std::optional<CrsSquare> read_square(const json& object, JsonFields& fields, con
     return fields.fail<std::optional<CrsSquare>>("square",
                                                  "takes the text crs and the numbers west, north, unit_per_deg");
   }
+  const Result<std::string> harmless = stated_crs(square.crs);
+  if (!harmless) return fields.fail<std::optional<CrsSquare>>("square", harmless.error().message);
   return square;
 }
 

@@ -57,7 +57,7 @@ std::vector<TileId> WarpJob::missing() const {
     if (piece.state == State::missing) tiles.push_back(blocks_->stored(piece.from));
   }
   std::ranges::sort(tiles);
-  tiles.erase(std::ranges::unique(tiles).begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
   return tiles;
 }
 
@@ -128,7 +128,8 @@ std::optional<TileFailure> WarpJob::failure_of_all() const {
     if (failure.kind == MissingKind::broken) return named;
     if (!worst || failure.kind == MissingKind::blank) worst = named;
   }
-  if (any) return std::nullopt;
+  // A tile beside the raster is transparent.
+  if (any || pieces_.empty()) return std::nullopt;
   return worst ? worst : TileFailure{MissingKind::absent, "outside the tile set"};
 }
 

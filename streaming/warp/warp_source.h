@@ -39,7 +39,7 @@ struct WarpOptions {
 ///   absent:  its ancestors replace it if each overview halves the one before; else that part is transparent. Absent if
 ///            all blocks under the tile are absent.
 ///   blank:   that part is transparent. Blank if all blocks under the tile are blank.
-/// The reason names the block.
+/// The reason names the block. A tile without a block under it, beside the raster, is transparent.
 ///
 /// Fails if PROJ does not know the coordinate system, if the transform is not finite, or if no pixel has a place. The
 /// error begins with `where`. thread: any; the tiles' as TileSource says

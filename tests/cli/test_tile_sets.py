@@ -6,6 +6,7 @@ import unittest
 import zlib
 
 import geopackages
+import georeferenced
 from pictures import heights_png, png_of
 from program import DONE_IN_PART, FAILED, NATURAL_EARTH, ProgramTest
 
@@ -69,6 +70,58 @@ class GeoPackages(ProgramTest):
                 done = self.run_program("render", path, *RENDER)
                 self.assertEqual(done.returncode, FAILED, done.stdout + done.stderr)
                 self.assertIn("none of the", done.stderr)
+
+
+class ProjectedGeoPackages(ProgramTest):
+    """GDAL's GeoPackages in metres are drawn as the pictures are that they were made of."""
+
+    # Mean difference of a byte of the PNG's pixels, levels: GDAL's and our resampling of the same smooth picture.
+    SAME_PICTURE = 1.0
+    MOON_POLE = ("-a_srs", "+proj=stere +lat_0=90 +R=1737400 +no_defs", "-a_ullr", -400000, -100000, -50000, -350000)
+    UTM = ("-a_srs", "EPSG:32633", "-a_ullr", 399900, 5500040, 441900, 5470040)
+
+    SIZE = 700, 500
+
+    def make(self, name, place, *options):
+        picture = georeferenced.make(self.folder / f"{name}.tif", *self.SIZE, *place)
+        georeferenced.gdal("gdal_translate", "-q", "-of", "GPKG", "-co", "TILE_FORMAT=PNG", *options, picture,
+                           self.folder / f"{name}.gpkg")
+        georeferenced.gdal("gdaladdo", "-q", "-r", "average", self.folder / f"{name}.gpkg", 2, 4)
+
+    def shot(self, name, camera, *options):
+        self.assert_done("render", name, "-o", "shot.png", "--size", "256x256", "--unlit", "--sky", "off", "--camera",
+                         camera, *options)
+        georeferenced.gdal("gdal_translate", "-q", "-of", "ENVI", self.folder / "shot.png", self.folder / "shot.raw")
+        return (self.folder / "shot.raw").read_bytes()
+
+    def assert_same_pictures(self, one, other):
+        self.assertEqual(len(one), len(other))
+        self.assertGreater(len(set(one)), 50, "nothing is shown")
+        self.assertLess(sum(abs(a - b) for a, b in zip(one, other)) / len(one), self.SAME_PICTURE)
+
+    def test_utm_is_drawn_and_preloaded(self):
+        self.make("utm", self.UTM)
+        camera = "49.5,13.9,40000"
+        shot = self.shot("utm.gpkg", camera)
+        self.assert_same_pictures(shot, self.shot("utm.tif", camera))
+        self.assertIn("tiles in EPSG:32633", self.assert_done("info", "utm.gpkg", "--verify").stdout)
+        self.assert_done("preload", "utm.gpkg", "-o", "copy.gpkg")
+        self.assertEqual(self.shot("copy.gpkg", camera), shot)
+
+    def test_the_pole_of_the_moon_and_the_black_beside(self):
+        self.make("moon", self.MOON_POLE)
+        camera = "79,-60,400000"  # beyond a corner: tiles of the bounds lie beside the picture
+        self.assert_same_pictures(self.shot("moon.gpkg", camera), self.shot("moon.tif", camera, "--body", "moon"))
+        self.assertIn("body         moon", self.assert_done("info", "moon.gpkg").stdout)
+
+    def test_heights_in_metres(self):
+        self.SIZE = 700, 350
+        half = 20037508.342789244
+        self.make("heights", ("-a_srs", "EPSG:4087", "-a_ullr", -half, half / 2, half, -half / 2), "-ot", "Int16")
+        self.assert_done("render", "--elevation", "heights.gpkg", *RENDER)
+        self.SIZE = 700, 500
+        self.make("part", self.UTM, "-ot", "Int16")
+        self.assert_fails(FAILED, "render", "--elevation", "part.gpkg", *RENDER, says=["its heights cover 13.61"])
 
 
 class Folders(ProgramTest):

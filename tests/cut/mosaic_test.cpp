@@ -136,8 +136,7 @@ TEST_F(Mosaic, GeoTiffTagsPlaceOnePictureToo) {
       fmt::format("{} -q -a_srs EPSG:4326 -a_ullr 10 50 26 42 '{}' '{}' 2> /dev/null", TERRELLA_GDAL_TRANSLATE,
                   (folder_ / "in.png").string(), (folder_ / "in.tif").string());
   ASSERT_EQ(std::system(command.c_str()), 0);
-  ASSERT_TRUE(must_cut(
-      {.images = {folder_ / "in.tif"}, .output = folder_ / "out.gpkg", .tile_px = 16, .format = ImageFormat::jpeg}));
+  ASSERT_TRUE(must_cut({.images = {folder_ / "in.tif"}, .output = folder_ / "out.gpkg", .tile_px = 16}));
   EXPECT_TRUE(all_tiles(folder_ / "out.gpkg") == cut_whole(GeoRect{.west = Angle::degrees(10.0),
                                                                    .south = Angle::degrees(42.0),
                                                                    .east = Angle::degrees(26.0),

@@ -73,9 +73,9 @@ TEST_F(RefusedHeights, WholeNumbersThatAreSaidToBeFloats) {
   expect_refused({"TIFF"});
 }
 
-TEST_F(RefusedHeights, Mercator) {
+TEST_F(RefusedHeights, AnUndefinedSystem) {
   spoil("UPDATE gpkg_tile_matrix_set SET srs_id = 3857; UPDATE gpkg_contents SET srs_id = 3857");
-  expect_refused({"the heights of", "3857, they must be in EPSG:4326 ("});
+  expect_refused({"the heights of", "3857: gpkg_spatial_ref_sys gives it no known code"});
 }
 
 TEST_F(RefusedHeights, LessThanThePlanet) {

@@ -110,17 +110,21 @@ constexpr const char* kCoverage =
     "ALTER TABLE t ADD COLUMN id; UPDATE t SET id = rowid;";
 
 constexpr const char* kGdalWms =
-    "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://a/${z}/${x}/${y}.png</ServerUrl></Service><DataWindow><UpperLeftX>"
-    "-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX><LowerRightY>-90</LowerRightY><TileLevel>3"
+    "<GDAL_WMS><Service "
+    "name=\"TMS\"><ServerUrl>http://a/${z}/${x}/${y}.png</ServerUrl></Service><DataWindow><UpperLeftX>"
+    "-180</UpperLeftX><UpperLeftY>90</UpperLeftY><LowerRightX>180</LowerRightX><LowerRightY>-90</"
+    "LowerRightY><TileLevel>3"
     "</TileLevel><TileCountX>2</TileCountX><TileCountY>1</TileCountY><YOrigin>top</YOrigin></DataWindow><Projection>"
     "EPSG:4326</Projection><BlockSizeX>256</BlockSizeX><BlockSizeY>256</BlockSizeY><BandsCount>1</BandsCount><DataType>"
     "Int16</DataType><DataValues NoData=\"-1\"/><ZeroBlockHttpCodes>204,404</ZeroBlockHttpCodes></GDAL_WMS>";
 
 constexpr const char* kWms =
-    "<WMS_Capabilities version=\"1.3.0\"><Service><MaxWidth>2048</MaxWidth></Service><Capability><Request><GetMap><Format>"
+    "<WMS_Capabilities "
+    "version=\"1.3.0\"><Service><MaxWidth>2048</MaxWidth></Service><Capability><Request><GetMap><Format>"
     "image/png</Format><DCPType><HTTP><Get><OnlineResource xlink:href=\"http://a/?\"/></Get></HTTP></DCPType></GetMap>"
     "</Request><Layer><Name>l</Name><CRS>EPSG:4326</CRS><CRS>EPSG:3413</CRS><BoundingBox CRS=\"EPSG:3413\" minx=\"-1\" "
-    "miny=\"-1\" maxx=\"1\" maxy=\"1\"/><MinScaleDenominator>9</MinScaleDenominator><Dimension name=\"time\" default=\"2004"
+    "miny=\"-1\" maxx=\"1\" maxy=\"1\"/><MinScaleDenominator>9</MinScaleDenominator><Dimension name=\"time\" "
+    "default=\"2004"
     "\">2003,2004</Dimension></Layer></Capability></WMS_Capabilities>";
 
 constexpr const char* kCapabilities =

@@ -39,8 +39,7 @@ const std::vector<Window> kWindows = {
     {"beside the grid", "EPSG:4326", -31, 71, 14, 48.5, 2, 1, "earth", true},
     {"polar", "EPSG:3413", -4194304, 4194304, 4194304, -4194304, 1, 1, "earth", true},
     {"UTM", "EPSG:32633", 300000, 5400000, 404857.6, 5295142.4, 1, 1, "earth", true},
-    {"standard parallel", "+proj=eqc +lat_ts=40 +R=3396190", -4000000, 4000000, 4000000, -4000000, 1, 1, "mars",
-     true},
+    {"standard parallel", "+proj=eqc +lat_ts=40 +R=3396190", -4000000, 4000000, 4000000, -4000000, 1, 1, "mars", true},
 };
 
 std::string document(const Window& window, int block, const std::string& origin, const std::string& more = {}) {

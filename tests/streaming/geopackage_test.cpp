@@ -242,7 +242,7 @@ TEST(GeoPackage, SetsThatNoGridDescribesAreRefusedWithTheReason) {
   write_geopackage(folder / "mercator.gpkg", {.srs = 3857});
   expect_package_refused(folder / "mercator.gpkg", "TILING_SCHEME=GoogleMapsCompatible");
   write_geopackage(folder / "utm.gpkg", {.srs = 32632});
-  expect_package_refused(folder / "utm.gpkg", "EPSG:4326 or EPSG:3857");
+  expect_package_refused(folder / "utm.gpkg", "srs_id 32632: gpkg_spatial_ref_sys gives it no known code");
 }
 
 /// SQL that makes a good GeoPackage bad, and a word of the message.

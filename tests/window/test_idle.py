@@ -8,7 +8,7 @@ import unittest
 from real_window import WindowTest
 
 WATCHED_S = 5.0
-MOST_SHARE = 0.01  # of a core (issue 6, 5)
+MOST_SHARE = 0.01  # of a core
 CALM_S = 60.0
 
 

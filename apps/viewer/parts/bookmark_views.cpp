@@ -13,9 +13,12 @@ bool BookmarkViews::load() {
   const auto file = bookmarks_file();
   if (!file) return true;
   Result<Bookmarks> kept = Bookmarks::load(*file);
-  if (kept) bookmarks_ = *std::move(kept);
-  if (!kept) say(kept.error().message);
-  return kept.ok();
+  if (!kept) {
+    say(kept.error().message);
+    return false;
+  }
+  bookmarks_ = *std::move(kept);
+  return true;
 }
 
 void BookmarkViews::fly_to(int number) {

@@ -52,6 +52,9 @@ GeoRect bounds_of(const PixelRange& range) {
       .north = Angle::degrees(90.0 - static_cast<double>(range.y0) * range.pixel_deg)};
 }
 
+/// RGBA8, or a float.
+constexpr std::size_t kPixelBytes = 4;
+
 class TileRows : public RowReader {
  public:
   TileRows(std::unique_ptr<TileSource> tiles, int jobs, const std::optional<ElevationInfo>& numbers, std::string where)
@@ -65,7 +68,6 @@ class TileRows : public RowReader {
     info_.height_px = range_.y1 - range_.y0;
     info_.has_alpha = !tiles_->info().elevation;
     info_.opaque_inside = info_.has_alpha && tiles_->info().format == ImageFormat::jpeg;
-    pixel_bytes_ = info_.has_alpha || tiles_->info().elevation ? 4 : 3;
   }
 
   [[nodiscard]] const PictureInfo& info() const override { return info_; }
@@ -80,15 +82,8 @@ class TileRows : public RowReader {
     }
     ++row_;
     const auto pixels = static_cast<std::size_t>(info_.width_px);
-    const std::uint8_t* from = held_.data() + static_cast<std::size_t>(y % grid_.tile_px) * pixels * pixel_bytes_;
-    if (pixel_bytes_ == 4) {
-      std::memcpy(rgba.data(), from, pixels * 4);
-      return Done{};
-    }
-    for (std::size_t i = 0; i < pixels; ++i) {
-      std::memcpy(rgba.data() + 4 * i, from + 3 * i, 3);
-      rgba[4 * i + 3] = 255;
-    }
+    const std::uint8_t* from = held_.data() + static_cast<std::size_t>(y % grid_.tile_px) * pixels * kPixelBytes;
+    std::memcpy(rgba.data(), from, pixels * kPixelBytes);
     return Done{};
   }
 
@@ -121,7 +116,7 @@ class TileRows : public RowReader {
   }
 
   Status read_tiles(std::int64_t tile_y) {
-    held_.resize(static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(grid_.tile_px) * pixel_bytes_);
+    held_.resize(static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(grid_.tile_px) * kPixelBytes);
     const std::vector<Piece> pieces = pieces_of_row();
     std::mutex mutex;
     std::optional<Error> failed;
@@ -143,7 +138,7 @@ class TileRows : public RowReader {
     const auto image = tile->make_picture ? tile->make_picture() : decoded(*tile);
     if (!image) return missing(piece, id, image.error());
     if (Status fits = check_side(id, image->width_px, image->height_px); !fits) return fits;
-    place(piece, [&](std::size_t at, std::uint8_t* to) { std::memcpy(to, image->rgba.data() + 4 * at, pixel_bytes_); });
+    place(piece, [&](std::size_t at, std::uint8_t* to) { std::memcpy(to, image->rgba.data() + 4 * at, kPixelBytes); });
     return Done{};
   }
 
@@ -177,8 +172,8 @@ class TileRows : public RowReader {
     const std::int64_t side = grid_.tile_px;
     for (std::int64_t y = 0; y < side; ++y) {
       const std::int64_t first = y * info_.width_px + piece.left + piece.at_0;
-      std::uint8_t* to = held_.data() + static_cast<std::size_t>(first) * pixel_bytes_;
-      for (std::int64_t x = piece.left; x < piece.right; ++x, to += pixel_bytes_) {
+      std::uint8_t* to = held_.data() + static_cast<std::size_t>(first) * kPixelBytes;
+      for (std::int64_t x = piece.left; x < piece.right; ++x, to += kPixelBytes) {
         pixel(static_cast<std::size_t>(y * side + x - piece.tile_x * side), to);
       }
     }
@@ -192,7 +187,7 @@ class TileRows : public RowReader {
     std::array<std::uint8_t, 4> empty{};
     const float none = std::numeric_limits<float>::quiet_NaN();
     if (tiles_->info().elevation) std::memcpy(empty.data(), &none, sizeof(none));
-    place(piece, [&](std::size_t, std::uint8_t* to) { std::memcpy(to, empty.data(), pixel_bytes_); });
+    place(piece, [&](std::size_t, std::uint8_t* to) { std::memcpy(to, empty.data(), kPixelBytes); });
     return Done{};
   }
 
@@ -214,7 +209,6 @@ class TileRows : public RowReader {
   std::optional<ElevationInfo> numbers_;
   std::string where_;
   PictureInfo info_;
-  std::size_t pixel_bytes_ = 4;
   std::int64_t row_ = 0;
   std::int64_t held_tile_y_ = -1;
   std::vector<std::uint8_t> held_;

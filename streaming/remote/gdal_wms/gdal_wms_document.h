@@ -12,7 +12,7 @@
 
 namespace terrella {
 
-/// The window of a <GDAL_WMS> raster: its corners in its coordinate system, and its pixels at the finest level.
+/// The window of a GDAL_WMS raster: its corners in its coordinate system, and its pixels at the finest level.
 struct GdalWindow {
   double west = 0.0, north = 0.0, east = 0.0, south = 0.0;
   std::int64_t width_px = 0, height_px = 0;
@@ -25,7 +25,7 @@ struct GdalWindow {
   [[nodiscard]] double pixel() const { return (east - west) / static_cast<double>(width_px); }
 };
 
-/// A <GDAL_WMS> description as written, with numbers checked for range and all that cannot be read refused.
+/// A GDAL_WMS description as written, with numbers checked for range and all that cannot be read refused.
 struct GdalWmsDocument {
   enum class Service { tms, virtual_earth, wms };
   Service service = Service::tms;
@@ -51,7 +51,7 @@ struct GdalWmsDocument {
 /// Limit on a description.
 inline constexpr std::size_t kMaxGdalWmsBytes = 1UL << 20;
 
-/// Reads a <GDAL_WMS> document (https://gdal.org/en/stable/drivers/raster/wms.html), with the defaults of GDAL 3. A
+/// Reads a GDAL_WMS document (https://gdal.org/en/stable/drivers/raster/wms.html), with the defaults of GDAL 3. A
 /// value may be an element or an attribute, in letters of any case. The error is the reason alone and says what to
 /// change. thread: any
 [[nodiscard]] Result<GdalWmsDocument> read_gdal_wms(std::string_view xml);

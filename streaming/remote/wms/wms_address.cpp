@@ -62,9 +62,9 @@ std::string wms_base(std::string_view server, std::string_view extra) {
   for (const auto& [name, written] : own) {
     if (!is_defined(name)) base += encode_braces(written) + "&";
   }
-  for (const auto& [name, written] : parameters_of(extra)) {
-    const bool known = std::ranges::any_of(own, [&](const auto& one) { return one.first == name; });
-    if (!known) base += encode_braces(written) + "&";
+  for (const auto& other : parameters_of(extra)) {
+    const bool known = std::ranges::any_of(own, [&](const auto& one) { return one.first == other.first; });
+    if (!known) base += encode_braces(other.second) + "&";
   }
   return base;
 }
