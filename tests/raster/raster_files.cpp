@@ -146,7 +146,8 @@ Numbers whole_numbers(RasterSource& source, std::size_t level_index) {
 }
 
 double noise_at(int x, int y, int band) {
-  auto hash = static_cast<std::uint32_t>(x * 374761393 + y * 668265263 + band * 974634533);
+  const auto whole = [](int number) { return static_cast<std::uint32_t>(number); };
+  std::uint32_t hash = whole(x) * 374761393U + whole(y) * 668265263U + whole(band) * 974634533U;
   hash = (hash ^ (hash >> 13)) * 1274126177U;
   return static_cast<double>(hash ^ (hash >> 16)) / 4294967296.0;
 }
