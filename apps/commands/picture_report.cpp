@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What `view` does with the picture, in one word for programs.
+/// One word for programs: how `view` draws the picture.
 const char* kind_word(PlaceKind kind) {
   switch (kind) {
     case PlaceKind::planet:

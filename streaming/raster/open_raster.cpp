@@ -27,7 +27,7 @@ struct RasterPart {
   std::unique_ptr<BlockStore> store;
 };
 
-/// What blocks need to be decoded. Lives as long as the last of them.
+/// Files and codings that blocks are decoded from. They live as long as the last block.
 struct TiffParts {
   std::string name;
   PixelCoding coding;
@@ -118,7 +118,7 @@ RasterPart make_part(const TiffLevel& level, const TiffParts& parts, const Raste
   return part;
 }
 
-RasterLevel shape_of(const RasterPart& part, const RasterPlace& place, const TiffPicture& whole) {
+RasterLevel shape_of(const RasterPart& part, const CrsPlace& place, const TiffPicture& whole) {
   const TiffPicture& picture = part.level.part.picture;
   const double columns = static_cast<double>(whole.width_px) / static_cast<double>(picture.width_px);
   const double rows = static_cast<double>(whole.height_px) / static_cast<double>(picture.height_px);
@@ -146,7 +146,7 @@ Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOption
 
 }  // namespace
 
-Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const RasterPlace& place,
+Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const CrsPlace& place,
                                                   const RasterOptions& options) {
   auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();

@@ -13,8 +13,6 @@
 
 namespace terrella {
 
-using RasterPlace = CrsPlace;
-
 struct RasterOptions {
   bool heights = false;  ///< blocks are numbers: metres = stored value · scale + offset
   /// Default: the file's own (GDAL_NODATA, GDAL_METADATA). With heights, no data becomes NaN; without, transparent.
@@ -31,7 +29,7 @@ struct RasterOptions {
 /// picture files see streaming/cut/input/picture_raster.h. The error names the file, the fault and a cure. Blocks.
 /// thread: any
 [[nodiscard]] Result<std::unique_ptr<RasterSource>> open_raster(const std::filesystem::path& path,
-                                                                const RasterPlace& place,
+                                                                const CrsPlace& place,
                                                                 const RasterOptions& options = {});
 
 /// Facts about a TIFF for a person.

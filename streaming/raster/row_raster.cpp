@@ -28,7 +28,7 @@ class RowRaster : public RasterSource {
 
 }  // namespace
 
-std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const RasterPlace& place,
+std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const CrsPlace& place,
                                               const std::filesystem::path& work_folder) {
   RasterInfo info;
   info.name = std::move(picture.name);

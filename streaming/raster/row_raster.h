@@ -19,7 +19,7 @@ struct RowPicture {
 
 /// Makes a raster of a picture without overviews. Reads each row once, when a block needs it (block_store.h). thread:
 /// any
-[[nodiscard]] std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const RasterPlace& place,
+[[nodiscard]] std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const CrsPlace& place,
                                                             const std::filesystem::path& work_folder);
 
 /// Returns a block of a store as a picture or as numbers. The error of a store names its file. thread: any

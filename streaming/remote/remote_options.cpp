@@ -65,6 +65,22 @@ Status check_projection(const TileGrid& grid, const RemoteOptions& options) {
   return Error{"it is in Web Mercator, not in the projection that was given"};
 }
 
+Status narrow_levels(TileGrid& grid, const RemoteOptions& options) {
+  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
+  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
+  if (first > last) {
+    return Error{fmt::format("it has levels {} to {}, none of those asked for", grid.min_level, grid.max_level)};
+  }
+  grid.min_level = first;
+  grid.max_level = last;
+  return Done{};
+}
+
+Status check_tile_px(const TileGrid& grid, const RemoteOptions& options) {
+  if (!options.tile_px || *options.tile_px == grid.tile_px) return Done{};
+  return Error{fmt::format("its tiles have {} pixels, not the {} that were given", grid.tile_px, *options.tile_px)};
+}
+
 Status check_options(const RemoteOptions& options, const std::string& where) {
   if (options.headers.size() > kMaxHeaders) {
     return Error{fmt::format("{}: {} headers, at most {} are sent", where, options.headers.size(), kMaxHeaders)};

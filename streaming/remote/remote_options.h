@@ -45,6 +45,12 @@ struct RemoteOptions {
 /// Fails if only one of the options and the document's grid is Web Mercator. thread: any
 [[nodiscard]] Status check_projection(const TileGrid& grid, const RemoteOptions& options);
 
+/// Narrows the document's levels to the options'. Fails if none is left. thread: any
+[[nodiscard]] Status narrow_levels(TileGrid& grid, const RemoteOptions& options);
+
+/// Fails if the options give another tile size than the document's grid. thread: any
+[[nodiscard]] Status check_tile_px(const TileGrid& grid, const RemoteOptions& options);
+
 /// Checks options that can be checked without a set: headers, sub-domains, body. The error begins with `where` and does
 /// not repeat a header's value. thread: any
 [[nodiscard]] Status check_options(const RemoteOptions& options, const std::string& where);

@@ -11,21 +11,11 @@
 namespace terrella {
 namespace {
 
-Status narrow_levels(TileGrid& grid, const RemoteOptions& options, const std::string& where) {
-  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
-  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
-  if (first > last) {
-    return Error{
-        fmt::format("{}: it has levels {} to {}, none of those asked for", where, grid.min_level, grid.max_level)};
-  }
-  grid.min_level = first;
-  grid.max_level = last;
-  if (options.tile_px && *options.tile_px != grid.tile_px) {
-    return Error{
-        fmt::format("{}: its tiles have {} pixels, not the {} that were given", where, grid.tile_px, *options.tile_px)};
-  }
+Status fit_archive(TileGrid& grid, const RemoteOptions& options) {
+  if (Status left = narrow_levels(grid, options); !left) return left;
+  if (Status same = check_tile_px(grid, options); !same) return same;
   if (options.projection && *options.projection != Projection::web_mercator) {
-    return Error{where + ": PMTiles are in Web Mercator, and --projection says otherwise; leave that out"};
+    return Error{"PMTiles are in Web Mercator, and --projection says otherwise; leave that out"};
   }
   return Done{};
 }
@@ -46,7 +36,9 @@ Result<RemoteTileSet> describe_remote_pmtiles(const Url& address, const RemoteOp
   if (!archive) return archive.error();
   RemoteTileSet set;
   set.info = std::move(archive->info);
-  if (Status narrowed = narrow_levels(set.info.grid, options, where); !narrowed) return narrowed.error();
+  if (Status adjusted = fit_archive(set.info.grid, options); !adjusted) {
+    return Error{where + ": " + adjusted.error().message};
+  }
   const std::string_view text = address.with_secrets();
   set.url = encode_braces(text.substr(0, text.find('#')));
   set.file = TileFile{.index = std::move(archive->index), .version = reader.version()};

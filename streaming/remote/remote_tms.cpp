@@ -14,21 +14,10 @@ namespace {
 
 /// Applies the user's options to the grid: levels, and the span of the root tile. gdal2tiles describes both of its
 /// kinds with 180°, so a user may know better.
-Status adjust(TileGrid& grid, const RemoteOptions& options, const std::string& where) {
+Status adjust(TileGrid& grid, const RemoteOptions& options) {
   grid.root_span_deg = options.root_span_deg.value_or(grid.root_span_deg);
-  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
-  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
-  if (first > last) {
-    return Error{
-        fmt::format("{}: it has levels {} to {}, none of those asked for", where, grid.min_level, grid.max_level)};
-  }
-  grid.min_level = first;
-  grid.max_level = last;
-  if (options.tile_px && *options.tile_px != grid.tile_px) {
-    return Error{
-        fmt::format("{}: its tiles have {} pixels, not the {} that were given", where, grid.tile_px, *options.tile_px)};
-  }
-  return Done{};
+  if (Status left = narrow_levels(grid, options); !left) return left;
+  return check_tile_px(grid, options);
 }
 
 }  // namespace
@@ -40,7 +29,9 @@ Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const Url& address,
   if (Status same = check_projection(tms->info.grid, options); !same) {
     return Error{where + ": " + same.error().message};
   }
-  if (Status adjusted = adjust(tms->info.grid, options, where); !adjusted) return adjusted.error();
+  if (Status adjusted = adjust(tms->info.grid, options); !adjusted) {
+    return Error{where + ": " + adjusted.error().message};
+  }
   const std::string_view text = address.with_secrets();
   const std::string plain = encode_braces(text.substr(0, text.find('#')));
   const std::size_t query = std::min(plain.find('?'), plain.size());

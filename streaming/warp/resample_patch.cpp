@@ -218,7 +218,7 @@ class SquareRows {
     const double t = patch.t_of(y);
     return (patch.v[6] * t + patch.v[3]) * t + patch.v[0] + square.shift.y;
   }
-  /// Where the patch reaches a row of the source, by Newton's method from a place near it.
+  /// Finds the place at which the patch reaches a row of the source, by Newton's method from a place near it.
   static double t_of(const Patch& patch, double v, double t) {
     for (int step = 0; step < 3; ++step) {
       t -= ((patch.v[6] * t + patch.v[3]) * t + patch.v[0] - v) / (2.0 * patch.v[6] * t + patch.v[3]);

@@ -11,7 +11,7 @@
 
 namespace terrella {
 
-/// What is known of a block: it is encoded, decoded, or missing for a reason.
+/// State of a block: it is encoded, decoded, or missing for a reason.
 struct FoundBlock {
   std::shared_ptr<const EncodedTile> encoded;
   std::shared_ptr<const Block> decoded;

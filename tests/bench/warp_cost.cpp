@@ -1,4 +1,4 @@
-// What a tile made of a raster costs beside the decoding of what it is made of.
+// Cost of a tile made of a raster, beside the cost of decoding the blocks that it is made of.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -109,7 +109,7 @@ GdalPixels read_by_gdal(const fs::path& file, int bands, int level) {
   return pixels;
 }
 
-RasterPlace some_place() {
+CrsPlace some_place() {
   return {.to_crs =
               {.x0 = 10.0, .x_per_column = 0.01, .x_per_row = 0.0, .y0 = 50.0, .y_per_column = 0.0, .y_per_row = -0.01},
           .crs = "EPSG:4326"};

@@ -40,7 +40,7 @@ struct GdalPixels {
 GdalPixels read_by_gdal(const std::filesystem::path& file, int bands, int level = -1);
 
 /// A place somewhere on Earth, in degrees.
-RasterPlace some_place();
+CrsPlace some_place();
 
 /// All blocks of a level put together. Failures are reported to the test.
 Image whole_picture(RasterSource& source, std::size_t level);

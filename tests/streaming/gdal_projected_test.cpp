@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"HeightsInWebMercator", "EPSG:3857", kEarth, "earth", 1e6, 6e6, 100, "-ot Int16", true}),
     [](const auto& given) { return std::string(given.param.name); });
 
-/// What spoils a GeoPackage in UTM, and words of the message.
+/// A change that spoils a GeoPackage in UTM, and words of the message.
 struct Spoilt {
   const char* name;
   const char* sql;

@@ -32,7 +32,7 @@ void scale_numbers(const RasterOptions& options, std::span<std::uint8_t> row) {
 
 }  // namespace
 
-Result<std::unique_ptr<RasterSource>> open_picture_raster(const std::filesystem::path& path, const RasterPlace& place,
+Result<std::unique_ptr<RasterSource>> open_picture_raster(const std::filesystem::path& path, const CrsPlace& place,
                                                           const RasterOptions& options) {
   if (Status regular = check_regular(path); !regular) return regular.error();
   const auto head = read_head(path, 8);

@@ -86,18 +86,9 @@ ImageFormat format_of(const GdalWmsDocument& said, const std::string& url) {
 }
 
 Status limit(const RemoteOptions& options, TileGrid& grid) {
-  if (options.tile_px && *options.tile_px != grid.tile_px) {
-    return Error{fmt::format("its tiles have {} pixels, not the {} that were given", grid.tile_px, *options.tile_px)};
-  }
+  if (Status same = check_tile_px(grid, options); !same) return same;
   if (options.root_span_deg) return Error{"its window says what a tile spans; leave the root span out"};
-  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
-  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
-  if (first > last) {
-    return Error{fmt::format("it has levels {} to {}, none of those asked for", grid.min_level, grid.max_level)};
-  }
-  grid.min_level = first;
-  grid.max_level = last;
-  return Done{};
+  return narrow_levels(grid, options);
 }
 
 RemoteTileSet make_set(const GdalWmsDocument& said, GdalWmsGrid placed, const std::string& url) {

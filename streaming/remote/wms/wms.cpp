@@ -189,17 +189,6 @@ std::string request_for(const Service& service, const WmsLayer& layer, const Wms
   return url;
 }
 
-Status limit_levels(const RemoteOptions& options, TileGrid& grid) {
-  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
-  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
-  if (first > last) {
-    return Error{fmt::format("it has levels {} to {}, none of those asked for", grid.min_level, grid.max_level)};
-  }
-  grid.min_level = first;
-  grid.max_level = last;
-  return Done{};
-}
-
 Result<RemoteTileSet> describe(const pugi::xml_node& root, const WmsAddress& said, const RemoteOptions& options) {
   const Result<Service> service = read_service(root);
   if (!service) return service.error();
@@ -219,7 +208,7 @@ Result<RemoteTileSet> describe(const pugi::xml_node& root, const WmsAddress& sai
     return Error{fmt::format("layer \"{}\" is in {}; leave projection and bounds out", layer->name, placed->crs)};
   }
   if (Status same = check_projection(placed->grid, options); !same) return same.error();
-  if (Status limited = limit_levels(options, placed->grid); !limited) return limited.error();
+  if (Status limited = narrow_levels(placed->grid, options); !limited) return limited.error();
   RemoteTileSet set;
   set.url = request_for(*service, *layer, *placed, *style, *format, said) + times->parameters;
   set.northing_first = placed->northing_first;

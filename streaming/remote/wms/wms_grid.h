@@ -19,7 +19,7 @@ struct WmsGrid {
   std::string body;
 };
 
-/// What the server allows.
+/// Limits that the server states.
 struct WmsLimits {
   bool version_1_3 = true;
   int max_side_px = 0;  ///< 0: no limit

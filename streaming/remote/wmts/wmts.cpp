@@ -158,16 +158,8 @@ Status check_against(const RemoteOptions& options, TileGrid& grid) {
                              *options.root_span_deg)};
   }
   if (Status same = check_projection(grid, options); !same) return same;
-  if (options.tile_px && *options.tile_px != grid.tile_px) {
-    return Error{fmt::format("its tiles have {} pixels, not the {} that were given", grid.tile_px, *options.tile_px)};
-  }
-  const int first = std::max(options.min_level.value_or(grid.min_level), grid.min_level);
-  const int last = std::min(options.max_level.value_or(grid.max_level), grid.max_level);
-  if (first > last)
-    return Error{fmt::format("it has levels {} to {}, none of those asked for", grid.min_level, grid.max_level)};
-  grid.min_level = first;
-  grid.max_level = last;
-  return Done{};
+  if (Status same = check_tile_px(grid, options); !same) return same;
+  return narrow_levels(grid, options);
 }
 
 Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const RemoteOptions& options) {
