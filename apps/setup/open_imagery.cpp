@@ -237,7 +237,7 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
 
 Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   auto tiles = open_any_tiles(options);
-  if (!tiles || !(*tiles)->info().elevation) return tiles;
+  if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
       fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
                   "--elevation {0}",
@@ -257,7 +257,7 @@ Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& option
   if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
   auto tiles = open_any_tiles(heights_options(options));
   if (!tiles) return tiles.error();
-  if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
+  if (is_remote(options.elevation) && !(*tiles)->info().numbers) return no_meaning(options.elevation, "wmts");
   auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));

@@ -21,7 +21,7 @@ TileFailure broken(const std::string& why) { return {MissingKind::broken, why}; 
 
 /// The nodata of float tiles may be written with more digits than a float holds. A value beyond the range of floats
 /// means nothing.
-std::optional<double> nodata_of(const ElevationInfo& info) {
+std::optional<double> nodata_of(const NumberInfo& info) {
   if (!info.floats || !info.nodata) return info.nodata;
   if (std::abs(*info.nodata) > static_cast<double>(std::numeric_limits<float>::max())) return {};
   return static_cast<double>(static_cast<float>(*info.nodata));
@@ -77,7 +77,7 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const Numbers& numbe
 
 }  // namespace
 
-Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const ElevationInfo& info, int side_px) {
+Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const NumberInfo& info, int side_px) {
   auto numbers = tile.make_numbers ? tile.make_numbers()
                  : info.floats     ? from_tiff(tile, side_px)
                                    : from_png(tile, side_px, info.is_signed);
@@ -95,7 +95,7 @@ Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const Eleva
   return numbers;
 }
 
-Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile, const ElevationInfo& info,
+Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile, const NumberInfo& info,
                                                int side_px) {
   const auto numbers = decode_numbers(tile, info, side_px);
   if (!numbers) return numbers.error();

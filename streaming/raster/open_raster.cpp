@@ -155,7 +155,7 @@ Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const Cr
   const TiffLevel& whole = pyramid->whole();
   RasterInfo info{.name = path.stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
   info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
-  if (options.heights) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  if (options.heights) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
   const auto nodata = options.nodata ? options.nodata : pyramid->metadata.nodata;
   auto parts = std::make_shared<TiffParts>(TiffParts{path.string(), *std::move(coding), {}});
   for (TiffLevel& level : pyramid->levels) {

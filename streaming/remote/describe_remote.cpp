@@ -158,13 +158,13 @@ class Describing {
     const Result<SourceDescription> source = parse_source_json(text, where);
     if (!source) return source.error();
     RemoteOptions merged = merge(options, source->options);
-    if (merged.elevation) merged.format = ImageFormat::png;
+    if (merged.numbers) merged.format = ImageFormat::png;
     Result<RemoteTileSet> set = follow(*source, address, merged, options);
-    if (!set || !merged.elevation) return set;
+    if (!set || !merged.numbers) return set;
     if (set->info.format != ImageFormat::png) {
       return Error{where + ": its tiles are no PNG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
     }
-    set->info.elevation = merged.elevation;
+    set->info.numbers = merged.numbers;
     return set;
   }
 

@@ -110,8 +110,8 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.tile_life = life_if(fields, "tile_life_s");
   options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
-  options.elevation = read_elevation(*object, fields, where);
-  if (options.elevation && options.format && options.format != ImageFormat::png) {
+  options.numbers = read_elevation(*object, fields, where);
+  if (options.numbers && options.format && options.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   if (fields.error()) return *fields.error();

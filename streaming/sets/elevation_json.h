@@ -11,7 +11,7 @@ namespace terrella {
 
 /// Reads the field "elevation" of a tileset.json or a source description (streaming/README.md); none if missing.
 /// `fields` reads `object` and receives the error. thread: any
-[[nodiscard]] std::optional<ElevationInfo> read_elevation(const nlohmann::json& object, JsonFields& fields,
-                                                          const std::string& where);
+[[nodiscard]] std::optional<NumberInfo> read_elevation(const nlohmann::json& object, JsonFields& fields,
+                                                       const std::string& where);
 
 }  // namespace terrella

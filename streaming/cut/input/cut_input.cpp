@@ -110,8 +110,8 @@ Result<CutInput> open_input(const CutOptions& options) {
   const bool several = options.images.size() > 1 || options.mosaic;
   auto input = several ? open_mosaic(options, open, heights.has_value()) : open_one(options, open, heights);
   if (!input || !heights) return input;
-  input->elevation = heights->elevation;
-  if (input->has_gaps && !input->elevation->nodata) input->elevation->nodata = kAddedNodata;
+  input->numbers = heights->numbers;
+  if (input->has_gaps && !input->numbers->nodata) input->numbers->nodata = kAddedNodata;
   return input;
 }
 

@@ -72,7 +72,7 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   auto tiles = warp_source(*std::move(raster), warp, name);
   if (!tiles) return tiles.error();
   auto rows =
-      open_tile_rows(*std::move(tiles), options.jobs, heights ? std::optional(heights->elevation) : std::nullopt, name);
+      open_tile_rows(*std::move(tiles), options.jobs, heights ? std::optional(heights->numbers) : std::nullopt, name);
   if (!rows) return rows.error();
   WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds};
   // Parallels and meridians as edges leave no gap on a whole planet.
