@@ -40,13 +40,16 @@ class Placers {
   std::vector<std::unique_ptr<MosaicPlacer>> idle_;
 };
 
+std::string text_of(const std::optional<double>& number) { return number ? fmt::format("{:a}", *number) : "-"; }
+
 std::uint64_t mark_of(const MosaicFile& file, const MosaicEntry& entry, const MosaicIndexOptions& options) {
   const CrsBounds bounds = entry.words.bounds.value_or(CrsBounds{});
-  const auto& figure = options.figure;
+  const MosaicFigure& figure = options.figure;
   const int latitude = figure.latitude ? static_cast<int>(*figure.latitude) : -1;
-  return name_hash(fmt::format("{}|{}|{}|{}|{},{},{},{}|{}|{}|{}", file.path.string(), file.bytes, file.changed_ns,
-                               entry.words.crs, bounds.west, bounds.south, bounds.east, bounds.north,
-                               entry.nodata ? fmt::format("{:a}", *entry.nodata) : "", figure.body.name, latitude));
+  return name_hash(fmt::format("{}|{}|{}|{}|{},{},{},{}|{}|{}|{}|{}|{}|{}", file.path.string(), file.bytes,
+                               file.changed_ns, entry.words.crs, bounds.west, bounds.south, bounds.east, bounds.north,
+                               text_of(entry.nodata), text_of(entry.scale), text_of(entry.offset), figure.body.name,
+                               latitude, figure.may_be_planet));
 }
 
 /// Reads one file, or finds it in the store.
@@ -72,6 +75,8 @@ class HeaderReader {
       }
     }
     if (Status header = read_header(file, options_.reading); !header) return header.error();
+    file.scale = entry.scale.value_or(file.scale);
+    file.offset = entry.offset.value_or(file.offset);
     auto placer = placers_.take();
     auto place = placer->place(file, entry.words);
     placers_.give_back(std::move(placer));
@@ -110,6 +115,19 @@ void read_files(const MosaicList& list, const MosaicIndexOptions& options, Mosai
   if (store != nullptr && !fresh.empty()) store->keep_headers(fresh);
 }
 
+/// Fails if files contain numbers of several units.
+Status check_units(const std::string& where, const MosaicIndex& index) {
+  const MosaicFile& first = index.files.front().file;
+  for (const PlacedFile& other : index.files) {
+    if (other.file.unit == first.unit) continue;
+    return Error{
+        fmt::format("{}: the numbers of {} are in \"{}\" and those of {} in \"{}\", and a layer has one unit; put "
+                    "them into two folders or lists",
+                    where, first.path.string(), first.unit, other.file.path.string(), other.file.unit)};
+  }
+  return Done{};
+}
+
 /// Decides between colours and numbers.
 Status choose_pixels(const std::string& where, MosaicPixels pixels, MosaicIndex& index) {
   if (pixels == MosaicPixels::as_stored) {
@@ -125,7 +143,7 @@ Status choose_pixels(const std::string& where, MosaicPixels pixels, MosaicIndex&
                       where, first ? one : two, first ? two : one)};
     }
     index.numbers = index.files.front().file.is_numbers;
-    return Done{};
+    return index.numbers ? check_units(where, index) : Status(Done{});
   }
   index.numbers = pixels == MosaicPixels::heights;
   if (!index.numbers) return Done{};

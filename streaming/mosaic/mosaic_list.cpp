@@ -90,7 +90,8 @@ Status add_entry(MosaicList& list, MosaicEntry entry) {
   if (found.empty()) return Error{fmt::format("{}: the folder contains no raster (*.tif)", entry.path.string())};
   std::ranges::sort(found);
   for (fs::path& file : found) {
-    list.entries.push_back({.path = std::move(file), .words = entry.words, .nodata = entry.nodata});
+    entry.path = std::move(file);
+    list.entries.push_back(entry);
   }
   return Done{};
 }
@@ -102,8 +103,7 @@ Result<MosaicList> read_lines(const fs::path& path) {
   for (std::string line; std::getline(file, line);) {
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.pop_back();
     if (line.empty() || line.front() == '#') continue;
-    if (Status added = add_entry(list, {.path = path.parent_path() / line, .words = {}, .nodata = {}}); !added)
-      return added.error();
+    if (Status added = add_entry(list, {.path = path.parent_path() / line}); !added) return added.error();
   }
   if (list.entries.empty()) return Error{path.string() + ": the list names no file; write the path of a raster a line"};
   return list;
@@ -111,15 +111,17 @@ Result<MosaicList> read_lines(const fs::path& path) {
 
 /// Reads an item of "mosaic": a path, or an object with a path and what replaces the file's own statements.
 Result<MosaicEntry> read_item(const nlohmann::json& item, const fs::path& folder, const std::string& where) {
-  if (item.is_string()) return MosaicEntry{.path = folder / item.get<std::string>(), .words = {}, .nodata = {}};
+  if (item.is_string()) return MosaicEntry{.path = folder / item.get<std::string>()};
   if (!item.is_object()) return Error{where + ": an item of \"mosaic\" is neither a path nor an object with \"file\""};
-  constexpr std::array kKnown = {"file", "crs", "bounds", "nodata"};
+  constexpr std::array kKnown = {"file", "crs", "bounds", "nodata", "scale", "offset"};
   JsonFields fields(item, where);
   fields.refuse_others(kKnown);
   if (!fields.has("file")) fields.fail<int>("file", "is missing in an item of \"mosaic\"");
-  MosaicEntry entry{.path = folder / fields.text("file"), .words = {}, .nodata = {}};
+  MosaicEntry entry{.path = folder / fields.text("file")};
   entry.words.crs = fields.text("crs");
   if (fields.has("nodata")) entry.nodata = fields.number("nodata");
+  if (fields.has("scale")) entry.scale = fields.number("scale");
+  if (fields.has("offset")) entry.offset = fields.number("offset");
   if (fields.has("bounds")) {
     const nlohmann::json& bounds = item["bounds"];
     const bool four = bounds.is_array() && bounds.size() == 4 &&
@@ -178,7 +180,7 @@ Result<MosaicList> read_mosaic_list(const fs::path& path) {
   const fs::path whole = fs::absolute(path, failed).lexically_normal();
   const fs::path named = whole.has_filename() ? whole : whole.parent_path();
   MosaicList list{.name = named.filename().string(), .attribution = {}, .entries = {}};
-  if (Status added = add_entry(list, {.path = path, .words = {}, .nodata = {}}); !added) return added.error();
+  if (Status added = add_entry(list, {.path = path}); !added) return added.error();
   return list;
 }
 

@@ -15,6 +15,8 @@ struct MosaicEntry {
   std::filesystem::path path;
   PlaceWords words{};                 ///< replaces the place that the file states
   std::optional<double> nodata = {};  ///< replaces the file's own
+  std::optional<double> scale = {};   ///< the same; value = stored number · scale + offset
+  std::optional<double> offset = {};
 };
 
 /// The files of a mosaic in the order given: a later file lies over an earlier one of the same resolution.

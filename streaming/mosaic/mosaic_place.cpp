@@ -84,6 +84,15 @@ double metres_in_unit(const GroundMap& map, const MosaicFile& file, const Affine
   return std::isfinite(degrees) ? degrees * kDegree * body.ellipsoid.a_m() : 1.0;
 }
 
+/// Place of a whole planet from -180° on: of pixels, or of nodes at the middle of pixels. None for another shape.
+std::optional<CrsPlace> whole_planet(const PictureFile& picture) {
+  const double step = 360.0 / static_cast<double>(picture.width_px);
+  const bool nodes = picture.width_px % 2 == 0 && picture.height_px == picture.width_px / 2 + 1;
+  if (!nodes && picture.width_px != 2 * picture.height_px) return {};
+  const double half = nodes ? 0.5 * step : 0.0;
+  return CrsPlace{{.x0 = -180.0 - half, .x_per_column = step, .y0 = 90.0 + half, .y_per_row = -step}, "EPSG:4326"};
+}
+
 /// A map whose pixels are units of the system.
 Result<GroundMap> open_map(const std::string& crs, const Body& body, LatitudeKind latitude) {
   RasterInfo units{.name = {}, .attribution = {}, .crs = crs, .levels = {}};
@@ -141,6 +150,7 @@ Result<CrsPlace> MosaicPlacer::read_place(const MosaicFile& file, const PlaceWor
   if (!placed) return placed.error();
   const auto checked = check_figure(*placed, figure_.body, figure_.latitude);
   if (!checked) return checked.error();
+  if (!placed->projected && figure_.may_be_planet) placed->projected = whole_planet(picture);
   if (!placed->projected) {
     return Error{
         fmt::format("{}: states no place, and a mosaic's files must; write it into a copy (gdal_translate "

@@ -29,6 +29,8 @@ struct MosaicBox {
 struct MosaicFigure {
   Body body = earth();
   std::optional<LatitudeKind> latitude = {};  ///< counted by the rows; default: as the files state
+  /// A file without a place is a whole planet from -180° on, if it is 2:1 or its pixels are nodes from pole to pole.
+  bool may_be_planet = false;
 };
 
 /// A coordinate system that files of a mosaic share.

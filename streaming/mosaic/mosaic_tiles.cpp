@@ -21,6 +21,8 @@ namespace {
 /// A tile of more files, or of more pixels of theirs, is made of the four tiles under it, and kept.
 constexpr std::size_t kMostFiles = 12;
 constexpr double kMostPixels = 4e6;
+/// A box of a place has some width, because boxes that only touch do not meet.
+constexpr double kNothing_deg = 1e-9;
 /// Increase this number if the pixels of overview tiles change.
 constexpr std::uint64_t kOverviewVersion = 1;
 
@@ -80,6 +82,7 @@ class Mosaic : public MosaicTiles {
                                 .heights = options.pixels == MosaicPixels::heights,
                                 .most_open = options.most_open,
                                 .work_folder = options.work_folder,
+                                .left_out = options.left_out,
                                 .remark = options.remark}),
         sheets_(index_, rasters_, grid, options.figure.body),
         overview_({.tile_px = grid.tile_px,
@@ -100,6 +103,14 @@ class Mosaic : public MosaicTiles {
   }
 
   [[nodiscard]] RemoteTiles* remote() override { return &overview_; }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
+    const double row = row_latitude_deg(info_.grid, figure, Ellipsoid::normal(place.lat, place.lon));
+    const double lon = place.lon.deg();
+    return sheets_.value_at(
+        place, figure,
+        sheets_of(index_.files_in({lon - kNothing_deg, row - kNothing_deg, lon + kNothing_deg, row + kNothing_deg})));
+  }
 
   [[nodiscard]] MosaicFacts facts() const override {
     return {.files = static_cast<int>(index_.files.size()),
@@ -148,11 +159,15 @@ class Mosaic : public MosaicTiles {
   }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> make_direct(const TileId& id, const std::vector<int>& files) {
+    return sheets_.make(id, sheets_of(files));
+  }
+
+  [[nodiscard]] std::vector<int> sheets_of(const std::vector<int>& files) const {
     std::vector<int> sheets;
     for (const int file : files) sheets.push_back(index_.sheet_of[static_cast<std::size_t>(file)]);
     std::ranges::sort(sheets);
     sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
-    return sheets_.make(id, sheets);
+    return sheets;
   }
 
   [[nodiscard]] std::uint64_t mark_of(const std::vector<int>& files) const {
@@ -180,6 +195,7 @@ class Mosaic : public MosaicTiles {
 /// Names the files that are left out: a few of them, and how many more.
 void name_left_out(const MosaicIndex& index, const std::string& where, const MosaicOptions& options) {
   constexpr std::size_t kNamed = 10;
+  if (options.left_out) options.left_out(static_cast<int>(index.left_out.size()));
   if (!options.remark || index.left_out.empty()) return;
   options.remark(fmt::format("{}: {} of {} files are left out:", where, index.left_out.size(),
                              index.left_out.size() + index.files.size()));
@@ -210,7 +226,12 @@ Result<std::unique_ptr<MosaicTiles>> open_mosaic(const MosaicList& list, const s
   info.body = options.body;
   info.grid = *grid;
   info.format = ImageFormat::png;
-  if (index->numbers) info.elevation = ElevationInfo{.floats = true};
+  if (index->numbers) {
+    const bool heights = options.pixels == MosaicPixels::heights;
+    info.numbers = NumberInfo{.floats = true};
+    info.numbers->unit = heights ? "m" : index->files.front().file.unit;
+    if (heights) info.numbers->quantity = "height";
+  }
   return std::unique_ptr<MosaicTiles>(
       std::make_unique<Mosaic>(*std::move(index), *grid, std::move(info), std::move(kept), options));
 }

@@ -18,10 +18,11 @@ struct MosaicOptions {
   std::string body{};  ///< TileSetInfo::body
   MosaicReading reading{};
   int tile_px = 256;
-  int most_open = 32;                   ///< files that stay open
-  int jobs = 0;                         ///< threads that read headers; 0: one for each core
-  std::filesystem::path store{};        ///< file for headers and overview; empty: both are made again each time
-  std::filesystem::path work_folder{};  ///< RasterOptions::work_folder
+  int most_open = 32;                         ///< files that stay open
+  int jobs = 0;                               ///< threads that read headers; 0: one for each core
+  std::filesystem::path store{};              ///< file for headers and overview; empty: both are made again each time
+  std::filesystem::path work_folder{};        ///< RasterOptions::work_folder
+  std::function<void(int files)> left_out{};  ///< receives the number of files that were left out. thread: any
   /// Receives the reason for each file that is left out, also later, when pixels cannot be read. thread: any, one at a
   /// time
   std::function<void(const std::string& reason)> remark{};

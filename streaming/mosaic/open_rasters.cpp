@@ -42,11 +42,9 @@ RasterOptions raster_options(const MosaicFile& file, const OpenRasterOptions& op
   reading.heights = options.numbers;
   reading.nodata = file.nodata;
   reading.work_folder = options.work_folder;
-  const auto metres = options.heights ? metres_of_unit(file.unit) : std::nullopt;
-  if (metres && *metres != 1.0) {
-    reading.scale = file.scale * *metres;
-    reading.offset = file.offset * *metres;
-  }
+  const double metres = options.heights ? metres_of_unit(file.unit).value_or(1.0) : 1.0;
+  reading.scale = file.scale * metres;
+  reading.offset = file.offset * metres;
   return reading;
 }
 
@@ -58,6 +56,7 @@ OpenRasters::OpenRasters(const std::vector<PlacedFile>& files, OpenRasterOptions
 void OpenRasters::refuse(int file, const std::string& why) {
   if (!named_.insert(file).second) return;
   ++unreadable_;
+  if (options_.left_out) options_.left_out(1);
   if (options_.remark) options_.remark(why);
 }
 
@@ -111,6 +110,12 @@ DecodedBlocks::Decoded OpenRasters::block(int file, const TileId& block) {
     refuse(file, decoded.error().why);
     return TileFailure{MissingKind::broken, {}};
   });
+}
+
+Result<double, TileFailure> OpenRasters::value_at(int file, std::int64_t column, std::int64_t row) {
+  const auto raster = open(file);
+  if (!raster) return TileFailure{MissingKind::broken, "the file cannot be read"};
+  return raster->value_at(column, row);
 }
 
 }  // namespace terrella

@@ -23,6 +23,7 @@ struct OpenRasterOptions {
   bool heights = false;                 ///< numbers are metres: units of length are converted
   int most_open = 32;                   ///< files that stay open; ≥ 1. A thread that reads may have one more open
   std::filesystem::path work_folder{};  ///< for decoded pictures without tiles (RasterOptions)
+  std::function<void(int files)> left_out{};  ///< receives the number of such files. thread: any
   /// Receives the reason once for a file that cannot be read. thread: any, one at a time
   std::function<void(const std::string& reason)> remark{};
 };
@@ -35,6 +36,8 @@ class OpenRasters {
   /// Decodes a block of a file: `block.level` is an index in MosaicFile::sizes. A file that cannot be read is named
   /// once (OpenRasterOptions::remark). The failure has no reason.
   [[nodiscard]] DecodedBlocks::Decoded block(int file, const TileId& block);
+  /// The value of a pixel of a file (RasterSource::value_at()).
+  [[nodiscard]] Result<double, TileFailure> value_at(int file, std::int64_t column, std::int64_t row);
   /// The shape of a file's level; none if the file cannot be opened.
   [[nodiscard]] std::optional<RasterLevel> level(int file, int level);
   /// Number of times that a file was opened.

@@ -54,6 +54,14 @@ class SheetRaster : public RasterSource {
     return tile;
   }
 
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    for (const SheetPart& part : parts_under({.x = column, .y = row, .width = 1, .height = 1}, 0)) {
+      auto value = rasters_.value_at(part.file, column - part.column, row - part.row);
+      if (value || value.error().kind != MissingKind::blank) return value;
+    }
+    return TileFailure{MissingKind::blank, "no data"};
+  }
+
  private:
   /// The files under a rectangle, the topmost first.
   [[nodiscard]] std::vector<SheetPart> parts_under(const MeanBox& box, int halvings) const {
@@ -127,7 +135,7 @@ int level_for(const MosaicFile& file, int halvings) {
 
 RasterInfo raster_info_of(const MosaicSheet& sheet, bool numbers) {
   RasterInfo info{.name = {}, .attribution = {}, .crs = sheet.crs, .levels = {}};
-  if (numbers) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  if (numbers) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
   for (int halvings = sheet.levels - 1; halvings >= 0; --halvings) {
     const double pixel = std::ldexp(1.0, halvings);
     const std::int64_t rest = (std::int64_t{1} << halvings) - 1;

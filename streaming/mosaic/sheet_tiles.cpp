@@ -63,7 +63,7 @@ Result<std::shared_ptr<TileSource>> SheetTiles::open(int sheet) {
   TileSetInfo info;
   info.grid = grid_;
   info.format = ImageFormat::png;
-  info.elevation = raster->info().elevation;
+  info.numbers = raster->info().numbers;
   const std::size_t bytes =
       std::max(kLeastDecodedBytes, kWarpDecodedBytes / std::min(index_.sheets.size(), kMostSheets));
   open_.emplace_front(sheet, make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, bytes));
@@ -94,6 +94,17 @@ Result<EncodedTile, TileFailure> SheetTiles::make(const TileId& id, const std::v
     tile.make_picture = [made = std::move(std::get<Image>(*pixels))]() -> Result<Image, TileFailure> { return made; };
   }
   return tile;
+}
+
+Result<double, TileFailure> SheetTiles::value_at(const Geodetic& place, const Ellipsoid& figure,
+                                                 const std::vector<int>& sheets) {
+  for (auto sheet = sheets.rbegin(); sheet != sheets.rend(); ++sheet) {
+    const auto source = open(*sheet);
+    if (!source) return TileFailure{MissingKind::broken, source.error().message};
+    auto value = (*source)->value_at(place, figure);
+    if (value || value.error().kind == MissingKind::broken) return value;
+  }
+  return TileFailure{MissingKind::blank, "no data"};
 }
 
 }  // namespace terrella

@@ -23,6 +23,9 @@ class SheetTiles {
   /// Makes a tile of the files of one or more sheets, given with the lowest sheet first. Colours of several sheets lie
   /// over each other; a number is the topmost one that is known.
   [[nodiscard]] Result<EncodedTile, TileFailure> make(const TileId& id, const std::vector<int>& sheets);
+  /// The topmost known number at a place (TileSource::value_at()).
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure,
+                                                     const std::vector<int>& sheets);
 
  private:
   [[nodiscard]] Result<std::shared_ptr<TileSource>> open(int sheet);

@@ -8,6 +8,7 @@
 #include "streaming/cut/input/height_input.h"
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/cut/input/row_reader.h"
+#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 
@@ -21,5 +22,13 @@ struct WarpedInput {
 /// thread: any
 [[nodiscard]] Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& picture,
                                               const PicturePlace& place, const std::optional<HeightPlan>& heights);
+
+/// Opens a folder, a list or a description of rasters (streaming/mosaic), or the options' pictures as such a list.
+/// Reads no pixels. `remarks` receives the reason for each file that is left out. thread: any
+[[nodiscard]] Result<WarpedInput> open_many(const CutOptions& options, const std::optional<HeightPlan>& heights,
+                                            std::vector<std::string>& remarks);
+
+/// The files that open_many() reads. thread: any
+[[nodiscard]] Result<MosaicList> list_of(const CutOptions& options);
 
 }  // namespace terrella
