@@ -161,7 +161,7 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option("image", command->images, "A picture or the parts of one: JPEG, PNG, WebP, TIFF or BigTIFF")
+  sub.add_option("image", command->images, "A picture, the parts of one, or a folder or list of rasters: JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")

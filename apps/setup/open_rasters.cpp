@@ -112,6 +112,10 @@ Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SceneOptions& optio
 
 Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SceneOptions& options) {
   const fs::path input = options.tile_set.with_secrets();
+  RasterOptions reading;
+  reading.heights = true;
+  // A picture in colours is refused before anything is drawn.
+  if (const auto tried = open_picture_raster(input, CrsPlace{}, reading); !tried) return tried.error();
   MosaicList list;
   list.name = input.stem().string();
   list.entries.push_back({.path = input});

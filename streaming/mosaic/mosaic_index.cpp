@@ -146,7 +146,14 @@ Status choose_pixels(const std::string& where, MosaicPixels pixels, MosaicIndex&
     return index.numbers ? check_units(where, index) : Status(Done{});
   }
   index.numbers = pixels == MosaicPixels::heights;
-  if (!index.numbers) return Done{};
+  if (!index.numbers) {
+    const auto numbers = std::ranges::find_if(index.files, [](const PlacedFile& file) { return file.file.is_numbers; });
+    if (numbers == index.files.end()) return Done{};
+    return Error{
+        fmt::format("{}: {} contains numbers, and each file would get colours of its own; give --elevation for "
+                    "heights, or make pictures of 8 bits with one scale (gdal_translate -ot Byte -scale)",
+                    where, numbers->file.path.string())};
+  }
   for (const PlacedFile& file : index.files) {
     const std::string name = file.file.path.string();
     if (!file.file.one_band) {

@@ -88,6 +88,11 @@ class Mosaic : public MosaicTiles {
         overview_({.tile_px = grid.tile_px,
                    .numbers = index_.numbers,
                    .store = store_.get(),
+                   .begin =
+                       [remark = options.remark, count = index_.files.size(), name = info_.name] {
+                         if (remark)
+                           remark(fmt::format("{}: the overview of {} files is made now, and kept", name, count));
+                       },
                    .look = [this](const TileId& id) { return look(id); },
                    .make_direct = [this](const TileId& id) { return make_direct(id, files_under(id)); }}) {}
 

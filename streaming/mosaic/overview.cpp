@@ -121,6 +121,8 @@ void Overview::work() {
 void Overview::fetch(const TileId& id, double priority, Done done) {
   {
     const std::lock_guard lock(mutex_);
+    if (!begun_) parts_.begin();
+    begun_ = true;
     wishes_[id] = Wish{.priority = priority, .done = std::move(done)};
     if (threads_.size() < kThreads) threads_.emplace_back([this] { work(); });
   }

@@ -30,6 +30,7 @@ class Overview : public RemoteTiles {
     int tile_px = 256;
     bool numbers = false;
     MosaicStore* store = nullptr;  ///< may be null
+    std::function<void()> begin;   ///< called once, before tiles are made that the store does not have
     std::function<OverviewTile(const TileId&)> look;
     std::function<Result<EncodedTile, TileFailure>(const TileId&)> make_direct;
   };
@@ -63,6 +64,7 @@ class Overview : public RemoteTiles {
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
   bool closing_ = false;
+  bool begun_ = false;
   std::unordered_map<TileId, Wish, TileIdHash> wishes_;
   std::vector<std::thread> threads_;
 };

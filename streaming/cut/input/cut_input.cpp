@@ -60,7 +60,7 @@ Result<CutInput> open_resampled(const CutOptions& options, const std::optional<H
   if (!warped) return warped.error();
   return CutInput{.rows = std::move(warped->rows),
                   .bounds = warped->bounds,
-                  .latitude = options.latitude.value_or(LatitudeKind::graphic),
+                  .latitude = warped->latitude,
                   .place = "many",
                   .has_gaps = true,
                   .remarks = std::move(remarks)};

@@ -148,12 +148,13 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
     tiles = open_mosaic(*list, name, mosaic);
     if (!tiles) return tiles.error();
   }
+  const LatitudeKind latitude = (*tiles)->info().grid.latitude;
   log->ended = true;
   remarks = log->remarks;
   auto rows = open_tile_rows(std::make_unique<LocalTiles>(*std::move(tiles)), options.jobs,
                              heights ? std::optional(heights->numbers) : std::nullopt, name);
   if (!rows) return rows.error();
-  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds};
+  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds, .latitude = latitude};
   roll_if_needed(options, warped, heights.has_value());
   return warped;
 }

@@ -16,6 +16,7 @@ namespace terrella {
 struct WarpedInput {
   std::unique_ptr<RowReader> rows;  ///< with `heights`, in units of the tiles' numbers
   GeoRect bounds{};
+  LatitudeKind latitude = LatitudeKind::graphic;
 };
 
 /// Opens a picture by `place.from`. Reads no pixels, except for the values that a TIFF shows as black and white.
