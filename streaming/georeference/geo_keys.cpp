@@ -135,6 +135,8 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   }
   if (!has_own && defn.CTProjection == KvUserDefined) return Error{"its GeoKeys say that it is projected, and not how"};
   if (Status plausible = check_figure(defn); !plausible) return plausible.error();
+  // PROJ's utm takes no sphere. The parameters of its transverse Mercator projection say the same.
+  defn.MapSys = KvUserDefined;
   const std::unique_ptr<char, void (*)(char*)> text(GTIFGetProj4Defn(&defn), GTIFFreeMemory);
   if (!text || std::string_view(text.get()).find("+proj=unknown") != std::string_view::npos ||
       std::string_view(text.get()).find("+proj=") == std::string_view::npos) {

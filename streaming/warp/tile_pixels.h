@@ -31,6 +31,17 @@ struct ColourTile {
     for (std::size_t c = 0; c < 3; ++c) out[c] = as_byte(sum[c] * to_plain);
     out[3] = as_byte(std::min(sum[3], 255.0F) * coverage);
   }
+  /// Writes pixels side by side that lie on the source as a whole.
+  static void write_row(const float* sums, std::size_t count, Image& image, std::size_t at) {
+    bool opaque = true;
+    for (std::size_t i = 3; i < 4 * count; i += 4) opaque &= sums[i] > 254.5F && sums[i] < 255.5F;
+    if (!opaque) {
+      for (std::size_t i = 0; i < count; ++i) write(sums + 4 * i, 1.0F, image, at + i);
+      return;
+    }
+    std::uint8_t* out = image.rgba.data() + 4 * at;
+    for (std::size_t i = 0; i < 4 * count; ++i) out[i] = as_byte(sums[i]);
+  }
   static void copy(const Image& from, const BlockPart& part, Image& to, std::size_t at) {
     for (int row = 0; row < part.height; ++row) {
       const auto first = static_cast<std::size_t>(part.y + row) * static_cast<std::size_t>(from.width_px) +
@@ -55,6 +66,9 @@ struct NumberTile {
   }
   static void write(const float* sum, float coverage, Numbers& numbers, std::size_t at) {
     if (sum[1] >= 0.5F && coverage >= 0.5F) numbers.values[at] = sum[0] / sum[1];
+  }
+  static void write_row(const float* sums, std::size_t count, Numbers& numbers, std::size_t at) {
+    for (std::size_t i = 0; i < count; ++i) write(sums + 2 * i, 1.0F, numbers, at + i);
   }
   static void copy(const Numbers& from, const BlockPart& part, Numbers& to, std::size_t at) {
     for (int row = 0; row < part.height; ++row) {

@@ -18,6 +18,7 @@ EARTH = "EPSG:4326"
 MOON, MARS, EUROPA, VESTA = ("+proj=longlat +R=1737400 +no_defs", "+proj=longlat +R=3396190 +no_defs",
                              "+proj=longlat +R=1560800 +no_defs", "+proj=longlat +a=289000 +b=229000 +no_defs")
 MARS_FIGURE = "+proj=longlat +a=3396190 +b=3376200 +no_defs"
+SPHERE = "+proj=longlat +R=6378137 +no_defs"
 MOON_HALF, MARS_HALF, EUROPA_HALF = math.pi * 1737400, math.pi * 3396190, math.pi * 1560800
 WIDE, SIDE = (192, 96), (128, 96)
 
@@ -101,6 +102,28 @@ PARTS = {
                         *box(-64000, 9e5, 1000, SIDE)),
     "lambert of mars": (MARS_FIGURE, RESAMPLED, SIDE, *proj("+proj=lcc +lat_1=30 +lat_2=60 +lat_0=45 +a=3396190 +b=3376200"),
                         *box(-6e5, 5e5, 10000, SIDE)),
+    # Spheres. With UTM's parameters GDAL writes UTM's code, which PROJ knows for flattened bodies only.
+    "sphere, utm's parameters": (SPHERE, RESAMPLED, SIDE, *proj("+proj=tmerc +lon_0=9 +k=0.9996 +x_0=500000 +R=6378137"),
+                                 *box(400000, 5000000, 1000, SIDE)),
+    "sphere, utm's parameters in the south": (MOON, RESAMPLED, SIDE, *proj("+proj=tmerc +lon_0=-75 +k=0.9996 +x_0=500000 "
+                                              "+y_0=10000000 +R=1737400"), *box(450000, 9100000, 500, SIDE)),
+    "sphere, transverse mercator": (MOON, RESAMPLED, SIDE, *proj("+proj=tmerc +lat_0=5 +lon_0=20 +R=1737400"),
+                                    *box(-64000, 3e5, 1000, SIDE)),
+    "sphere, lambert azimuthal": (SPHERE, RESAMPLED, SIDE, *proj("+proj=laea +lat_0=50 +lon_0=10 +R=6378137"),
+                                  *box(-3e5, 4e5, 5000, SIDE)),
+    "sphere, lambert azimuthal at the pole": (MARS, RESAMPLED, SIDE, *proj("+proj=laea +lat_0=-90 +R=3396190"),
+                                              *box(3e5, 2e6, 10000, SIDE)),
+    "sphere, oblique stereographic": (SPHERE, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=40 +lon_0=9 +k=0.99 +R=6378137"),
+                                      *box(-3e5, 4e5, 5000, SIDE)),
+    "sphere, stereographic with a parallel": (SPHERE, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=90 +lat_ts=71 +R=6378137"),
+                                              *box(-2.4e6, -1.2e6, 20000, SIDE)),
+    "sphere, equirectangular": (SPHERE, RESAMPLED, SIDE, *proj("+proj=eqc +lat_ts=30 +lon_0=15 +R=6378137"),
+                                *box(-3e5, 5e6, 10000, SIDE)),
+    "sphere, sinusoidal around 180": (MOON, RESAMPLED, SIDE, *proj("+proj=sinu +lon_0=180 +R=1737400"),
+                                      *box(-3e5, 1e6, 5000, SIDE)),
+    "sphere, mercator": (MOON, RESAMPLED, SIDE, *proj("+proj=merc +lon_0=40 +R=1737400"), *box(-2e5, 2e6, 5000, SIDE)),
+    "sphere, mercator with a parallel": (SPHERE, RESAMPLED, SIDE, *proj("+proj=merc +lat_ts=30 +R=6378137"),
+                                         *box(1e6, 5e6, 10000, SIDE)),
 }
 
 # GeoTIFF tags that gdal_translate would not write.
