@@ -46,18 +46,23 @@ void sum_rows(const Canvas<kChannels>& canvas, const Taps& taps, std::vector<flo
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * from[i];
 }
 
-/// Sums of the columns of a tile.
+/// `kTaps` is the number of taps, if the compiler is to know it; otherwise 0.
+template <std::size_t kChannels, std::size_t kTaps>
+void sum_column(const std::vector<float>& sums, const Taps& taps, float* out) {
+  const float* from = sums.data() + static_cast<std::size_t>(taps.first) * kChannels;
+  const std::size_t count = kTaps > 0 ? kTaps : taps.weights.size();
+  typename Lanes<kChannels>::Vector sum{};
+  for (std::size_t k = 0; k < count; ++k) sum += taps.weights[k] * load<kChannels>(from + k * kChannels);
+  std::memcpy(out, &sum, sizeof(sum));
+}
+
+/// Sums the columns of a row of the tile.
 template <std::size_t kChannels>
 void sum_columns(const std::vector<float>& sums, const std::vector<LineTaps>& columns, std::vector<float>& tile_row) {
   float* out = tile_row.data();
   for (const LineTaps& column : columns) {
-    const float* from = sums.data() + static_cast<std::size_t>(column.taps.first) * kChannels;
-    typename Lanes<kChannels>::Vector sum{};
-    for (const float weight : column.taps.weights) {
-      sum += weight * load<kChannels>(from);
-      from += kChannels;
-    }
-    std::memcpy(out, &sum, sizeof(sum));
+    column.taps.weights.size() == 4 ? sum_column<kChannels, 4>(sums, column.taps, out)
+                                    : sum_column<kChannels, 0>(sums, column.taps, out);
     out += kChannels;
   }
 }

@@ -33,9 +33,10 @@ struct ColourTile {
   }
   /// Writes pixels side by side that lie on the source as a whole.
   static void write_row(const float* sums, std::size_t count, Image& image, std::size_t at) {
-    bool opaque = true;
-    for (std::size_t i = 3; i < 4 * count; i += 4) opaque &= sums[i] > 254.5F && sums[i] < 255.5F;
-    if (!opaque) {
+    std::size_t opaque = 0;
+    for (std::size_t i = 3; i < 4 * count; i += 4)
+      opaque += (sums[i] > 254.5F ? 1U : 0U) & (sums[i] < 255.5F ? 1U : 0U);
+    if (opaque < count) {
       for (std::size_t i = 0; i < count; ++i) write(sums + 4 * i, 1.0F, image, at + i);
       return;
     }
@@ -53,7 +54,10 @@ struct ColourTile {
   static bool is_whole(const float*) { return true; }
 
  private:
-  static std::uint8_t as_byte(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F); }
+  /// Clamps the whole number, because the vectoriser gives up at a clamped float.
+  static std::uint8_t as_byte(float value) {
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(value + 0.5F), 0, 255));
+  }
 };
 
 /// The same of numbers: sums are the number times its weight, and the weight.
