@@ -97,6 +97,14 @@ class TileSource {
   /// Returns the object that fetches tiles for which read() returns `remote`; null for a source whose tiles are all
   /// local. Lives as long as the source.
   [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }
+  /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
+  /// changed since they were read, and shows the earlier ones meanwhile. thread: any
+  [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
+  /// Count of the last change of a tile that could be read before. thread: any
+  [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
+    static_cast<void>(id);
+    return edition();
+  }
   /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

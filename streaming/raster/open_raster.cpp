@@ -162,6 +162,7 @@ Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const Cr
     level.part.picture.samples.nodata = nodata;  // for tiles that are not stored
     parts->parts.push_back(make_part(level, *parts, options, info.opaque));
     info.levels.push_back(shape_of(parts->parts.back(), place, whole.part.picture));
+    info.by_rows = info.by_rows || !is_tiled(level);
   }
   return std::unique_ptr<RasterSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
 }
