@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cstring>
 
 #include "streaming/raster/row_raster.h"
@@ -85,6 +86,18 @@ class TiffRaster : public TiffSource {
     if (!has_block(info_, block)) return std::vector<ByteSpan>();
     const RasterPart& part = parts_->parts[static_cast<std::size_t>(block.level)];
     return part.tiles ? part.tiles->spans(block.x, block.y) : std::vector<ByteSpan>();
+  }
+
+  [[nodiscard]] std::unique_ptr<TiffSource> over(const std::shared_ptr<const ByteFile>& file) const override {
+    auto parts = std::make_shared<TiffParts>(TiffParts{parts_->name, parts_->coding, {}});
+    for (const RasterPart& part : parts_->parts) {
+      assert(part.tiles);
+      TiffLevel level = part.level;
+      level.part.file = file;
+      if (level.mask) level.mask->file = file;
+      parts->parts.push_back({.level = level, .tiles = std::make_unique<TiffTileLevel>(level), .rows = {}, .store = {}});
+    }
+    return std::make_unique<TiffRaster>(std::move(parts), info_);
   }
 
  private:

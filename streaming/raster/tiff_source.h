@@ -17,6 +17,8 @@ class TiffSource : public RasterSource {
   /// Looks up the bytes from which a block is decoded, masks included. Parts that the file does not store are left out.
   /// Blocks of a level in strips have none. The error does not name the file. thread: any, several at once
   [[nodiscard]] virtual Result<std::vector<ByteSpan>> spans(const TileId& block) = 0;
+  /// The same raster, read from other bytes of the same file. All levels must be tiled. thread: any
+  [[nodiscard]] virtual std::unique_ptr<TiffSource> over(const std::shared_ptr<const ByteFile>& file) const = 0;
 };
 
 /// Makes a raster from a pyramid; see open_raster(). `name` is for messages and RasterInfo::name. thread: any
