@@ -31,6 +31,7 @@ constexpr const char* kPreloadExamples =
     "Examples:\n"
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
+    "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";

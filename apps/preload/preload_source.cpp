@@ -72,16 +72,21 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
                             .headers = remote.headers,
                             .http = http,
                             .cache = asked.cache,
-                            .cache_size_mb = asked.cache_size_mb};
+                            .cache_size_mb = asked.cache_size_mb,
+                            .any_body = true};
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();
-  const WarpOptions warp{.figure = {earth().ellipsoid, opened->place.latitude, opened->place.latitude}};
+  const auto body = opened->body.empty() ? Result<Body>(earth()) : parse_body(opened->body);
+  if (!body) return body.error();
+  const WarpOptions warp{.figure = {body->ellipsoid, opened->place.latitude, opened->place.latitude}, .body = {}};
   const auto grid = warp_grid(opened->raster->info(), warp, source.redacted());
   if (!grid) return grid.error();
-  PreloadSource planned{.set = {}, .cache_info = range_cache_info(), .key = opened->file->cache_key(), .make_origin = {}};
+  PreloadSource planned{
+      .set = {}, .cache_info = range_cache_info(), .key = opened->file->cache_key(), .make_origin = {}};
   planned.set.url = source;
   planned.set.any_bytes = true;
   planned.set.info.grid = *grid;
+  planned.set.info.body = opened->body;
   const FileAddress address = opened->file->address();
   auto tiff = std::make_shared<PlannedTiff>(
       PlannedTiff{.opened = *std::move(opened), .figure = warp.figure, .grid = *grid, .address = address, .spans = {}});

@@ -16,19 +16,19 @@ namespace terrella {
 
 /// Source of `preload`: a remote set, or a set on disk.
 struct PreloadSource {
-  RemoteTileSet set;  ///< only `info` for a set on disk
+  RemoteTileSet set;       ///< only `info` for a set on disk
   TileSetInfo cache_info;  ///< description of the cache
-  std::string key;    ///< identifies the source's cache
+  std::string key;         ///< identifies the source's cache
   bool remote = false;
   std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
-  /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the plan's
-  /// tiles are what the cache keeps.
+  /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the
+  /// plan's tiles are what the cache keeps.
   std::function<Result<std::shared_ptr<const TilePlan>>(const TilePlan& tiles)> plan_parts = {};
 };
 
 /// What a TIFF on a server needs besides the options of other sources.
 struct PreloadTiff {
-  std::filesystem::path cache;     ///< keeps the directories; empty: none
+  std::filesystem::path cache;    ///< keeps the directories; empty: none
   std::size_t cache_size_mb = 0;  ///< 0: no limit
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <system_error>
 #include <utility>
 
@@ -9,8 +10,10 @@
 #include "apps/setup/open_cache.h"
 #include "apps/setup/stop_signals.h"
 #include "streaming/cache/cache_report.h"
+#include "streaming/georeference/figure.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
+#include "streaming/remote_tiff/waiting_raster.h"
 #include "streaming/tiff_open.h"
 
 namespace terrella {
@@ -21,9 +24,10 @@ namespace fs = std::filesystem;
 /// Deletes the cache of an earlier version, or refuses to.
 Status discard_old_version(const RemoteTiffWish& wish) {
   if (!wish.may_replace_cache) {
-    return Error{fmt::format("{}: holds parts of an earlier version of {}, which has changed on the server since; delete "
-                             "it, or name another file",
-                             wish.cache.string(), wish.url.redacted())};
+    return Error{
+        fmt::format("{}: holds parts of an earlier version of {}, which has changed on the server since; delete "
+                    "it, or name another file",
+                    wish.cache.string(), wish.url.redacted())};
   }
   print_message("terrella: {}: the file has changed on the server, so its cache is begun anew\n", wish.url.redacted());
   for (const char* ending : {"", "-wal", "-shm"}) {
@@ -78,18 +82,23 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
   const PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, (*file)->fetching()};
   auto placed = place_picture(picture, wish.direct.place);
   if (!placed) return placed.error();
-  auto place = place_raster(*std::move(placed), picture, wish.direct);
+  DirectOptions direct = wish.direct;
+  // "--body mars", after a space
+  if (wish.any_body) direct.body = placed->crs ? std::string(body_option(*placed->crs)) : std::string();
+  if (const std::size_t name = direct.body.rfind(' '); name != std::string::npos) direct.body.erase(0, name + 1);
+  auto place = place_raster(*std::move(placed), picture, direct);
   if (!place) return place.error();
   if (!*place) {
-    return Error{fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
-                             "--crs CRS and --bounds W,S,E,N",
-                             (*file)->name(), picture.width_px, picture.height_px)};
+    return Error{
+        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
+                    "--crs CRS and --bounds W,S,E,N",
+                    (*file)->name(), picture.width_px, picture.height_px)};
   }
   RasterOptions reading;
   reading.heights = wish.heights;
   auto raster = RemoteTiff::make(*file, *std::move(pyramid), (*place)->at, reading);
   if (!raster) return raster.error();
-  return OpenedRemoteTiff{*std::move(file), *std::move(raster), **std::move(place)};
+  return OpenedRemoteTiff{*std::move(file), *std::move(raster), picture, **std::move(place), direct.body};
 }
 
 Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const DirectOptions& direct) {
@@ -102,6 +111,17 @@ Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const Dire
         where, info.levels.front().width_px, info.levels.front().height_px)};
   }
   return direct_tiles(std::move(opened.raster), opened.place, direct, where);
+}
+
+CutRaster cut_raster(OpenedRemoteTiff opened) {
+  CutRaster cut{.picture = opened.picture, .key = opened.file->cache_key(), .open = {}};
+  // std::function needs a function that can be copied.
+  cut.open = [shared = std::make_shared<OpenedRemoteTiff>(std::move(opened))](
+                 const CrsPlace&, const RasterOptions&) -> Result<std::unique_ptr<RasterSource>> {
+    assert(shared->raster);
+    return waiting_raster(std::move(shared->raster), [] { return !StopSignals::came(); });
+  };
+  return cut;
 }
 
 DirectOptions direct_options(const SceneOptions& options) {

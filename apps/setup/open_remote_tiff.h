@@ -8,6 +8,7 @@
 
 #include "apps/scene/scene_options.h"
 #include "base/result.h"
+#include "streaming/cut.h"
 #include "streaming/direct/direct_tiles.h"
 #include "streaming/http/http_fetcher.h"
 #include "streaming/remote_tiff/remote_tiff.h"
@@ -24,13 +25,16 @@ struct RemoteTiffWish {
   std::size_t cache_size_mb = 0;   ///< 0: no limit
   bool offline = false;
   DirectOptions direct{};
-  bool heights = false;  ///< blocks are numbers
+  bool any_body = false;  ///< the TIFF's own body counts, not that of `direct`
+  bool heights = false;   ///< blocks are numbers
 };
 
 struct OpenedRemoteTiff {
   std::shared_ptr<RemoteFile> file;
   std::unique_ptr<RemoteTiff> raster;
+  PictureFile picture;  ///< its bytes wait for the network
   RasterPlace place;
+  std::string body;  ///< preset name or "A,F"; empty: the Earth
 };
 
 /// True if the address is that of a TIFF: by its path, or else by the first bytes that the server sends. An address
@@ -44,6 +48,9 @@ struct OpenedRemoteTiff {
 /// Makes tiles of an opened TIFF. Refuses a large picture without overviews, because a coarse tile would need all of
 /// it. The error begins with the address. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const DirectOptions& direct);
+
+/// Lets `cut` read a TIFF on a server in place of a file. thread: any
+[[nodiscard]] CutRaster cut_raster(OpenedRemoteTiff opened);
 
 /// The user's statements about a raster, from the scene's options. thread: any
 [[nodiscard]] DirectOptions direct_options(const SceneOptions& options);

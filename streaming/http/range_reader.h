@@ -40,9 +40,9 @@ class RangeStore {
 /// The smallest unit that a RangeReader requests, bytes.
 inline constexpr std::uint64_t kRangeBlockBytes = 16384;
 
-/// Reads parts of one file on a server by range requests, in blocks. Missing blocks that are neighbours are one request.
-/// Keeps the latest 16 MiB. A file that changes is an error. Calls of read() wait for the network, one after the other.
-/// thread: any
+/// Reads parts of one file on a server by range requests, in blocks. Missing blocks that are neighbours are one
+/// request. Keeps the latest 16 MiB. A file that changes is an error. Calls of read() wait for the network, one after
+/// the other. thread: any
 class RangeReader {
  public:
   /// `go_on` is asked ten times a second while a call waits; false ends the call with an error.

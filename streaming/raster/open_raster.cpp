@@ -95,7 +95,8 @@ class TiffRaster : public TiffSource {
       TiffLevel level = part.level;
       level.part.file = file;
       if (level.mask) level.mask->file = file;
-      parts->parts.push_back({.level = level, .tiles = std::make_unique<TiffTileLevel>(level), .rows = {}, .store = {}});
+      parts->parts.push_back(
+          {.level = level, .tiles = std::make_unique<TiffTileLevel>(level), .rows = {}, .store = {}});
     }
     return std::make_unique<TiffRaster>(std::move(parts), info_);
   }

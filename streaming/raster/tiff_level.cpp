@@ -92,9 +92,8 @@ Result<std::vector<ByteSpan>> TiffTileLevel::spans(std::int64_t column, std::int
     return Done{};
   };
   if (Status found = add(readers_, picture(), column, row); !found) return found.error();
-  const Status found = for_each_mask_tile(column, row, [&](std::int64_t u, std::int64_t v) {
-    return add(*mask_readers_, level_.mask->picture, u, v);
-  });
+  const Status found = for_each_mask_tile(
+      column, row, [&](std::int64_t u, std::int64_t v) { return add(*mask_readers_, level_.mask->picture, u, v); });
   if (!found) return found.error();
   return all;
 }

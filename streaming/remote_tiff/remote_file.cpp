@@ -111,11 +111,12 @@ class RemoteFile::Fetching : public ByteFile {
   const RemoteFile& file_;
 };
 
-RemoteFile::RemoteFile(const RemoteFileOptions& options, std::unique_ptr<RangeReader> reader,
+RemoteFile::RemoteFile(const RemoteFileOptions& options, std::unique_ptr<RangeReader> reader, Flag stopped,
                        std::shared_ptr<RangeCache> cache)
     : name_(options.url.redacted()),
       http_(options.http),
       offline_(options.offline),
+      stopped_(std::move(stopped)),
       reader_(std::move(reader)),
       cache_(std::move(cache)),
       address_{.url = options.url, .headers = options.headers, .version = reader_->version()},
@@ -125,11 +126,12 @@ RemoteFile::RemoteFile(const RemoteFileOptions& options, std::unique_ptr<RangeRe
 Result<std::shared_ptr<RemoteFile>> RemoteFile::open(const RemoteFileOptions& options) {
   auto held = find_held(options);
   if (!held) return held.error();
-  auto reader = std::make_unique<RangeReader>(options.url, options.headers, options.http, options.go_on,
-                                              kDirectoryBlockBytes);
+  const auto stopped = std::make_shared<std::atomic<bool>>(false);
+  const auto go_on = [stopped, asked = options.go_on] { return !*stopped && asked(); };
+  auto reader = std::make_unique<RangeReader>(options.url, options.headers, options.http, go_on, kDirectoryBlockBytes);
   if (*held && (options.offline || (*held)->ranges->is_checked(std::time(nullptr)))) {
     reader->use_store((*held)->ranges, (*held)->version, options.offline);
-    return std::shared_ptr<RemoteFile>(new RemoteFile(options, std::move(reader), (*held)->ranges));
+    return std::shared_ptr<RemoteFile>(new RemoteFile(options, std::move(reader), stopped, (*held)->ranges));
   }
   if (options.offline) {
     return Error{fmt::format("{}: nothing of it is in the cache; look at it or preload it once without --offline",
@@ -137,7 +139,7 @@ Result<std::shared_ptr<RemoteFile>> RemoteFile::open(const RemoteFileOptions& op
   }
   auto ranges = ask_version(options, *std::move(held), *reader);
   if (!ranges) return ranges.error();
-  return std::shared_ptr<RemoteFile>(new RemoteFile(options, std::move(reader), *std::move(ranges)));
+  return std::shared_ptr<RemoteFile>(new RemoteFile(options, std::move(reader), stopped, *std::move(ranges)));
 }
 
 std::string RemoteFile::take_fault() {

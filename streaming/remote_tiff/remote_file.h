@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <list>
 #include <memory>
@@ -19,9 +20,9 @@ struct RemoteFileOptions {
   Url url;
   std::vector<std::string> headers{};  ///< may be secret
   HttpOptions http{};
-  bool offline = false;                                 ///< no request is sent; the cache alone counts
-  std::function<bool()> go_on = [] { return true; };    ///< see RangeReader
-  std::string held_key{};                               ///< key of the cache that is there; empty: none
+  bool offline = false;                               ///< no request is sent; the cache alone counts
+  std::function<bool()> go_on = [] { return true; };  ///< see RangeReader
+  std::string held_key{};                             ///< key of the cache that is there; empty: none
   /// Opens or creates the cache with a key of range_cache_key(); nullptr: without a cache. A key other than `held_key`
   /// means that the file has changed on the server.
   std::function<Result<std::shared_ptr<TileCache>>(const std::string& key)> open_cache{};
@@ -54,6 +55,8 @@ class RemoteFile {
   [[nodiscard]] std::string take_fault();  ///< empty: there was none since the last call
   /// Lets the next opening ask the server for the version again.
   void doubt_version();
+  /// Ends reads of fetching() that wait, and all later ones that would.
+  void stop() { *stopped_ = true; }
 
   /// Adds pieces to held() while it lives. The file must outlive it.
   class Loan {
@@ -71,12 +74,15 @@ class RemoteFile {
  private:
   class Held;
   class Fetching;
-  RemoteFile(const RemoteFileOptions& options, std::unique_ptr<RangeReader> reader, std::shared_ptr<RangeCache> cache);
+  using Flag = std::shared_ptr<std::atomic<bool>>;
+  RemoteFile(const RemoteFileOptions& options, std::unique_ptr<RangeReader> reader, Flag stopped,
+             std::shared_ptr<RangeCache> cache);
   [[nodiscard]] bool read_lent(std::uint64_t offset, std::span<std::byte> into) const;
 
   const std::string name_;
   const HttpOptions http_;
   const bool offline_;
+  const Flag stopped_;
   const std::unique_ptr<RangeReader> reader_;
   const std::shared_ptr<RangeCache> cache_;
   const FileAddress address_;

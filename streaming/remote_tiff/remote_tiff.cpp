@@ -51,6 +51,7 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
     }
+    file_->stop();
     wished_.notify_all();
     answers_.close();
     threads_.clear();
@@ -81,9 +82,10 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
     if (!found) {
       std::string fault = file_->take_fault();
       if (!fault.empty()) return TileFailure{MissingKind::failed, std::move(fault)};
-      return TileFailure{MissingKind::broken,
-                         fmt::format("{}: block {}, {} of level {} cannot be read: {}; the file is truncated or damaged",
-                                     file_->name(), block.x, block.y, block.level, found.error().message)};
+      return TileFailure{
+          MissingKind::broken,
+          fmt::format("{}: block {}, {} of level {} cannot be read: {}; the file is truncated or damaged",
+                      file_->name(), block.x, block.y, block.level, found.error().message)};
     }
     std::vector<ByteRange> ranges;
     for (const ByteSpan& span : *found) ranges.push_back({.offset = span.offset, .length = span.size});
@@ -279,7 +281,8 @@ bool is_tiff_address(const Url& tile_set) {
   const auto address = parse_address(tile_set);
   if (!address || tile_set.with_secrets().find('{') != std::string::npos) return false;
   const std::string path = lower_case(address->path);
-  return (address->scheme == "http" || address->scheme == "https") && (path.ends_with(".tif") || path.ends_with(".tiff"));
+  return (address->scheme == "http" || address->scheme == "https") &&
+         (path.ends_with(".tif") || path.ends_with(".tiff"));
 }
 
 }  // namespace terrella

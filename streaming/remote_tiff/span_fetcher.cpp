@@ -107,7 +107,8 @@ void SpanFetcher::launch() {
 
 /// The waiting span of the highest priority; among equals the first in the file.
 SpanFetcher::Place SpanFetcher::most_wanted() const {
-  return std::ranges::max_element(places_, {}, [this](const auto& place) { return waiting_.at(place.second).priority; });
+  return std::ranges::max_element(places_, {},
+                                  [this](const auto& place) { return waiting_.at(place.second).priority; });
 }
 
 /// Takes a waiting span and its neighbours on both sides.
