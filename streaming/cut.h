@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -36,8 +39,17 @@ struct CutShard {
   int count = 1;
 };
 
+/// A picture that is no local file, such as a TIFF on a server.
+struct CutRaster {
+  PictureFile picture;  ///< name, size and bytes
+  std::string key;      ///< differs if the pixels may differ
+  /// Opens the raster. Its blocks are read as those of a local one.
+  std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
+};
+
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;

@@ -236,7 +236,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
-          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS or WMS, or "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);

@@ -38,6 +38,7 @@ std::string options_text(const CutOptions& options, std::string place) {
 
 Result<std::string> cut_key(const CutOptions& options, const std::string& place) {
   std::string key = options_text(options, place);
+  if (options.raster) return key + fmt::format("\n{}", options.raster->key);
   for (const auto& image : options.images) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {

@@ -33,10 +33,28 @@ CutInput put_rows(std::unique_ptr<RowReader> rows, const PicturePlace& place, bo
           .remarks = place.placed.remarks};
 }
 
+/// Place of a raster without rows. It is always warped; pixels that fit the grid are copied then.
+Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture) {
+  place.kind = PlaceKind::warped;
+  place.from = place.placed.projected;
+  if (place.from) return place;
+  if (picture.width_px != 2 * picture.height_px) {
+    return Error{
+        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
+                    "--crs CRS and --bounds W,S,E,N",
+                    picture.path.string(), picture.width_px, picture.height_px)};
+  }
+  const double step = 180.0 / static_cast<double>(picture.height_px);
+  place.from =
+      CrsPlace{.to_crs = {.x0 = -180.0, .x_per_column = step, .y0 = 90.0, .y_per_row = -step}, .crs = "EPSG:4326"};
+  return place;
+}
+
 Result<CutInput> open_one(const CutOptions& options, const OpenRows& open, const std::optional<HeightPlan>& heights) {
-  const auto picture = measure_picture(options.images.front());
+  const auto picture = options.raster ? options.raster->picture : measure_picture(options.images.front());
   if (!picture) return picture.error();
-  const auto place = find_place(options, *picture);
+  auto place = find_place(options, *picture);
+  if (place && options.raster) place = warped_place(*std::move(place), *picture);
   if (!place) return place.error();
   if (place->kind == PlaceKind::warped) {
     auto warped = open_warped(options, *picture, *place, heights);
@@ -107,7 +125,7 @@ Result<CutInput> open_input(const CutOptions& options) {
   const OpenRows open = [heights](const fs::path& image) {
     return heights ? open_height_rows(image, heights->coding) : open_rows(image);
   };
-  const bool several = options.images.size() > 1 || options.mosaic;
+  const bool several = !options.raster && (options.images.size() > 1 || options.mosaic);
   auto input = several ? open_mosaic(options, open, heights.has_value()) : open_one(options, open, heights);
   if (!input || !heights) return input;
   input->numbers = heights->numbers;

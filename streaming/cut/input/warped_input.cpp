@@ -61,7 +61,8 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   RasterOptions reading = heights ? raster_of(*heights) : RasterOptions{};
   reading.work_folder = options.output.parent_path();
   reading.jobs = options.jobs;
-  auto raster = open_picture_raster(picture.path, *place.from, reading);
+  auto raster = options.raster ? options.raster->open(*place.from, reading)
+                               : open_picture_raster(picture.path, *place.from, reading);
   if (!raster) return raster.error();
   const bool opaque = (*raster)->info().opaque && place.placed.placement;
   WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};
