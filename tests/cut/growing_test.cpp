@@ -214,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(All, CoarseRaster,
                                          CoarseCase{"strips_of_eight_rows", "-co BLOCKYSIZE=8"},
                                          CoarseCase{"tiles", "-co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64"},
                                          CoarseCase{"few_tiles", "-co TILED=YES -co BLOCKXSIZE=512 -co BLOCKYSIZE=512"}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& made) { return made.param.name; });
 
 TEST(CoarseRasterOf, ProgressiveAndInterlacedPicturesOpenWithoutDecoding) {
   const ScratchFolder folder;

@@ -26,7 +26,7 @@ class Cutting(WindowTest):
         self.cache = self.kept / "terrella"
 
     def view(self, *options):
-        return self.start(self.picture, "--camera", "20,8,14000000", "--sky", "off", *options)
+        return self.start(self.picture, "--camera", "20,8,30000000", "--sky", "off", *options)
 
     def work(self):
         """The folder of the unfinished cut; None without one."""

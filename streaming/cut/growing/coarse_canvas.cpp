@@ -31,6 +31,7 @@ CoarseCanvas::CoarseCanvas(const CutPlan& plan) : plan_(plan), grid_(plan.grid) 
   turn_px_ = (turn + (std::int64_t{1} << halvings_) - 1) >> halvings_;
   pixels_.resize(static_cast<std::size_t>((px_.x1 - px_.x0) * (px_.y1 - px_.y0)) * 4);
   sums_.resize(static_cast<std::size_t>(px_.x1 - px_.x0) * 4);
+  counts_.resize(static_cast<std::size_t>(px_.x1 - px_.x0));
 }
 
 std::vector<TileId> CoarseCanvas::tiles() const {
@@ -68,15 +69,16 @@ void CoarseCanvas::add_row(std::int64_t row, std::span<const std::uint8_t> rgba)
   const std::int64_t to = ((plan_.finest.y0 + row) >> halvings_) - px_.y0;
   if (to != summing_) {
     std::ranges::fill(sums_, 0.0F);
-    summed_ = 0;
+    std::ranges::fill(counts_, 0.0F);
     summing_ = to;
   }
-  ++summed_;
   // Four pixels of each square are enough.
   const std::int64_t step = row_step();
   for (std::int64_t x = 0; x < plan_.finest.x1 - plan_.finest.x0; x += step) {
     const std::uint8_t* from = rgba.data() + x * 4;
-    float* sum = sums_.data() + (((plan_.finest.x0 + x) >> halvings_) - px_.x0) * 4;
+    const std::int64_t column = ((plan_.finest.x0 + x) >> halvings_) - px_.x0;
+    float* sum = sums_.data() + column * 4;
+    counts_[static_cast<std::size_t>(column)] += 1.0F;
     for (int c = 0; c < 3; ++c) sum[c] += static_cast<float>(from[c]) * static_cast<float>(from[3]);
     sum[3] += static_cast<float>(from[3]);
   }
@@ -85,14 +87,12 @@ void CoarseCanvas::add_row(std::int64_t row, std::span<const std::uint8_t> rgba)
 
 /// Writes the mean of the rows summed so far.
 void CoarseCanvas::put_row(std::int64_t row) {
-  const std::int64_t step = row_step();
-  const auto count = static_cast<float>(summed_ * std::max<std::int64_t>(1, (std::int64_t{1} << halvings_) / step));
   const std::lock_guard lock(mutex_);
   std::uint8_t* to = pixels_.data() + row * (px_.x1 - px_.x0) * 4;
   for (std::size_t i = 0; i < sums_.size(); i += 4, to += 4) {
     const float alpha = sums_[i + 3];
     for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(alpha > 0.0F ? sums_[i + c] / alpha + 0.5F : 0);
-    to[3] = static_cast<std::uint8_t>(std::min(alpha / count + 0.5F, 255.0F));
+    to[3] = static_cast<std::uint8_t>(alpha / std::max(counts_[i / 4], 1.0F) + 0.5F);
   }
 }
 
