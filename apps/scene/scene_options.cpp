@@ -214,7 +214,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       .add_option("--cache", options.cache,
                   "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
                   "TILESET is "
-                  "cut into the cache for later runs. 'off' caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
+                  "caches nothing (default: $XDG_CACHE_HOME/terrella or "
                   "~/.cache/terrella)")
       ->type_name("FILE|off");
   command

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "tiles/tile_source.h"
 
 namespace terrella {
+
+class GrowingCut;
 
 /// Value of one --overlay.
 struct OverlayOption {
@@ -56,6 +59,8 @@ struct SceneOptions {
   std::size_t memory_mb = 512;       ///< limit for decoded tiles, in 2^20 bytes
   bool offline = false;              ///< use the cache only
   RemoteOptions remote;              ///< options of a remote TILESET
+  /// Receives the cuts that go on in the background; null: a picture is cut before it shows.
+  std::vector<std::shared_ptr<GrowingCut>>* cuts = nullptr;
 };
 
 /// Largest side of a picture or window, pixels.
