@@ -48,20 +48,32 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  if (const Status built = pass->build_programs(pass->programs_, kBaseLayer); !built) return built.error();
+  if (const Status built = pass->set_air(nullptr); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
 Status PatchPass::prepare_upper(bool special) {
-  if (special && !has_special_) {
-    if (Status built = build_programs(special_, "SPECIAL_LAYER"); !built) return built;
-    has_special_ = true;
+  Programs& now = programs();
+  if (special && !now.has_special) {
+    if (Status built = build_programs(now.special, "SPECIAL_LAYER"); !built) return built;
+    now.has_special = true;
   }
-  if (flat_program_) return Done{};
-  if (Status built = build_programs(upper_, "UPPER_LAYER"); !built) return built;
-  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
+  if (!now.has_upper) {
+    if (Status built = build_programs(now.upper, "UPPER_LAYER"); !built) return built;
+    now.has_upper = true;
+  }
+  return flat_program_ ? Done{} : build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
+}
+
+Status PatchPass::set_air(const AirTextures* air) {
+  air_ = air;
+  Programs& now = programs();
+  if (now.has_base) return Done{};
+  Status built = build_programs(now.base, kBaseLayer);
+  now.has_base = bool(built);
+  return built;
 }
 
 Status PatchPass::prepare_depth() {
@@ -72,7 +84,7 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
                         std::string_view layer) const {
   return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", air_ != nullptr ? "AIR" : "NO_AIR",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 
@@ -83,15 +95,15 @@ Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
     Status s = make(
-        polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+        polar, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = make(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = make(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = make(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (Status s = make(magnified, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
+  if (Status s = make(plain, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
+  if (Status s = make(oblique, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
   if (options_.texturing == Texturing::paper) {
     return make(paper,
-                {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+                {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
   }
   return Done{};
 }
@@ -136,7 +148,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
-  return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
+  return patch.footprint_texels > plain_footprint_texels_ ? oblique : plain;
 }
 
 void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -190,17 +202,18 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
                      const DrawState& state, FrameCounts& counts) const {
-  draw_programs(programs_, layer, vertices, tiles, state, counts);
+  draw_programs(programs().base, layer, vertices, tiles, state, counts);
 }
 
 void PatchPass::draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
                            bool special, const DrawState& state, FrameCounts& counts) const {
-  draw_programs(special ? special_ : upper_, layer, vertices, tiles, state, counts);
+  draw_programs(special ? programs().special : programs().upper, layer, vertices, tiles, state, counts);
 }
 
 void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
                               const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
                               FrameCounts& counts) const {
+  if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());

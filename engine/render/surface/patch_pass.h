@@ -11,6 +11,7 @@
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
+#include "render/sky/air_textures.h"
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
@@ -43,13 +44,18 @@ class PatchPass {
   /// `has_relief` means that patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special.
+  /// Sees the ground through this air from now on; null: without air. Builds the programs for that, once.
+  Status set_air(const AirTextures* air);
+  /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special. Call
+  /// after set_air().
   Status prepare_upper(bool special);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
   /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
   void set_paper_band(double band) { paper_band_ = band; }
+  /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
+  void set_plain_footprint(double texels) { plain_footprint_texels_ = texels; }
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -71,6 +77,13 @@ class PatchPass {
   static constexpr int kPrograms = PatchLayer::kPrograms;
 
   PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
+  /// The programs for ground with or without air before it.
+  struct Programs {
+    gl::Program base[kPrograms], upper[kPrograms], special[kPrograms];
+    bool has_base = false, has_upper = false, has_special = false;
+  };
+  [[nodiscard]] Programs& programs() { return all_[air_ != nullptr ? 1 : 0]; }
+  [[nodiscard]] const Programs& programs() const { return all_[air_ != nullptr ? 1 : 0]; }
   Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
   void set_up_vertex_array();
@@ -85,9 +98,10 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  gl::Program programs_[kPrograms], upper_[kPrograms], special_[kPrograms];
-  bool has_special_ = false;
+  const AirTextures* air_ = nullptr;
+  Programs all_[2];
   double paper_band_ = 0.05;
+  double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;
