@@ -43,6 +43,7 @@ constexpr const char* kHelpFooter =
 
 struct ViewOptions {
   SceneOptions scene;
+  std::string places;  // GeoJSON for the search; empty: the Earth's cities
   bool print_camera = false;
   bool full_screen = false;
   KeptSettings kept;
@@ -147,6 +148,7 @@ int view(const ViewOptions& options) {
                                      .cuts = cuts,
                                      .layers = layer_rows(**globe, options.scene, first),
                                      .heights = *elevation,
+                                     .places = options.places,
                                      .files = layers,
                                      .kept = options.kept,
                                      .first_run = options.first_run,
@@ -165,6 +167,11 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command
+      ->add_option("--places", options->places,
+                   "Search (/) in this GeoJSON file of points with a name, on any body, instead of the Earth's cities")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
   command->callback([options, command, &exit_code] {
