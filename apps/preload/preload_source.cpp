@@ -34,7 +34,7 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
   // A cache cannot store a GeoPackage's scale and offset of single height tiles.
-  if ((*tiles)->info().elevation) {
+  if ((*tiles)->info().numbers) {
     return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
   }
   const std::shared_ptr<TileSource> shared = *std::move(tiles);

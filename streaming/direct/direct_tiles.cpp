@@ -58,7 +58,8 @@ Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> r
                                                  const DirectOptions& options, const std::string& where) {
   const auto body = body_of(options);
   if (!body) return body.error();
-  const WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};
+  WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};
+  warp.grid = options.grid;
   return warp_source(std::move(raster), warp, where);
 }
 

@@ -18,6 +18,8 @@ struct DirectOptions {
   std::string body{};                         ///< preset name or "A,F"; empty: the Earth
   std::optional<LatitudeKind> latitude = {};  ///< counted by the rows; default: as the raster states, else graphic
   PlaceWords place{};
+  /// Grid of the raster's own pixels, so that tiles are copies of them; default: warp_grid().
+  std::optional<TileGrid> grid = {};
 };
 
 /// Place of a raster on the globe.

@@ -66,6 +66,19 @@ Result<Numbers, TileFailure> heights_of(TiffParts& parts, const TileId& block) {
   return stored_numbers(*part.store, block.x, block.y);
 }
 
+bool is_wider_than_floats(SampleType type) {
+  return type == SampleType::uint32 || type == SampleType::int32 || type == SampleType::float64;
+}
+
+Result<double> exact_sample_at(RasterPart& part, std::int64_t column, std::int64_t row, std::size_t band) {
+  if (part.tiles) return part.tiles->exact_sample_at(column, row, band);
+  TiffSampleRows rows(part.level.part, 1);
+  const auto samples = rows.read(row);
+  if (!samples) return samples.error();
+  const TiffSamples& kind = part.level.part.picture.samples;
+  return exact_sample(kind, band, *samples + static_cast<std::size_t>(column) * kind.pixel_bytes());
+}
+
 class TiffRaster : public TiffSource {
  public:
   TiffRaster(std::shared_ptr<TiffParts> parts, RasterInfo info) : parts_(std::move(parts)), info_(std::move(info)) {}
@@ -80,6 +93,15 @@ class TiffRaster : public TiffSource {
       tile.make_picture = [parts = parts_, block] { return picture_of(*parts, block); };
     }
     return tile;
+  }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    auto value = RasterSource::value_at(column, row);
+    if (!value || !is_wider_than_floats(parts_->parts.back().level.part.picture.samples.type)) return value;
+    const NumberCoding& coding = *parts_->coding.numbers;
+    const auto sample = exact_sample_at(parts_->parts.back(), column, row, coding.band);
+    if (!sample) return TileFailure{MissingKind::broken, parts_->name + ": " + sample.error().message};
+    return (*sample * coding.scale + coding.offset) * info_.numbers->scale + info_.numbers->offset;
   }
 
   [[nodiscard]] Result<std::vector<ByteSpan>> spans(const TileId& block) override {
@@ -183,7 +205,7 @@ Result<std::unique_ptr<TiffSource>> make_tiff_source(TiffPyramid pyramid, const 
   const TiffLevel& whole = pyramid.whole();
   RasterInfo info{.name = fs::path(name).stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
   info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
-  if (options.heights) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  if (options.heights) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
   const auto nodata = options.nodata ? options.nodata : pyramid.metadata.nodata;
   auto parts = std::make_shared<TiffParts>(TiffParts{name, *std::move(coding), {}});
   for (TiffLevel& level : pyramid.levels) {

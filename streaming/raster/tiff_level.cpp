@@ -128,6 +128,14 @@ Result<Numbers> TiffTileLevel::numbers(std::int64_t column, std::int64_t row, co
   return numbers;
 }
 
+Result<double> TiffTileLevel::exact_sample_at(std::int64_t x, std::int64_t y, std::size_t band) {
+  const std::int64_t width = picture().tile_width_px, height = picture().tile_height_px;
+  const auto pixels = samples(x / width, y / height);
+  if (!pixels) return pixels.error();
+  const auto pixel = static_cast<std::size_t>((y % height) * width + x % width);
+  return exact_sample(picture().samples, band, pixels->data() + pixel * picture().samples.pixel_bytes());
+}
+
 TiffRowLevel::TiffRowLevel(TiffLevel level, int jobs) : rows_(std::move(level.part), jobs) {
   if (level.mask) mask_ = std::make_unique<TiffSampleRows>(*std::move(level.mask), jobs);
 }

@@ -21,6 +21,8 @@ class TiffTileLevel {
   [[nodiscard]] const TiffPicture& picture() const { return level_.part.picture; }
   [[nodiscard]] Result<Image> colours(std::int64_t column, std::int64_t row, const ColourConverter& converter);
   [[nodiscard]] Result<Numbers> numbers(std::int64_t column, std::int64_t row, const NumberCoding& coding);
+  /// exact_sample() of a pixel of the level; neither its mask nor its no-data value is looked at.
+  [[nodiscard]] Result<double> exact_sample_at(std::int64_t x, std::int64_t y, std::size_t band);
   /// Looks up the bytes of the tile and of its mask. Parts that the file does not store are left out.
   [[nodiscard]] Result<std::vector<ByteSpan>> spans(std::int64_t column, std::int64_t row);
 
