@@ -33,7 +33,8 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       input_(window, ui_, navigator_, actions()),
       layers_(context_, options.layers, options.heights, options.files,
               {{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}}),
-      modes_(context_, actions(), [this](const Action& action) { action.run(*this); }) {
+      modes_(context_, actions(), [this](const Action& action) { action.run(*this); }),
+      cutting_(context_, std::exchange(options_.cuts, {})) {
   graticule_.is_on() = options.kept.graticule;
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();

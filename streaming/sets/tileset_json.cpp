@@ -63,7 +63,7 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
   info.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
   info.numbers = read_elevation(object, fields, where);
-  if (info.numbers && info.format != ImageFormat::png) {
+  if (info.numbers && !info.numbers->rgb && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   info.square = read_square(object, fields, where);
@@ -111,6 +111,7 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
     if (info.numbers->nodata && !info.numbers->floats) elevation["nodata"] = static_cast<int>(*info.numbers->nodata);
     if (info.numbers->is_signed) elevation["numbers"] = "signed";
     if (info.numbers->floats) elevation["numbers"] = "float";
+    if (info.numbers->rgb) elevation["numbers"] = "rgb";
     if (!info.numbers->unit.empty()) elevation["unit"] = info.numbers->unit;
     if (!info.numbers->quantity.empty()) elevation["quantity"] = info.numbers->quantity;
   }
