@@ -15,7 +15,7 @@ namespace {
 constexpr int kRingRows = 32, kRingColumns = 65, kRingTurn = 512;
 constexpr int kDomeRows = 48, kDomeColumns = 61, kDomeTurn = 120;
 constexpr int kGroundSteps = 20;
-// Satellites look down through this many vertical air masses: up to 34 degrees from the vertical.
+// Satellites look up to 34 degrees away from the vertical, through this many vertical air masses.
 constexpr float kPicturedAirMass = 1.2F;
 
 glm::vec3 encoded_srgb(const glm::vec3& linear) {
@@ -68,9 +68,7 @@ class LimbProfile {
   }
 
  private:
-  [[nodiscard]] double height(std::size_t row) const {
-    return top_ * squared(double(row) / (SkyTable::kRows - 1.0));
-  }
+  [[nodiscard]] double height(std::size_t row) const { return top_ * squared(double(row) / (SkyTable::kRows - 1.0)); }
   double top_;
   std::vector<glm::vec3> colors_, sums_;
 };
@@ -107,7 +105,8 @@ class Ring {
  private:
   [[nodiscard]] double height(int row) const {
     const double first = 0.05 * top_ + pixel_;
-    return row == 0 ? -first : (top_ + pixel_) * squared((row - 1) / (kRingRows - 2.0)) - (row == 1 ? 0.5 * pixel_ : 0.0);
+    return row == 0 ? -first
+                    : (top_ + pixel_) * squared((row - 1) / (kRingRows - 2.0)) - (row == 1 ? 0.5 * pixel_ : 0.0);
   }
   [[nodiscard]] double limb_height(int k) const { return pixel_ * k / SkyColors::kLimbSteps; }
 
@@ -145,7 +144,8 @@ SkyColors dome_colors(const AirTables& air, const AirEye& eye) {
     c.zenith.emplace_back(std::cos(elevation), std::sin(elevation));
     const double at = part * (SkyTable::kRows - 1);
     const auto k = std::min(static_cast<std::size_t>(at), table.transmitted.size() - 2);
-    const glm::vec3 passed = glm::mix(table.transmitted[k], table.transmitted[k + 1], static_cast<float>(at - double(k)));
+    const glm::vec3 passed =
+        glm::mix(table.transmitted[k], table.transmitted[k + 1], static_cast<float>(at - double(k)));
     c.through.emplace_back(stored_part(passed), 0.0F);
     for (int column = 0; column < kDomeColumns; ++column) {
       const double azimuth = column / (kDomeColumns - 1.0);
@@ -175,11 +175,14 @@ SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel)
 
 GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
   GroundColors c;
-  const glm::vec3 pictured = glm::pow(air.vertical(), glm::vec3(kPicturedAirMass));
+  const glm::vec3 below =
+      air.vertical() / (eye.radius < air.top() ? air.transmittance(eye.radius, 1.0) : glm::vec3(1.0F));
+  const glm::vec3 pictured = glm::pow(below, glm::vec3(kPicturedAirMass));
   for (int row = 0; row < GroundColors::kRows; ++row) {
     const double v = 1.0 - squared(row / (GroundColors::kRows - 1.0)), down = 1.0 - v * v;  // at the ground
     const double sine = std::sqrt(std::max(0.0, 1.0 - down * down)) / eye.radius;
-    const AirRay ray = air_ray(air, eye, std::min(sine, 1.0), -std::sqrt(std::max(0.0, 1.0 - sine * sine)));
+    const AirRay ray =
+        air_ray(air, eye, std::min(sine, 1.0), -std::sqrt(std::max(0.0, 1.0 - sine * sine)), RayEnd::ground);
     const RaySteps steps = ray_steps(air, eye, ray, kGroundSteps);
     const glm::vec3 passed = steps.transmitted.back(), beyond = glm::min(glm::vec3(1.0F), passed / pictured);
     const glm::vec3 share = (1.0F - beyond) / glm::max(1.0F - passed, glm::vec3(1e-6F));

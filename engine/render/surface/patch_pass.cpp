@@ -94,16 +94,16 @@ Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string
     return build(programs[which], files, layer);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = make(
-        polar, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    Status s = make(polar, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl",
+                            "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
   if (Status s = make(magnified, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
   if (Status s = make(plain, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
   if (Status s = make(oblique, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
   if (options_.texturing == Texturing::paper) {
-    return make(paper,
-                {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+    return make(paper, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl",
+                        "patch_paper.frag"});
   }
   return Done{};
 }
