@@ -158,6 +158,22 @@ SkyColors dome_colors(const AirTables& air, const AirEye& eye) {
   return c;
 }
 
+// Sunlight and skylight on level ground.
+glm::vec3 light_on_ground(const AirTables& air, double sun_cos) {
+  constexpr glm::vec3 kNight(1e-5F);  // without a colour
+  return air.sunlight(1.0, sun_cos) * static_cast<float>(std::max(0.0, sun_cos)) +
+         air.skylight(1.0, sun_cos) * static_cast<float>(std::numbers::pi) + kNight;
+}
+
+// The colour of the light on the ground, whose brightness the ground's own programs know: red beside the terminator. A
+// picture of the ground is taken by day, with the Sun at 20 degrees or more.
+glm::vec3 tint_of_ground(const AirTables& air, double sun_cos) {
+  constexpr double kPictured_cos = 0.35;
+  if (sun_cos >= kPictured_cos) return glm::vec3(1.0F);
+  const glm::vec3 color = light_on_ground(air, sun_cos) / light_on_ground(air, kPictured_cos);
+  return color / std::max({color.r, color.g, color.b});
+}
+
 // The ground's light after `passed` of its own and `light` of the air's, so that black and a middle grey come out as
 // they do in light (sRGB decoded).
 void add_ground_color(const glm::vec3& passed, const glm::vec3& light, GroundColors& c) {
@@ -190,7 +206,10 @@ GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
       const double azimuth_cos = std::cos(std::numbers::pi * column / (GroundColors::kColumns - 1.0));
       const AirLight light = march(air, eye, ray, steps, azimuth_cos).back();
       const double to_sun = sun_cosine(eye, ray.sine, ray.cosine, azimuth_cos);
-      add_ground_color(beyond, on_film(share * radiance(light, air.air(), to_sun), air.air()), c);
+      // The Sun over the ground: the eye's place and the ray add up to the ground's.
+      const double over_ground = eye.radius * eye.sun_cos + (ray.end - ray.eye) * to_sun;
+      add_ground_color(beyond * tint_of_ground(air, over_ground),
+                       on_film(share * radiance(light, air.air(), to_sun), air.air()), c);
     }
   }
   return c;

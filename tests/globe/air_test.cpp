@@ -100,7 +100,6 @@ class AirPictures : public GlTest {
         if (!expected) continue;
         for (int c = 0; c < 3; ++c) {
           const double off = double(seen.at(x, y)[static_cast<std::size_t>(c)]) - (*expected)[c];
-          if (getenv("AIRDBG") && c==2) std::printf("  %d %d: %d %.1f\n", x, y, seen.at(x,y)[2], (*expected)[2]);
           sum.squares += off * off;
           ++sum.count;
         }
@@ -123,7 +122,6 @@ TEST_F(AirPictures, AreThoseOfMarchedRays) {
       globe->set_camera(camera(v));
       settle(*globe, kSize);
       const Sum one = compare(truth, make_view(camera(v), body.ellipsoid, kSize), 0.0);
-      if (getenv("AIRDBG")) std::printf("%s %g m sun %g: %.2f\n", name, v.height_m, v.sun_deg, one.rms());
       EXPECT_LE(one.rms(), kOne_levels) << name << " from " << v.height_m << " m, Sun at " << v.sun_deg;
       all.squares += one.squares;
       all.count += one.count;

@@ -77,7 +77,8 @@ std::vector<int> begins_of(const Levels& p) {
 
 /// Land, sea, and white floes of six degrees in a blue sea.
 Color floes(double lon, double lat) {
-  const double a = std::sin(lon * 0.12) * std::sin(lat * 0.15), b = std::sin(lon * 0.5 + lat * 0.1) * std::sin(lat * 0.45);
+  const double a = std::sin(lon * 0.12) * std::sin(lat * 0.15),
+               b = std::sin(lon * 0.5 + lat * 0.1) * std::sin(lat * 0.45);
   if (b > 0.6) return {235, 240, 245};
   return a > 0.2 ? Color{90, 100, 60} : Color{20, 40, 90};
 }

@@ -44,15 +44,15 @@ TEST(Atmosphere, HasTheDepthOfItsGas) {
   }
 }
 
-// A level ray passes sqrt(π R H / 2) of the ground's density, to R/H's order.
+// A level ray passes sqrt(π R H / 2) of the ground's density, to R/H's order. Ozone takes hardly any blue light.
 TEST(Atmosphere, HasTheDepthOfALevelRay) {
   const Atmosphere& air = earth_tables().air();
   const auto through = [](double coefficient, double scale_m) {
     return coefficient * std::sqrt(0.5 * 3.14159265 * kEarthRadius_m * scale_m);
   };
   const double depth =
-      through(air.gas_scatter_per_m.r, air.gas_scale_m) + through(air.dust_extinct_per_m.r, air.dust_scale_m);
-  EXPECT_NEAR(-std::log(earth_tables().transmittance(1.0, 0.0).r) / depth, 1.0, 0.03);
+      through(air.gas_scatter_per_m.b, air.gas_scale_m) + through(air.dust_extinct_per_m.b, air.dust_scale_m);
+  EXPECT_NEAR(-std::log(earth_tables().transmittance(1.0, 0.0).b) / depth, 1.0, 0.03);
 }
 
 TEST(Atmosphere, EndsSoftly) {
