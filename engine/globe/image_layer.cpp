@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
+/// Priority of drawn tiles that have a better edition: after all tiles that are not there.
+constexpr double kRenewal = -1e9;
 
 // The other texturing methods exist for comparison, so they draw the full grid, as every tool does.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
@@ -106,6 +108,7 @@ void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
   std::swap(patches_, plan.patches);
   std::swap(coverage_, plan.coverage);
   detail_ = plan.detail;
+  frame_ = frame;
   coverage_.uses.note(frame, tiles_.residency());
 }
 
@@ -124,6 +127,7 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
     const TileTexels& texels = *loaded->tile;
     has_transparency_ = has_transparency_ || !texels.opaque;
     if (tiles_.upload(loaded->id, texels.mips, frame)) {
+      tiles_.residency().entry(loaded->id).edition = loaded->edition;
       bytes += tiles_.slot_bytes();
       allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
     }
@@ -140,7 +144,16 @@ void ImageLayer::ask() {
     if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
   }
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
+  edition_ = source_->edition();
+  if (edition_ > 0) add_outdated(requests);
   stream_->request(requests);
+}
+
+void ImageLayer::add_outdated(std::vector<TileRequest>& requests) {
+  for (const auto& [id, entry] : tiles_.residency().entries()) {
+    if (entry.state != TileState::resident || entry.last_drawn < frame_ || entry.edition >= edition_) continue;
+    if (entry.edition < source_->edition_of(id)) requests.push_back({id, kRenewal});
+  }
 }
 
 void ImageLayer::end_frame(std::uint64_t frame) {

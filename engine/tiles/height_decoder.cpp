@@ -46,6 +46,24 @@ Result<Numbers, TileFailure> from_png(const EncodedTile& encoded, int side_px, b
   return numbers;
 }
 
+Result<Numbers, TileFailure> from_colours(const EncodedTile& encoded, int side_px) {
+  if (sniff_format(encoded.bytes) == ImageFormat::jpeg) {
+    return broken("a JPEG picture, whose colours are not exact; heights in colours are PNG or lossless WebP");
+  }
+  DecodeLimits limits;
+  limits.max_side_px = std::max(side_px, 1024);
+  const Result<Image> image = decode_image(encoded.bytes, limits);
+  if (!image) return broken(image.error().message);
+  Numbers numbers{image->width_px, image->height_px, std::vector<float>(image->rgba.size() / 4)};
+  for (std::size_t i = 0; i < numbers.values.size(); ++i) {
+    const std::uint8_t* pixel = image->rgba.data() + 4 * i;
+    // 24 bits are as many as a float has.
+    numbers.values[i] = pixel[3] == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                      : static_cast<float>(pixel[0] * 65536 + pixel[1] * 256 + pixel[2]);
+  }
+  return numbers;
+}
+
 Result<Numbers, TileFailure> from_tiff(const EncodedTile& encoded, int side_px) {
   auto values = decode_float_tiff(encoded.bytes, side_px);
   if (!values) return broken(values.error().message);
@@ -79,6 +97,7 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const Numbers& numbe
 
 Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const NumberInfo& info, int side_px) {
   auto numbers = tile.make_numbers ? tile.make_numbers()
+                 : info.rgb        ? from_colours(tile, side_px)
                  : info.floats     ? from_tiff(tile, side_px)
                                    : from_png(tile, side_px, info.is_signed);
   if (!numbers) return numbers;

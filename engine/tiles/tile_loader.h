@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -25,6 +26,7 @@ template <class Decoded>
 struct Loaded {
   TileId id;
   Result<Decoded, TileFailure> tile;
+  std::uint64_t edition = 0;  ///< TileSource::edition() before the tile was read
 };
 
 struct LoaderOptions {

@@ -30,6 +30,9 @@ struct NumberInfo {
   std::optional<double> nodata = {};  ///< number that means "no data"; for integer tiles in [0, 65535]
   bool floats = false;                ///< true: tiles are TIFFs of 32-bit floats; false: gray PNGs of 16 bits
   bool is_signed = false;             ///< the 16 bits of a PNG are a two's complement number, as GDAL's Int16
+  /// true: tiles are lossless pictures of 8-bit colours, number = R · 65536 + G · 256 + B, clear pixels have no data:
+  /// terrain-RGB and Terrarium
+  bool rgb = false;
   /// Set: all numbers at full resolution are whole and lie in this range, `nodata` included. Such numbers take half the
   /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
   std::optional<WholeRange> whole = {};
@@ -42,6 +45,7 @@ struct NumberInfo {
 [[nodiscard]] inline NumberInfo decoded(NumberInfo info) {
   info.nodata.reset();
   info.is_signed = false;
+  info.rgb = false;
   info.floats = true;
   return info;
 }
@@ -121,6 +125,14 @@ class TileSource {
   /// scale and offset applied (NumberInfo). `blank`: that pixel has no data; `absent`: the source has no numbers there;
   /// `remote`: only the network has them. Decodes a tile, milliseconds. thread: worker
   [[nodiscard]] virtual Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure);
+  /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
+  /// changed since they were read, and shows the earlier ones meanwhile. thread: any
+  [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
+  /// Count of the last change of a tile that could be read before. thread: any
+  [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
+    static_cast<void>(id);
+    return edition();
+  }
   /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

@@ -29,7 +29,7 @@ vec2 tap(Cell cell, vec2 p) {
 #define precise_tap tap
 
 vec2 level_tap(vec3 at, int level) {
-  ivec2 last = textureSize(tiles, level).xy - 1;
+  ivec2 last = ivec2((int(texels.y) >> level) - 1);  // textureSize() may take one level for several fragments
   vec2 texel = at.xy * vec2(last + 1) - 0.5, first = floor(texel);
   ivec2 a = clamp(ivec2(first), ivec2(0), last), b = clamp(ivec2(first) + 1, ivec2(0), last);
   int slot = int(at.z);

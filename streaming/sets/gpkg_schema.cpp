@@ -130,7 +130,7 @@ SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
 namespace {
 
 /// The extension knows no two's complement numbers. Other programs see gray pictures of them.
-bool is_coverage(const TileSetInfo& info) { return info.numbers && !info.numbers->is_signed; }
+bool is_coverage(const TileSetInfo& info) { return info.numbers && !info.numbers->is_signed && !info.numbers->rgb; }
 
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;

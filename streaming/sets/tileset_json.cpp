@@ -67,7 +67,7 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   const bool tiff = info.numbers && info.numbers->floats && fields.has("format") && object["format"] == kTiffEnding;
   info.format =
       tiff ? ImageFormat::png : static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
-  if (info.numbers && info.format != ImageFormat::png) {
+  if (info.numbers && !info.numbers->rgb && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   info.square = read_square(object, fields, where);
@@ -115,6 +115,7 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
     if (info.numbers->nodata && !info.numbers->floats) elevation["nodata"] = static_cast<int>(*info.numbers->nodata);
     if (info.numbers->is_signed) elevation["numbers"] = "signed";
     if (info.numbers->floats) elevation["numbers"] = "float";
+    if (info.numbers->rgb) elevation["numbers"] = "rgb";
     if (!info.numbers->unit.empty()) elevation["unit"] = info.numbers->unit;
     if (!info.numbers->quantity.empty()) elevation["quantity"] = info.numbers->quantity;
   }

@@ -13,9 +13,9 @@
 namespace terrella::test {
 namespace {
 
-constexpr Viewport kShot{192, 192};
-constexpr int kTile_px = 64, kFinest = 3;
-constexpr int kWidth = 2 * kTile_px << kFinest;
+constexpr Viewport kTruthShot{192, 192};
+constexpr int kTruthTile_px = 64, kTruthFinest = 3;
+constexpr int kTruthWidth = 2 * kTruthTile_px << kTruthFinest;
 
 /// A square of means of noise, for each level from the finest.
 class NoisePyramid {
@@ -24,13 +24,14 @@ class NoisePyramid {
     std::vector<double> finest;
     for (std::size_t i = 0; i < noise.rgb.size(); i += 3) finest.push_back(noise.rgb[i]);
     levels_.push_back(std::move(finest));
-    for (int width = kWidth / 2; width >= 2 * kTile_px; width /= 2) levels_.push_back(halved(levels_.back(), width));
+    for (int width = kTruthWidth / 2; width >= 2 * kTruthTile_px; width /= 2)
+      levels_.push_back(halved(levels_.back(), width));
   }
   [[nodiscard]] double at(const TileId& id, int x, int y) const {
-    const int width = 2 * kTile_px << id.level;
-    const auto column = static_cast<std::size_t>(id.x * kTile_px + x),
-               row = static_cast<std::size_t>(id.y * kTile_px + y);
-    return levels_[static_cast<std::size_t>(kFinest - id.level)][row * static_cast<std::size_t>(width) + column];
+    const int width = 2 * kTruthTile_px << id.level;
+    const auto column = static_cast<std::size_t>(id.x * kTruthTile_px + x),
+               row = static_cast<std::size_t>(id.y * kTruthTile_px + y);
+    return levels_[static_cast<std::size_t>(kTruthFinest - id.level)][row * static_cast<std::size_t>(width) + column];
   }
 
  private:
@@ -50,7 +51,7 @@ class NoisePyramid {
 class NoiseTiles : public TileSource {
  public:
   NoiseTiles(std::shared_ptr<const NoisePyramid> noise, bool numbers) : noise_(std::move(noise)) {
-    info_.grid = {.tile_px = kTile_px, .max_level = kFinest};
+    info_.grid = {.tile_px = kTruthTile_px, .max_level = kTruthFinest};
     info_.format = ImageFormat::png;
     if (numbers) info_.numbers = NumberInfo{.floats = true};
   }
@@ -60,17 +61,18 @@ class NoiseTiles : public TileSource {
     if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside"};
     if (info_.numbers) {
       tile.make_numbers = [id, noise = noise_]() -> Result<Numbers, TileFailure> {
-        Numbers made{kTile_px, kTile_px, {}};
-        for (int k = 0; k < kTile_px * kTile_px; ++k) {
-          made.values.push_back(static_cast<float>(noise->at(id, k % kTile_px, k / kTile_px)));
+        Numbers made{kTruthTile_px, kTruthTile_px, {}};
+        for (int k = 0; k < kTruthTile_px * kTruthTile_px; ++k) {
+          made.values.push_back(static_cast<float>(noise->at(id, k % kTruthTile_px, k / kTruthTile_px)));
         }
         return made;
       };
     } else {
       tile.make_picture = [id, noise = noise_]() -> Result<Image, TileFailure> {
-        Image made{kTile_px, kTile_px, {}};
-        for (int k = 0; k < kTile_px * kTile_px; ++k) {
-          const auto level = static_cast<std::uint8_t>(std::lround(noise->at(id, k % kTile_px, k / kTile_px)));
+        Image made{kTruthTile_px, kTruthTile_px, {}};
+        for (int k = 0; k < kTruthTile_px * kTruthTile_px; ++k) {
+          const auto level =
+              static_cast<std::uint8_t>(std::lround(noise->at(id, k % kTruthTile_px, k / kTruthTile_px)));
           made.rgba.insert(made.rgba.end(), {level, level, level, 255});
         }
         return made;
@@ -92,8 +94,8 @@ class NumberTruth : public GlTest {
     EXPECT_TRUE(globe &&
                 (*globe)->add_imagery(std::make_shared<NoiseTiles>(noise_, look.has_value()), {.numbers = look}));
     (*globe)->set_camera(camera);
-    settle(**globe, kShot);
-    truth::Picture shot{kShot.width_px, kShot.height_px, {}};
+    settle(**globe, kTruthShot);
+    truth::Picture shot{kTruthShot.width_px, kTruthShot.height_px, {}};
     const Picture shown = picture();
     for (std::size_t k = 0; k < shown.rgba.size(); k += 4) {
       shot.rgb.insert(shot.rgb.end(), {shown.rgba[k], shown.rgba[k + 1], shown.rgba[k + 2]});
@@ -113,7 +115,7 @@ class NumberTruth : public GlTest {
     }
     return truth;
   }
-  const truth::Picture planet_ = grey(truth::noise_planet({.width = kWidth, .height = kWidth / 2}));
+  const truth::Picture planet_ = grey(truth::noise_planet({.width = kTruthWidth, .height = kTruthWidth / 2}));
   const std::shared_ptr<const NoisePyramid> noise_ = std::make_shared<NoisePyramid>(planet_);
 };
 
@@ -126,7 +128,8 @@ TEST_F(NumberTruth, NumbersAreAsNearToItAsAPictureIs) {
                                   .heading_deg = camera.heading.deg(),
                                   .pitch_deg = camera.pitch.deg(),
                                   .fov_deg = camera.fov_y.deg()};
-    const auto truth = truth::cast(planet_, {}, {}, rays, {.width = kShot.width_px, .height = kShot.height_px});
+    const auto truth =
+        truth::cast(planet_, {}, {}, rays, {.width = kTruthShot.width_px, .height = kTruthShot.height_px});
     const double picture = error({}, camera, truth), numbers = error(plain, camera, truth);
     const double mapped = error(colors, camera, colored(truth, colors));
     fmt::print(

@@ -12,7 +12,7 @@
 namespace terrella::test {
 namespace {
 
-constexpr Viewport kShot{96, 96};
+constexpr Viewport kValueShot{96, 96};
 constexpr int kTile_px = 64, kFinest = 4;
 constexpr double kTexel_deg = 180.0 / kTile_px / (1 << kFinest);
 const TileGrid kGrid{.tile_px = kTile_px, .max_level = kFinest};
@@ -57,7 +57,7 @@ TEST_F(NumberValues, OfLoadedTilesAreThoseOfTheSourceBitByBit) {
   const LayerId layer = add(
       std::make_shared<PaintedNumbers>(kGrid, painted, NumberInfo{.scale = 0.1, .offset = -273.15, .floats = true}));
   globe_->set_camera(camera_at(10, 178, 5.0e5));
-  settle(*globe_, kShot);
+  settle(*globe_, kValueShot);
   Draw draw(7);
   int finest = 0, none = 0;
   for (int k = 0; k < 300; ++k) {
@@ -93,7 +93,7 @@ TEST_F(NumberValues, OfCodesAreThoseOfTheSource) {
   const LayerId layer = add(
       std::make_shared<PaintedNumbers>(kGrid, whole, NumberInfo{.floats = true, .whole = WholeRange{-32767, 32767}}));
   globe_->set_camera(camera_at(10, 20, 5.0e5));
-  settle(*globe_, kShot);
+  settle(*globe_, kValueShot);
   Draw draw(8);
   for (int k = 0; k < 200; ++k) {
     const Geodetic place = at(draw.between(9.0, 11.0), draw.between(19.0, 21.0));
@@ -101,7 +101,8 @@ TEST_F(NumberValues, OfCodesAreThoseOfTheSource) {
     ASSERT_TRUE(value && *value && (*value)->level == kFinest);
     const double number = number_around(place);
     EXPECT_EQ(std::isnan(number), std::isnan((*value)->value));
-    if (!std::isnan(number)) EXPECT_EQ((*value)->value, std::fmod(std::floor(number), 60000.0) - 30000.0);
+    if (std::isnan(number)) continue;
+    EXPECT_EQ((*value)->value, std::fmod(std::floor(number), 60000.0) - 30000.0);
   }
 }
 
@@ -112,7 +113,7 @@ TEST_F(NumberValues, NearAPoleAreThoseOfTheSqueezedTexel) {
   const LayerId layer =
       add(std::make_shared<PaintedNumbers>(grid, [](double lon, double) { return static_cast<float>(lon); }));
   globe_->set_camera(camera_at(89, 20, 1.0e6));
-  settle(*globe_, kShot);
+  settle(*globe_, kValueShot);
   Draw draw(9);
   double widest = 0.0;
   for (int k = 0; k < 100; ++k) {

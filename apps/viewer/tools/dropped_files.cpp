@@ -68,6 +68,7 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.place = {};
   tiles_options.numbers = {};
   tiles_options.remote = {};
+  tiles_options.cuts = nullptr;
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
