@@ -72,6 +72,29 @@ void add_colormap_option(CLI::App& command, NumberOptions& options) {
       ->excludes(command.get_option("--bands"));
 }
 
+void add_number_options(CLI::App& command, NumberOptions& options, double& pole_band) {
+  command
+      .add_option_function<std::string>(
+          "--band",
+          [&options, &pole_band](const std::string& text) {
+            if (const auto band = band_number(text)) {
+              options.band = *band;
+            } else if (const std::string wrong = number_in(0.001, 0.5)(std::string(text)); !wrong.empty()) {
+              throw CLI::ValidationError("--band", wrong + ", or a band's number from 1 on");
+            } else {
+              pole_band = *read_number(text);
+            }
+          },
+          "Show the numbers of this band of a TIFF, counted from 1. With --texturing paper, a fraction from 0.001 to "
+          "0.5 "
+          "is the width b of the pole bands (default: 0.05)")
+      ->type_name("N");
+  add_stretch_options(command, options);
+  add_colormap_option(command, options);
+  command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
+      ->type_name("VALUE");
+}
+
 bool reads_numbers(const NumberOptions& options, const std::filesystem::path& raster) {
   return !options.bands && (options.ask_for_numbers() || holds_numbers(raster));
 }

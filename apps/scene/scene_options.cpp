@@ -8,7 +8,6 @@
 #include "apps/commands/remote_set_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/scene/scene_overlays.h"
-#include "base/number.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "streaming/sets/elevation_json.h"
@@ -85,32 +84,6 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
       "Choose the depth buffer's encoding")
       ->default_str("reversed");
-}
-
-/// --band was the width of paper 1's pole bands before it was a band of a raster. A whole number is a band.
-void add_number_options(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--band",
-          [&options](const std::string& text) {
-            if (const auto band = band_number(text)) {
-              options.numbers.band = *band;
-            } else if (const std::string wrong = number_in(0.001, 0.5)(std::string(text)); !wrong.empty()) {
-              throw CLI::ValidationError("--band", wrong + ", or a band's number from 1 on");
-            } else {
-              options.band = *read_number(text);
-            }
-          },
-          "Show the numbers of this band of a TIFF, counted from 1. With --texturing paper, a fraction from 0.001 to "
-          "0.5 "
-          "is the width b of the pole bands (default: 0.05)")
-      ->type_name("N");
-  add_stretch_options(command, options.numbers);
-  add_colormap_option(command, options.numbers);
-  command
-      .add_option("--nodata", options.numbers.nodata,
-                  "Set the value that means no data in a raster that does not say it")
-      ->type_name("VALUE");
 }
 
 void add_overlay_options(CLI::App& command, SceneOptions& options) {
@@ -270,13 +243,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
-          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a TIFF, or "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
+          "TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_place_options(command, options.place);
-  add_number_options(command, options);
+  add_number_options(command, options.numbers, options.band);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);

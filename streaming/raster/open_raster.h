@@ -9,8 +9,8 @@
 
 #include "base/result.h"
 #include "streaming/georeference/affine.h"
+#include "streaming/numbers/coding_options.h"
 #include "streaming/numbers/number_statistics.h"
-#include "streaming/raster/coding_options.h"
 #include "streaming/raster/raster_source.h"
 
 namespace terrella {

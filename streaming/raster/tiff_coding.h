@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/result.h"
-#include "streaming/raster/coding_options.h"
+#include "streaming/numbers/coding_options.h"
 #include "streaming/raster/tiff_pyramid.h"
 
 namespace terrella {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/result.h"
-#include "streaming/raster/coding_options.h"
+#include "streaming/numbers/coding_options.h"
 
 namespace terrella {
 
