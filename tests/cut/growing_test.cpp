@@ -33,20 +33,17 @@ double rms(const Image& a, const Image& b) {
   return std::sqrt(sum / static_cast<double>(a.rgba.size()));
 }
 
-Image read_made(TileSource& source, const TileId& id) {
-  auto tile = source.read(id);
-  EXPECT_TRUE(tile) << id.level << " " << id.x << " " << id.y;
-  if (!tile) return {};
-  auto image = tile->make_picture ? tile->make_picture() : Result<Image, TileFailure>(*decode_image(tile->bytes));
-  return image ? *std::move(image) : Image{};
-}
-
 std::vector<std::byte> bytes_of(const Result<EncodedTile, TileFailure>& tile) {
   return tile ? tile->bytes : std::vector<std::byte>{};
 }
 
 class GrowingCutTest : public testing::Test {
  protected:
+  /// Five bands of 256 rows, wider than a canvas.
+  void write_large() {
+    write_png(options_.images.front(), noise(2560, 1280));
+    options_.tile_px = 32;
+  }
   std::shared_ptr<GrowingCut> start() {
     auto cut = GrowingCut::start(options_, folder_.path());
     EXPECT_TRUE(cut) << cut.error().message;
@@ -82,10 +79,9 @@ TEST_F(GrowingCutTest, EveryTileIsThatOfThePlainCutInTheEnd) {
 }
 
 TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
-  write_png(options_.images.front(), noise(4096, 2048));
-  options_.tile_px = 64;
+  write_large();
   const auto cut = start();
-  const TileId last{.level = cut->info().grid.max_level, .x = 11, .y = 31};
+  const TileId last{.level = cut->info().grid.max_level, .x = 11, .y = 39};
   std::promise<std::vector<std::byte>> arrived;
   ASSERT_FALSE(cut->read(last)) << "the last row is not cut at the start";
   EXPECT_EQ(cut->read(last).error().kind, MissingKind::remote);
@@ -93,7 +89,7 @@ TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
   EXPECT_GT(cut->edition_of({}), 0U) << "coarse tiles become better";
   EXPECT_TRUE(cut->read({}).value().make_picture) << "the coarsest tile is there at once";
   cut->remote()->fetch(last, 0.0, [&](auto tile) { arrived.set_value(bytes_of(tile)); });
-  const TileId given_up{.level = last.level, .x = 12, .y = 31};
+  const TileId given_up{.level = last.level, .x = 12, .y = 39};
   cut->remote()->fetch(given_up, 0.0, [](auto) { ADD_FAILURE() << "it was cancelled"; });
   cut->remote()->cancel(given_up);
   const auto bytes = arrived.get_future().get();
@@ -103,8 +99,7 @@ TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
 }
 
 TEST_F(GrowingCutTest, AStoppedCutKeepsWhatIsDoneAndTheNextGoesOnFromThere) {
-  write_png(options_.images.front(), noise(4096, 2048));
-  options_.tile_px = 64;  // four bands of 512 rows
+  write_large();
   for (auto cut = start(); cut->state().share < 0.4;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const fs::path left = left_over();
   ASSERT_FALSE(left.empty());
@@ -120,13 +115,14 @@ TEST_F(GrowingCutTest, AStoppedCutKeepsWhatIsDoneAndTheNextGoesOnFromThere) {
 }
 
 TEST_F(GrowingCutTest, ADamagedPictureIsToldAndFineTilesThenFail) {
-  write_png(options_.images.front(), noise(1024, 512));
+  write_large();
   fs::resize_file(options_.images.front(), fs::file_size(options_.images.front()) / 2);
   const auto cut = start();
   while (!cut->state().ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(cut->state().error);
   EXPECT_NE(cut->state().error->message.find("in.png: row"), std::string::npos) << cut->state().error->message;
-  const auto tile = cut->read({.level = cut->info().grid.max_level, .x = 0, .y = 31});
+  const auto tile = cut->read({.level = cut->info().grid.max_level, .x = 0, .y = 39});
+  ASSERT_FALSE(tile);
   EXPECT_EQ(tile.error().kind, MissingKind::broken);
   EXPECT_TRUE(cut->read({}).value().make_picture) << "the coarse picture stays";
   EXPECT_TRUE(left_over().empty()) << "work that failed is not kept";
