@@ -53,8 +53,8 @@ Result<std::unique_ptr<TileSource>> coarse_tiles(const CutOptions& options, cons
   if (!*raster) return std::unique_ptr<TileSource>{};
   const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
   if (!body) return body.error();
-  auto planner = TilePlanner::open((*raster)->info(), {body->ellipsoid, grid.latitude, grid.latitude}, grid,
-                                   Overviews::stored);
+  auto planner =
+      TilePlanner::open((*raster)->info(), {body->ellipsoid, grid.latitude, grid.latitude}, grid, Overviews::stored);
   if (!planner) return planner.error();
   TileSetInfo info{.name = {}, .attribution = {}, .body = {}, .grid = grid};
   return make_warp_source(*std::move(raster), *std::move(planner), std::move(info), {}, kWarpDecodedBytes);
