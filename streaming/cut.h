@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -37,6 +40,14 @@ struct CutShard {
   int count = 1;
 };
 
+/// A picture that is no local file, such as a TIFF on a server.
+struct CutRaster {
+  PictureFile picture;  ///< name, size and bytes
+  std::string key;      ///< differs if the pixels may differ
+  /// Opens the raster. Its blocks are read as those of a local one.
+  std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
+};
+
 /// Place of an encoded tile in a file of unfinished work. The file may get the name without ".part" at any time.
 struct CutTile {
   TileId id;
@@ -57,6 +68,7 @@ struct CutWatch {
 
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;

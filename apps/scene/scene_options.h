@@ -45,10 +45,11 @@ struct SceneOptions {
   int polar_columns = 32;
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
-  Url elevation;              ///< tile set of heights; empty: none
-  double exaggeration = 1.0;  ///< factor for heights
-  Url night;                  ///< tile set for the night side; empty: none
-  OverlayOption clouds;       ///< top layer; brightness is alpha; empty: none
+  Url elevation;                                 ///< tile set of heights; empty: none
+  std::optional<NumberInfo> elevation_encoding;  ///< of tiles whose heights are in colours; absent: as they state
+  double exaggeration = 1.0;                     ///< factor for heights
+  Url night;                                     ///< tile set for the night side; empty: none
+  OverlayOption clouds;                          ///< top layer; brightness is alpha; empty: none
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none

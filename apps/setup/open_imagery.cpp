@@ -10,16 +10,20 @@
 #include <string_view>
 
 #include "apps/setup/data_dir.h"
+#include "apps/setup/open_cache.h"
 #include "apps/setup/open_picture.h"
+#include "apps/setup/open_rasters.h"
 #include "apps/setup/open_remote.h"
 #include "apps/setup/user_folder.h"
 #include "codecs/image.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/figure.h"
+#include "streaming/raster/length_unit.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/tiff_open.h"
+#include "streaming/warp/web_mercator.h"
 
 namespace terrella {
 namespace {
@@ -37,6 +41,9 @@ class DescribedSource : public TileSource {
   [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
   [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
+    return tiles_->value_at(place, figure);
+  }
 
  private:
   std::shared_ptr<TileSource> tiles_;
@@ -44,6 +51,11 @@ class DescribedSource : public TileSource {
 };
 
 Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
+  if (names_mosaic(options.tile_set)) {
+    auto tiles = open_many_rasters(options, MosaicPixels::as_stored);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
@@ -118,7 +130,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 }
 
 Status find_imagery(const SceneOptions& options) {
-  if (is_remote(options.tile_set)) return Done{};
+  if (is_remote(options.tile_set) || names_mosaic(options.tile_set)) return Done{};
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
@@ -158,28 +170,56 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
 
 Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   auto tiles = open_any_tiles(options);
-  if (!tiles || !(*tiles)->info().elevation) return tiles;
+  if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
       fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
                   "--elevation {0}",
                   options.tile_set.redacted())};
 }
 
-Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
-  if (options.elevation.empty()) return std::optional<ElevationSource>();
-  if (is_picture(options.elevation.with_secrets())) {
-    return Error{
-        fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
-                    "of one of 16 bits "
-                    "or floats a pixel",
-                    options.elevation.redacted())};
+/// Opens tiles whose numbers are in colours, as --elevation-encoding says.
+Result<std::shared_ptr<TileSource>> open_encoded(const SceneOptions& heights, const NumberInfo& encoding) {
+  if (is_remote(heights.tile_set)) {
+    SceneOptions encoded = heights;
+    encoded.remote.numbers = encoding;
+    return open_remote(encoded);
   }
+  auto stored = open_stored_tile_set(heights.tile_set.with_secrets());
+  if (!stored) return stored.error();
+  TileSetInfo info = (*stored)->info();
+  info.numbers = encoding;
+  auto tiles =
+      as_geodetic(std::make_unique<DescribedSource>(*std::move(stored), std::move(info)), heights.tile_set.redacted());
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+/// Opens the tiles of --elevation: of a tile set, of a raster, or of many.
+Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& options) {
+  const SceneOptions heights = heights_options(options);
+  const bool many = names_mosaic(heights.tile_set);
+  if (many || is_picture(heights.tile_set.with_secrets())) {
+    auto tiles = many ? open_many_rasters(heights, MosaicPixels::heights) : open_height_raster(heights);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
+  if (options.elevation_encoding) return open_encoded(heights, *options.elevation_encoding);
   // Fails without a request: only a description states what a server's numbers mean.
   if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
-  auto tiles = open_any_tiles(heights_options(options));
+  auto tiles = open_any_tiles(heights);
+  if (tiles && is_remote(options.elevation) && !(*tiles)->info().numbers) return no_meaning(options.elevation, "wmts");
+  return tiles;
+}
+
+Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
+  if (options.elevation.empty()) return std::optional<ElevationSource>();
+  auto tiles = open_height_tiles(options);
   if (!tiles) return tiles.error();
-  if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
-  auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
+  const auto& numbers = (*tiles)->info().numbers;
+  if (numbers && !metres_of_unit(numbers->unit)) {
+    return Error{fmt::format("{}: {}", options.elevation.redacted(), no_length(numbers->unit))};
+  }
+  auto source = ElevationSource::open(with_level_ground(*std::move(tiles)), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));
 }

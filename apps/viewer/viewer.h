@@ -70,6 +70,7 @@ class Viewer {
   [[nodiscard]] bool work() const;
   void wait_for_work();
   [[nodiscard]] std::string job() const;
+  void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
   [[nodiscard]] PanelStatus status(const View& view) const;
@@ -99,9 +100,10 @@ class Viewer {
   const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
-  std::string job_text_;   ///< job() in the last frame
-  KeptSettings started_;   ///< settings at the start of the run
-  KeptSettings saved_;     ///< settings in the file
+  bool was_at_texels_ = false;
+  std::string job_text_;  ///< job() in the last frame
+  KeptSettings started_;  ///< settings at the start of the run
+  KeptSettings saved_;    ///< settings in the file
   std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };

@@ -81,7 +81,7 @@ class Loader {
 };
 extern template class Loader<TileTexels>;
 
-/// Loads imagery: texels ready for upload, premultiplied. thread: main
+/// Loads imagery: texels ready for upload, premultiplied; of a set of numbers, number_texels.h. thread: main
 class TileLoader : public Loader<TileTexels> {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});

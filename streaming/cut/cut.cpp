@@ -30,7 +30,7 @@ int encoder_count(int jobs) {
 /// True if tiles are JPEG where they are opaque, and PNG at the picture's outline.
 bool has_png_outline(const CutOptions& options, const CutInput& input) {
   const PictureInfo& picture = input.rows->info();
-  return !options.format && !input.elevation && (!picture.has_alpha || picture.opaque_inside);
+  return !options.format && !input.numbers && (!picture.has_alpha || picture.opaque_inside);
 }
 
 bool is_planet(const CutPlan& plan) {
@@ -39,14 +39,14 @@ bool is_planet(const CutPlan& plan) {
 }
 
 PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
-  if (input.elevation) return PixelKind::height;
+  if (input.numbers) return PixelKind::height;
   if (input.rows->info().has_alpha) return PixelKind::alpha;
   return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
-  if (!input.elevation || !input.elevation->nodata) return {};
-  return static_cast<std::uint16_t>(*input.elevation->nodata);
+  if (!input.numbers || !input.numbers->nodata) return {};
+  return static_cast<std::uint16_t>(*input.numbers->nodata);
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
@@ -56,7 +56,7 @@ TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutIn
           .body = options.body,
           .grid = plan.grid,
           .format = options.format.value_or(needs_png ? ImageFormat::png : ImageFormat::jpeg),
-          .elevation = input.elevation};
+          .numbers = input.numbers};
 }
 
 /// One call of cut() with its pictures opened and its output checked.
@@ -76,7 +76,7 @@ struct Job {
             .nodata = nodata_of(input),
             .coding = {.format = info.format,
                        .quality = options.quality,
-                       .heights = input.elevation.has_value(),
+                       .heights = input.numbers.has_value(),
                        .png_outline = has_png_outline(options, input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,

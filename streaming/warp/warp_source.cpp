@@ -111,9 +111,7 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
   info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // of tiles inside the raster
-  if (from.elevation) {
-    info.elevation = ElevationInfo{.scale = from.elevation->scale, .offset = from.elevation->offset, .floats = true};
-  }
+  if (from.numbers) info.numbers = decoded(*from.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, options.decoded_bytes);
 }
 
