@@ -108,7 +108,7 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
-  bool keep_unfinished = false;    ///< what is done stays for the next run if `progress` stops the cut
+  bool keep_unfinished = false;     ///< what is done stays for the next run if `progress` stops the cut
   std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};

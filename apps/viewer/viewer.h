@@ -30,7 +30,7 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
