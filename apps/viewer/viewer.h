@@ -74,7 +74,7 @@ class Viewer {
   void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
-  [[nodiscard]] PanelStatus status(const View& view) const;
+  [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_camera_at_rest();

@@ -68,8 +68,7 @@ void LimbPass::draw(const View& view, const LimbPicture& picture, LimbLook look,
   state.cull.reset();
   apply(state.with(look == LimbLook::lit ? lit_.name() : imagery_.name()));
   glUniform1i(0, picture.rows_apart);
-  glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1,
-              view.viewport.height_px - 1);
+  glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
   if (look == LimbLook::lit) set_air(view, air);
   glBindTextureUnit(0, picture.texture);
   glBindSampler(0, 0);
