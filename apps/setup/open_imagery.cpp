@@ -1,7 +1,6 @@
 #include "apps/setup/open_imagery.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,17 +9,13 @@
 #include <span>
 #include <string_view>
 
-#include "apps/scene/place_options.h"
-#include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
+#include "apps/setup/open_picture.h"
 #include "apps/setup/open_rasters.h"
 #include "apps/setup/open_remote.h"
-#include "apps/setup/progress.h"
-#include "apps/setup/stop_signals.h"
 #include "apps/setup/user_folder.h"
 #include "codecs/image.h"
-#include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/raster/length_unit.h"
@@ -43,6 +38,8 @@ class DescribedSource : public TileSource {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
   [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
+  [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
+  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
     return tiles_->value_at(place, figure);
@@ -52,82 +49,6 @@ class DescribedSource : public TileSource {
   std::shared_ptr<TileSource> tiles_;
   TileSetInfo info_;
 };
-
-/// A folder inside the system's temporary folder; the destructor removes the folder with its contents.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-Result<std::unique_ptr<ScratchFolder>> make_scratch_folder() {
-  std::error_code failed;
-  std::string name = (fs::temp_directory_path(failed) / "terrella-XXXXXX").string();
-  if (failed || mkdtemp(name.data()) == nullptr) {
-    return Error{
-        fmt::format("{}: cannot make a temporary folder there; set TMPDIR to a folder that can be written", name)};
-  }
-  return std::make_unique<ScratchFolder>(name);
-}
-
-/// Keeps the scratch folder while its tiles are read. Members are destroyed last to first: tiles, then folder.
-class ScratchSource : public TileSource {
- public:
-  ScratchSource(std::unique_ptr<ScratchFolder> folder, std::unique_ptr<TileSource> tiles)
-      : folder_(std::move(folder)), tiles_(std::move(tiles)) {}
-  [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
-  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
-  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
-
- private:
-  std::unique_ptr<ScratchFolder> folder_;
-  std::unique_ptr<TileSource> tiles_;
-};
-
-/// Cuts a picture. The cut compares the given body, latitudes and place with the picture's own.
-Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
-                                                 const SceneOptions& options, const CutProgress& told) {
-  CutOptions cut;
-  if (options.body && options.body->name != earth().name) cut.body = options.body->name;
-  cut.latitude = options.latitude;
-  set_place(cut, options.place);
-  cut.remark = [](const std::string& remark) { print_message("terrella: {}\n", remark); };
-  cut.images = {picture};
-  cut.name = picture.stem().string();
-  Progress progress("cutting " + picture.filename().string());
-  cut.progress = told ? told : [&progress](std::int64_t done, std::int64_t total) {
-    progress.show(done, total);
-    return !StopSignals::came();
-  };
-  const auto tiles = cut_into_cache(cut, folder);
-  if (!tiles) return tiles.error();
-  return open_tile_set(*tiles);
-}
-
-Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const SceneOptions& options,
-                                                 const CutProgress& told) {
-  if (options.cache != "off") {
-    const auto folder = picture_cache_folder(options.cache);
-    auto kept =
-        folder ? cut_and_open(picture, *folder, options, told) : Result<std::unique_ptr<TileSource>>(folder.error());
-    if (kept || (folder && can_write_into(*folder))) return kept;
-    say_without_cache(kept.error());
-  }
-  auto scratch = make_scratch_folder();
-  if (!scratch) return scratch.error();
-  auto tiles = cut_and_open(picture, (*scratch)->path(), options, told);
-  if (!tiles) return tiles.error();
-  return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
-}
 
 Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
   if (names_mosaic(options.tile_set)) {
@@ -146,7 +67,15 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
                     "where it lies; leave them out",
                     path.string())};
   }
-  auto tiles = picture ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
+  const NumberOptions& numbers = options.numbers;
+  if (!picture && (numbers.bands || numbers.band > 0 || numbers.nodata)) {
+    return Error{
+        fmt::format("{}: --band, --bands and --nodata choose what is read of a TIFF, and this is a tile set; "
+                    "leave them out",
+                    path.string())};
+  }
+  if (picture) return open_picture(path, options, told);
+  auto tiles = open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -159,6 +88,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.projection.reset();
   heights.latitude.reset();
   heights.place = {};
+  heights.numbers = {};
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
@@ -250,7 +180,7 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   auto tiles = open_any_tiles(options);
   if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
-      fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
+      fmt::format("{0}: its tiles are numbers, not pictures; name them as TILESET or with --overlay, or heights with "
                   "--elevation {0}",
                   options.tile_set.redacted())};
 }

@@ -125,6 +125,14 @@ class TileSource {
   /// scale and offset applied (NumberInfo). `blank`: that pixel has no data; `absent`: the source has no numbers there;
   /// `remote`: only the network has them. Decodes a tile, milliseconds. thread: worker
   [[nodiscard]] virtual Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure);
+  /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
+  /// changed since they were read, and shows the earlier ones meanwhile. thread: any
+  [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
+  /// Count of the last change of a tile that could be read before. thread: any
+  [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
+    static_cast<void>(id);
+    return edition();
+  }
   /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

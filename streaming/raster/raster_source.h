@@ -28,6 +28,7 @@ struct RasterInfo {
   std::string crs;                         ///< text for Crs::open()
   std::vector<RasterLevel> levels;         ///< the coarsest first; never empty. TileId::level is the index
   bool opaque = false;                     ///< every pixel inside a level has data
+  bool by_rows = false;                    ///< blocks of a level are read from the top, row by row
   std::optional<NumberInfo> numbers = {};  ///< set: blocks are numbers; none: blocks are pictures
 };
 

@@ -34,6 +34,7 @@ std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const CrsPlace
   info.name = std::move(picture.name);
   info.crs = place.crs;
   info.opaque = picture.pixels.pixel_bytes == 3;
+  info.by_rows = true;
   if (picture.is_numbers) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
   auto store = std::make_shared<BlockStore>(picture.pixels, temporary_folder(work_folder), std::move(picture.next_row));
   info.levels.push_back({.width_px = picture.pixels.width_px,

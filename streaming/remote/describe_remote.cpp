@@ -204,6 +204,8 @@ class Describing {
 
 }  // namespace
 
+bool names_its_kind(const Url& tile_set) { return kind_of_name(tile_set.with_secrets()) != Kind::unknown; }
+
 bool is_remote(const Url& tile_set) {
   const std::string_view text = tile_set.with_secrets();
   if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;

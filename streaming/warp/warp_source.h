@@ -19,6 +19,7 @@ struct WarpOptions {
   std::string body;   ///< TileSetInfo::body of the result
   int tile_px = 256;  ///< [16, 4096]
   std::size_t decoded_bytes = kWarpDecodedBytes;
+  std::optional<TileGrid> grid = {};  ///< default: warp_grid(); else `tile_px` does not count
 };
 
 /// Chooses the grid of the tiles of a raster. Its finest pixels are no larger than those in the middle of the raster,
