@@ -18,7 +18,7 @@
 #include "codecs/image.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/figure.h"
-#include "streaming/raster/length_unit.h"
+#include "streaming/georeference/length_unit.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"

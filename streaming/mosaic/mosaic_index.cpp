@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/hash_mix.h"
+#include "streaming/georeference/length_unit.h"
 #include "streaming/mosaic/header_text.h"
 #include "streaming/raster/in_parallel.h"
-#include "streaming/raster/length_unit.h"
 
 namespace terrella {
 namespace {

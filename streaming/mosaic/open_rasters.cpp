@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "streaming/raster/length_unit.h"
+#include "streaming/georeference/length_unit.h"
 
 namespace terrella {
 namespace {

@@ -1,4 +1,4 @@
-#include "streaming/raster/length_unit.h"
+#include "streaming/georeference/length_unit.h"
 
 #include <fmt/format.h>
 
