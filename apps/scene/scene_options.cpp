@@ -120,18 +120,16 @@ void add_layer_options(CLI::App& command, SceneOptions& options) {
 }
 
 void add_relief_options(CLI::App& command, SceneOptions& options) {
-  auto& encoding = options.elevation_encoding;
   command
       .add_option(
           "--elevation", options.elevation,
           "Raise the ground by a raster or a folder of rasters with one number a pixel, tiles made by terrella cut "
           "--elevation, a GDAL gridded coverage, or a JSON description with \"elevation\" or \"encoding\"")
       ->type_name("RASTER|FOLDER|TILESET");
-  const auto read_encoding = [&encoding](const std::string& name) { encoding = rgb_encoding(name); };
+  const auto read_encoding = [&options](const std::string& name) { options.elevation_encoding = rgb_encoding(name); };
   command
       .add_option_function<std::string>("--elevation-encoding", read_encoding, "Read heights from the tiles' colours")
       ->check(CLI::IsMember({"terrain-rgb", "mapbox", "terrarium"}))
-      ->type_name("terrain-rgb|terrarium")
       ->needs("--elevation");
   command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
       ->check(number_in(0.0, 100.0))
