@@ -133,10 +133,14 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
     draw_inner_sphere(pass);
     draw_far_side_curtain(pass);
   }
-  draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  // An underground object may stand out over the limb. Under an opaque surface it is drawn after sky and limb; under a
+  // translucent surface it is marked, so that no air is painted over it.
+  const bool opaque = surface_look(pass) == SurfaceFromBelow::opaque;
+  if (!opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, kSurfaceBit);
   draw_surface(pass);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
+  if (opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 

@@ -140,7 +140,7 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   if (air_ != nullptr) {
     block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
     const double r = air_->eye_radius(), horizon_m = e.a_m() * std::sqrt((r - 1.0) * (r + 1.0));
-    block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, 0.0, 0.0);
+    block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, r * e.a_m(), (r - 1.0) * e.a_m());
     const double focal_px = view.pixels_per_radian();
     block.horizon_from_ecef[0].w =
         static_cast<float>(pass.eye.left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px);

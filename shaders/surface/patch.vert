@@ -22,8 +22,25 @@ flat out vec4 row;
 #if defined(AIR)
 layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
 layout(binding = 8) uniform sampler2D ground_light;
-out vec3 air_through;                                     // both per metre of distance: air.glsl
+out vec3 air_through;                                     // with NEAR_GROUND, the part that is lost per metre
 out vec3 air_light;
+
+#if defined(RELIEF)
+const float kAirScale_m = 7000.0;   // of gas and dust together
+
+// Ground over the ellipsoid has less air before it: that of the mean density between its height and the eye's.
+void thin_out(vec3 way) {
+  float eye = horizon_from_ecef[3].z;
+  vec3 place = way + vec3(0.0, 0.0, eye);
+  float eye_height = horizon_from_ecef[3].w, scale = kAirScale_m;
+  float above = max(0.0, length(place) - eye + eye_height) / scale, over = eye_height / scale;
+  over = abs(over - above) < 1e-3 ? above + 1e-3 : over;
+  float part = (exp(-above) - exp(-over)) / (over - above) * over / (1.0 - exp(-over));
+  vec3 thinner = pow(clamp(air_through, 0.0, 1.0), vec3(part));
+  air_light *= (1.0 - thinner) / max(1.0 - air_through, vec3(1e-4));
+  air_through = thinner;
+}
+#endif
 
 void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   mat3 to_horizon = mat3(horizon_from_ecef);
@@ -37,10 +54,15 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   at = (at * (size - 1.0) + 0.5) / size;
   air_through = textureLod(ground_through, at, 0.0).rgb;
   air_light = textureLod(ground_light, at, 0.0).rgb;
+#if defined(RELIEF)
+  thin_out(way);
+#endif
+#if defined(NEAR_GROUND)
   // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
   float metres = over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away;
   air_through = (1.0 - air_through) / metres;
   air_light /= metres;
+#endif
 }
 #endif
 

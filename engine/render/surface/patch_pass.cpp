@@ -85,6 +85,7 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
   return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
                      options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", air_ != nullptr ? "AIR" : "NO_AIR",
+                     which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 

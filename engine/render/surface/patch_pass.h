@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -82,8 +83,9 @@ class PatchPass {
     gl::Program base[kPrograms], upper[kPrograms], special[kPrograms];
     bool has_base = false, has_upper = false, has_special = false;
   };
-  [[nodiscard]] Programs& programs() { return all_[air_ != nullptr ? 1 : 0]; }
-  [[nodiscard]] const Programs& programs() const { return all_[air_ != nullptr ? 1 : 0]; }
+  [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
+  [[nodiscard]] Programs& programs() { return all_[which()]; }
+  [[nodiscard]] const Programs& programs() const { return all_[which()]; }
   Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
   void set_up_vertex_array();
@@ -99,7 +101,7 @@ class PatchPass {
   RenderOptions options_;
   bool has_relief_;
   const AirTextures* air_ = nullptr;
-  Programs all_[2];
+  Programs all_[3];  // without air, from far, near the ground
   double paper_band_ = 0.05;
   double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
