@@ -10,6 +10,7 @@
 #include "apps/scene/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
+#include "streaming/sets/elevation_json.h"
 #include "view/view_limits.h"
 
 namespace terrella {
@@ -61,11 +62,6 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       ->default_str("auto");
   command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
       ->check(number_in(2.0, 8.0))
-      ->capture_default_str();
-  command
-      .add_option("--band", options.band,
-                  "Set the width b of the pole bands for --texturing paper, as a fraction of the picture's height")
-      ->check(number_in(0.001, 0.5))
       ->capture_default_str();
   add_choice<bool>(
       command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
@@ -127,9 +123,19 @@ void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "--elevation", options.elevation,
-          "Raise the ground by a tile set of 16-bit heights, made by terrella cut --elevation or as a GDAL gridded "
-          "coverage. A JSON source description with \"elevation\" names heights on a server")
-      ->type_name("TILESET");
+          "Raise the ground by heights: a raster with one number a pixel in any coordinate system, a folder or list of "
+          "them, a tile set made by terrella cut --elevation, or a GDAL gridded coverage. A JSON source description "
+          "with "
+          "\"elevation\" or \"encoding\" names heights on a server")
+      ->type_name("RASTER|FOLDER|TILESET");
+  command
+      .add_option_function<std::string>(
+          "--elevation-encoding",
+          [&options](const std::string& name) { options.elevation_encoding = rgb_encoding(name); },
+          "Read heights from the colours of the tiles of --elevation")
+      ->check(CLI::IsMember({"terrain-rgb", "mapbox", "terrarium"}))
+      ->type_name("terrain-rgb|terrarium")
+      ->needs("--elevation");
   command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
       ->check(number_in(0.0, 100.0))
       ->capture_default_str();
@@ -214,7 +220,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       .add_option("--cache", options.cache,
                   "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
                   "TILESET is "
-                  "cut into the cache for later runs. 'off' caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
+                  "caches nothing (default: $XDG_CACHE_HOME/terrella or "
                   "~/.cache/terrella)")
       ->type_name("FILE|off");
   command
@@ -236,12 +243,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
-          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS or WMS, or "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
+          "TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_place_options(command, options.place);
+  add_number_options(command, options.numbers, options.band);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);

@@ -68,10 +68,10 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (Status s = patches_->set_air(air_of(pass)); !s) return s;
-  if (const auto upper = pass.upper(); !upper.empty()) {
-    const bool special = std::ranges::any_of(upper, &LayerFrame::special);
-    if (Status s = patches_->prepare_upper(special); !s) return s;
+  patches_->set_air(air_of(pass));
+  for (const LayerFrame& layer : pass.input.layers) {
+    const bool numbers = layer.gpu->numbers.has_value();
+    if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
   }
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;

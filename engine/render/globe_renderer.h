@@ -121,6 +121,10 @@ class GlobeRenderer {
     FrameCounts& counts;
     [[nodiscard]] const LayerFrame& base() const { return input.layers.front(); }
     [[nodiscard]] std::span<const LayerFrame> upper() const { return std::span(input.layers).subspan(1); }
+    [[nodiscard]] LayerRole role_of(const LayerFrame& layer) const {
+      if (&layer == &base()) return LayerRole::base;
+      return layer.special ? LayerRole::special : LayerRole::upper;
+    }
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}

@@ -96,13 +96,13 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
-  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, state, pass.counts);
+  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, LayerRole::base, state, pass.counts);
 }
 
 void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  patches_->draw_upper(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, layer.special, state, pass.counts);
+  patches_->draw(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, pass.role_of(layer), state, pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 

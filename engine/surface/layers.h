@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "tiles/tile_grid.h"
+#include "view/number_look.h"
 
 namespace terrella {
 
@@ -31,6 +33,8 @@ struct ImageLook {
   int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
+  /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.
+  std::optional<NumberLook> numbers = {};
   bool operator==(const ImageLook&) const = default;
 };
 

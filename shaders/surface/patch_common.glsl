@@ -1,5 +1,4 @@
 // Look-ups shared by all texturing methods of patches.
-layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
 layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
 in vec2 window_point;
@@ -46,8 +45,6 @@ Cell cell_at(vec2 p) {
 #define Imagery vec3
 #define IMAGERY(texel) (texel).rgb
 #endif
-
-Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
 
 // Geodetic normal, of any length.
 vec3 ground_normal() {

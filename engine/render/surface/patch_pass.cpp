@@ -1,9 +1,11 @@
 #include "render/surface/patch_pass.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 
 #include "render/gl/shader_library.h"
@@ -23,7 +25,8 @@ struct DrawCommand {
 
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
-constexpr std::string_view kBaseLayer = "BASE_LAYER";
+/// #defines of LayerRole.
+constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
@@ -48,65 +51,57 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  if (const Status built = pass->set_air(nullptr); !built) return built.error();
+  if (const Status built = pass->prepare(LayerRole::base, false); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
-Status PatchPass::prepare_upper(bool special) {
-  Programs& now = programs();
-  if (special && !now.has_special) {
-    if (Status built = build_programs(now.special, "SPECIAL_LAYER"); !built) return built;
-    now.has_special = true;
+Status PatchPass::prepare(LayerRole role, bool numbers) {
+  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][which()];
+  if (!set.made) {
+    if (Status built = build_programs(set.programs, role, numbers); !built) return built;
+    set.made = true;
   }
-  if (!now.has_upper) {
-    if (Status built = build_programs(now.upper, "UPPER_LAYER"); !built) return built;
-    now.has_upper = true;
-  }
-  return flat_program_ ? Done{} : build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
-}
-
-Status PatchPass::set_air(const AirTextures* air) {
-  air_ = air;
-  Programs& now = programs();
-  if (now.has_base) return Done{};
-  Status built = build_programs(now.base, kBaseLayer);
-  now.has_base = bool(built);
-  return built;
+  if (role == LayerRole::base || flat_program_) return Done{};
+  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
 }
 
 Status PatchPass::prepare_depth() {
-  return depth_program_ ? Done{} : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, kBaseLayer);
+  if (depth_program_) return Done{};
+  return build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
 }
 
-Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment,
-                        std::string_view layer) const {
+Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
+                        bool numbers) const {
   return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
                      options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", air_ != nullptr ? "AIR" : "NO_AIR",
                      which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
-                     functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
+                     functions_define(options_.functions.value_or(ShaderFunctions::driver)),
+                     kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
 
-Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
+Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const {
   using enum PatchLayer::Program;
-  const auto make = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) {
-    return build(programs[which], files, layer);
+  const auto make = [&](PatchLayer::Program which, std::string_view file) {
+    return build(programs[which], {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", file}, role,
+                 numbers);
+  };
+  const auto make_exact = [&](PatchLayer::Program which, std::string_view file) {
+    return build(programs[which],
+                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl",
+                  "patch_exact_point.glsl", file},
+                 role, numbers);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = make(polar, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl",
-                            "patch_polar.frag"});
+    Status s = make_exact(polar, "patch_polar.frag");
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = make(magnified, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = make(plain, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = make(oblique, {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
-  if (options_.texturing == Texturing::paper) {
-    return make(paper, {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl",
-                        "patch_paper.frag"});
-  }
-  return Done{};
+  if (Status s = make(magnified, "patch_magnified.frag"); !s) return s;
+  if (Status s = make(plain, "patch_plain.frag"); !s) return s;
+  if (Status s = make(oblique, "patch_oblique.frag"); !s) return s;
+  return options_.texturing == Texturing::paper ? make_exact(paper, "patch_paper.frag") : Done{};
 }
 
 void PatchPass::set_up_vertex_array() {
@@ -201,19 +196,10 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
   ++counts.draw_calls;
 }
 
-void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  draw_programs(programs().base, layer, vertices, tiles, state, counts);
-}
-
-void PatchPass::draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                           bool special, const DrawState& state, FrameCounts& counts) const {
-  draw_programs(special ? programs().special : programs().upper, layer, vertices, tiles, state, counts);
-}
-
-void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
-                              const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
-                              FrameCounts& counts) const {
+  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][which()];
+  assert(set.made);
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
@@ -221,10 +207,15 @@ void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const Pa
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
+  if (layer.numbers) layer.numbers->bind();
   bind_vertices(layer, vertices);
   for (int p = 0; p < kPrograms; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
-    apply(state.with(programs[p].name()));
+    const GLuint program = set.programs[p].name();
+    if (layer.numbers) {
+      glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
+    }
+    apply(state.with(program));
     draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);
   }
   counts.triangles += layer.triangles;

@@ -38,6 +38,13 @@ struct FrameCounts {
   long triangles = 0;
 };
 
+/// The part of a layer in the picture; each part has programs of its own.
+enum class LayerRole {
+  base,     ///< opaque
+  upper,    ///< premultiplied by the tiles' alpha and the opacity in the frame's uniform block
+  special,  ///< upper, and LayerFrame::special
+};
+
 /// Draws the patches of the surface, layer by layer, with a state that the caller gives. Owns their programs. The
 /// caller has bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
@@ -45,11 +52,11 @@ class PatchPass {
   /// `has_relief` means that patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Sees the ground through this air from now on; null: without air. Builds the programs for that, once.
-  Status set_air(const AirTextures* air);
-  /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special. Call
-  /// after set_air().
-  Status prepare_upper(bool special);
+  /// Sees the ground through this air from now on; null: without air.
+  void set_air(const AirTextures* air) { air_ = air; }
+  /// Builds the programs that draw a layer of pictures or numbers in the present air, once; for upper layers also that
+  /// of draw_flat(). Call after set_air().
+  Status prepare(LayerRole role, bool numbers);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
@@ -61,16 +68,13 @@ class PatchPass {
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// Draws the opaque patches of the base layer, program by program.
-  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
-            FrameCounts& counts) const;
-  /// Draws an upper layer, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
-  void draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
-                  const DrawState& state, FrameCounts& counts) const;
+  /// Draws a layer, program by program. Needs prepare().
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
+            const DrawState& state, FrameCounts& counts) const;
   /// Draws depth only, in one call. The depth values are the same bits as those of draw(). Needs prepare_depth().
   void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                   FrameCounts& counts) const;
-  /// Draws opaque black with the same depth, in one call. Needs prepare_upper().
+  /// Draws opaque black with the same depth, in one call. Needs prepare() of an upper layer.
   void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                  FrameCounts& counts) const;
 
@@ -78,21 +82,14 @@ class PatchPass {
   static constexpr int kPrograms = PatchLayer::kPrograms;
 
   PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
-  /// The programs for ground with or without air before it.
-  struct Programs {
-    gl::Program base[kPrograms], upper[kPrograms], special[kPrograms];
-    bool has_base = false, has_upper = false, has_special = false;
-  };
+  /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
   [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
-  [[nodiscard]] Programs& programs() { return all_[which()]; }
-  [[nodiscard]] const Programs& programs() const { return all_[which()]; }
-  Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
-  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
+  Status build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const;
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
+               bool numbers) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
-  void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
-                     const TileTextures& tiles, const DrawState& state, FrameCounts& counts) const;
   void draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
                 const DrawState& state, FrameCounts& counts) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
@@ -100,8 +97,13 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
+  /// The programs of a role, for pictures or numbers, by which() air.
+  struct ProgramSet {
+    gl::Program programs[kPrograms];
+    bool made = false;
+  };
+  ProgramSet sets_[3][2][3];
   const AirTextures* air_ = nullptr;
-  Programs all_[3];  // without air, from far, near the ground
   double paper_band_ = 0.05;
   double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
