@@ -12,6 +12,13 @@ layout(std140, binding = 0) uniform Frame {
   vec4 paper;
   // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.
   vec4 layer_look;
+  // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
+  // over slot_px, slot_px.
+  vec4 relief;
+  // 1: magnified imagery is filtered bicubically; strength of the Sun's glint on the sea; height of the layer over
+  // the ground, in radii; light of the
+  // night side of a body of dust.
+  vec4 surface_look;
 };
 
 // Depth in the format of DepthMode. `w` is the distance in front of the eye's plane, metres.

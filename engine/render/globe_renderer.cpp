@@ -49,6 +49,7 @@ Status GlobeRenderer::set_relief(bool on) {
   Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options_, on);
   if (!made) return made.error();
   patches_ = std::move(*made);
+  slopes_.reset();
   return Done{};
 }
 
@@ -171,7 +172,8 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
   if (glm::length(pass.eye.view.eye.xyz_m) <= radius_m) return;
-  pass.counts.draw_calls += inner_sphere_->draw(radius_m, picture_state(pass.eye));
+  pass.counts.draw_calls +=
+      inner_sphere_->draw(radius_m, pass.input.surface.inner_sphere_srgb, picture_state(pass.eye));
 }
 
 // A line of sight reaches the far side of the globe beyond its point that is nearest to the centre. The inner sphere
@@ -182,7 +184,8 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
   const double lowest_m = pass.input.relief != nullptr ? std::min(0.0, pass.input.relief->range_m().min_m) : 0.0;
   const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
-  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, picture_state(pass.eye));
+  const glm::vec3& color_srgb = pass.input.surface.inner_sphere_srgb;
+  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, color_srgb, picture_state(pass.eye));
 }
 
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {

@@ -1,5 +1,6 @@
 #include "render/globe_renderer.h"
 
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "render/frame_camera.h"
@@ -15,10 +16,11 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
 }
 
 // An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
-void GlobeRenderer::upload_layers(const FrameInput& input) const {
+void GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
   patches_->set_paper_band(input.paper_band);
+  if (input.relief != nullptr && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
@@ -26,9 +28,10 @@ void GlobeRenderer::upload_layers(const FrameInput& input) const {
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr);
+      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr ? &input.relief->grid() : nullptr);
     }
     patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
+    if (slopes_) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
 }
 
@@ -63,7 +66,29 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
   draw_base(pass, state);
   state.depth = kSameDepth;
   state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
-  for (const LayerFrame& layer : pass.upper()) draw_upper(pass, layer, state);
+  for (const LayerFrame& layer : pass.upper()) {
+    is_over_ground(pass, layer) ? draw_over_ground(pass, layer, state) : draw_upper(pass, layer, state);
+  }
+}
+
+// An unlit layer lies on the ground: its pixels are compared with others.
+bool GlobeRenderer::is_over_ground(const Pass& pass, const LayerFrame& layer) const {
+  return layer.height_m > 0.0 && pass.input.lit && ellipsoid_.to_geodetic(pass.eye.view.eye).height_m > layer.height_m;
+}
+
+// First the shadow, on the ground, then the layer itself where nothing is nearer. The layer writes no depth.
+void GlobeRenderer::draw_over_ground(const Pass& pass, const LayerFrame& layer, DrawState state) const {
+  if (layer.patches->empty()) return;
+  const auto draw_at = [&](double height) {
+    const auto value = static_cast<float>(height);
+    glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look) + 2 * sizeof(float),
+                         sizeof(float), &value);
+    draw_upper(pass, layer, state);
+  };
+  draw_at(-layer.height_m / ellipsoid_.a_m());
+  state.depth = depth(DepthTest::nearer_or_equal);
+  state.depth->write = false;
+  draw_at(layer.height_m);
 }
 
 // First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
@@ -87,12 +112,14 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
+  if (slopes_) slopes_->bind(*base.gpu);
   patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, state, pass.counts);
 }
 
 void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
+  if (slopes_) slopes_->bind(*layer.gpu);
   patches_->draw_upper(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, layer.special, state, pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
@@ -120,6 +147,11 @@ void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) c
                                layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
 }
 
+bool GlobeRenderer::is_bicubic(const FrameInput& input) {
+  const Sharpness sharpness = input.surface.sharpness;
+  return sharpness == Sharpness::bicubic || (sharpness == Sharpness::automatic && input.lit);
+}
+
 void GlobeRenderer::upload_frame(const Pass& pass) {
   const View& view = pass.eye.view;
   const Ellipsoid& e = ellipsoid_;
@@ -128,6 +160,14 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
+  if (slopes_) {
+    block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
+                             slopes_->slot_shape().x, slopes_->slot_shape().y);
+  }
+  constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
+  block.surface_look =
+      glm::vec4(is_bicubic(pass.input) ? 1.0F : 0.0F, pass.input.timed && pass.input.surface.glint ? 1.0F : 0.0F, 0.0F,
+                pass.input.timed ? kNightAtATime : kNight);
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <unordered_map>
 #include <vector>
 
@@ -45,6 +46,10 @@ class HeightField {
   [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
   /// The same by the row latitude of grid(), degrees.
   [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg) const;
+  /// Slopes at the pixel middles of a loaded tile and of `border_px` around it: rise per metre towards east and north.
+  /// Row-major from the north-west, (tile_px + 2 · border_px)². A slope is the difference over four pixels, of fourth
+  /// order. Pixels beyond the tile are those of the field there.
+  [[nodiscard]] std::vector<glm::vec2> slopes(const TileId& id, int border_px) const;
 
   /// No height in the box lies outside, rounding (1 part in 10^12) aside; the pixels that bound it may lie a block
   /// (kBlock_px) beyond the box. East < west crosses ±180°.

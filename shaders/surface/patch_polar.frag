@@ -6,11 +6,18 @@ layout(binding = 3) uniform sampler2DArray tiles_precise;
 // modulo n). From n = 7 on, this number and n have no common divisor.
 const int stride_of[17] = int[](1, 1, 1, 1, 1, 2, 1, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
 
+const float kMagnified_texels = 0.7;   // as PatchPass chooses patch_magnified.frag
+
 void main() {
   WindowPoint w = exact_window_point();
   vec2 high = vec2(window_size());
   float scale = texels.x * texels.y;
   float reach = sqrt(max(dot(w.dx, w.dx), dot(w.dy, w.dy))) * scale;
+  if (surface_look.x > 0.0 && reach < kMagnified_texels) {
+    vec2 p = clamp(w.p, vec2(0.0), high);
+    finish(IMAGERY(bicubic_texel(tiles_precise, slot_point(cell_at(p), p), texels.y)));
+    return;
+  }
   int n = int(clamp(ceil(0.9 * reach), 7.0, 16.0));
   float step = 1.0 / float(n);
   int stride = stride_of[n];

@@ -15,7 +15,9 @@ struct FrameBlock {
   glm::vec4 texels;
   glm::vec4 paper;
   glm::vec4 layer_look;
+  glm::vec4 relief;
+  glm::vec4 surface_look;
 };
-static_assert(sizeof(FrameBlock) == 64 + 7 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 9 * 16);
 
 }  // namespace terrella

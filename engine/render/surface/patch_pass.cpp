@@ -8,6 +8,7 @@
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
+#include "render/surface/slope_textures.h"
 
 namespace terrella {
 namespace {
@@ -70,9 +71,11 @@ Status PatchPass::prepare_depth() {
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment,
                         std::string_view layer) const {
-  return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+  return build_into(place,
+                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", options_.regolith ? "REGOLITH" : "AIR",
+                     options_.glint ? "GLINT" : "DULL_SEA",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
 }
 
@@ -82,16 +85,25 @@ Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string
     return build(programs[which], files, layer);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = make(
-        polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    Status s = make(polar, {"frame.glsl", "functions.glsl", "smooth_filter.glsl", "patch_relief.glsl",
+                            "patch_common.glsl", "patch_exact_point.glsl", "magnify.glsl", "patch_polar.frag"});
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = make(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = make(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = make(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
+  if (Status s = make(magnified, {"frame.glsl", "smooth_filter.glsl", "patch_relief.glsl", "patch_common.glsl",
+                                  "magnify.glsl", "patch_magnified.frag"});
+      !s)
+    return s;
+  if (Status s = make(
+          plain, {"frame.glsl", "smooth_filter.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_plain.frag"});
+      !s)
+    return s;
+  if (Status s = make(oblique, {"frame.glsl", "smooth_filter.glsl", "patch_relief.glsl", "patch_common.glsl",
+                                "patch_oblique.frag"});
+      !s)
+    return s;
   if (options_.texturing == Texturing::paper) {
-    return make(paper,
-                {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
+    return make(paper, {"frame.glsl", "functions.glsl", "smooth_filter.glsl", "patch_relief.glsl", "patch_common.glsl",
+                        "patch_exact_point.glsl", "patch_paper.frag"});
   }
   return Done{};
 }
@@ -110,7 +122,13 @@ void PatchPass::set_up_vertex_array() {
   glEnableVertexArrayAttrib(array, 7);
   glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
   glVertexArrayAttribBinding(array, 7, 1);
-  if (has_relief_) gl::float_attribute(array, 8, 2, 2, 0);
+  if (!has_relief_) return;
+  gl::float_attribute(array, 8, 2, 2, 0);
+  glVertexArrayBindingDivisor(array, 3, 1);
+  gl::float_attribute(array, 9, 3, 4, offsetof(SlopeDraw, center_and_scale));
+  glEnableVertexArrayAttrib(array, 10);
+  glVertexArrayAttribIFormat(array, 10, 4, GL_UNSIGNED_INT, offsetof(SlopeDraw, window));
+  glVertexArrayAttribBinding(array, 10, 3);
 }
 
 void PatchPass::set_up_samplers() {
@@ -176,7 +194,10 @@ void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& verti
   glVertexArrayElementBuffer(array, vertices.index_buffer());
   glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
   glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
-  if (has_relief_) glVertexArrayVertexBuffer(array, 2, vertices.slope_buffer(), 0, sizeof(glm::vec2));
+  if (has_relief_) {
+    glVertexArrayVertexBuffer(array, 2, vertices.height_offset_buffer(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array, 3, layer.slope_draws.name(), 0, sizeof(SlopeDraw));
+  }
   glBindVertexArray(array);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, layer.commands.name());
 }

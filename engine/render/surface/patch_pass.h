@@ -27,6 +27,8 @@ namespace terrella {
 struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
+  bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
+  bool glint = false;                             ///< draws the Sun's glint on the sea
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
@@ -40,7 +42,7 @@ struct FrameCounts {
 /// caller has bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
-  /// `has_relief` means that patches have slopes.
+  /// `has_relief`: the patches have heights, and the caller uploads and binds their slopes (SlopeTextures).
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
   /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special.
