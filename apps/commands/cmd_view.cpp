@@ -40,7 +40,7 @@ constexpr const char* kHelpFooter =
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
 
 // Dark, so that objects under the ground stand out, and bright enough to look round.
-constexpr glm::vec3 kInnerSphere_srgb{0.10F, 0.13F, 0.19F};
+constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
 
 struct ViewOptions {
   SceneOptions scene;

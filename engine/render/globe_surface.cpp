@@ -88,6 +88,7 @@ void GlobeRenderer::draw_over_ground(const Pass& pass, const LayerFrame& layer, 
   draw_at(-layer.height_m / ellipsoid_.a_m());
   state.depth = depth(DepthTest::nearer_or_equal);
   state.depth->write = false;
+  if (state.stencil) state.stencil->write_mask = 0;  // beyond the limb air lies before the layer
   draw_at(layer.height_m);
 }
 

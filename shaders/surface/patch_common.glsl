@@ -77,7 +77,7 @@ in vec3 glint;
 // blue than red and no less than green. White ground of a full Sun has the light 1.
 vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
   float light = glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029;
-  if (light < 0.003) return color_srgb;
+  if (light < 1e-4) return color_srgb;
   vec3 c = imagery_srgb + 0.02;
   light *= smoothstep(1.2, 1.7, c.b / c.r) * smoothstep(0.85, 1.05, c.b / c.g);
   return pow(pow(color_srgb, vec3(2.2)) + min(light, 1.5) * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));

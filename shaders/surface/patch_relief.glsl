@@ -1,7 +1,7 @@
 // Light on relief, by the slopes of the heights around a fragment.
 #if defined(RELIEF)
-layout(binding = 4) uniform sampler2DArray slopes;           // rise per metre towards east and north; bilinear
-layout(binding = 5) uniform usamplerBuffer slope_cells;      // as window_cells
+layout(binding = 9) uniform sampler2DArray slopes;           // rise per metre towards east and north; bilinear
+layout(binding = 10) uniform usamplerBuffer slope_cells;      // as window_cells
 
 in vec2 slope_point;
 in vec3 light_enu;

@@ -20,7 +20,7 @@ namespace terrella {
 /// driver has room for them. thread: main
 class SlopeTextures {
  public:
-  static constexpr GLuint kUnit = 4, kCellsUnit = 5;  ///< texture units that the shaders read
+  static constexpr GLuint kUnit = 9, kCellsUnit = 10;  ///< texture units that the shaders read
   static constexpr int kGutter_px = 2;                ///< reach of the smooth filter
 
   explicit SlopeTextures(const TileGrid& grid);
