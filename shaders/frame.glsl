@@ -12,12 +12,14 @@ layout(std140, binding = 0) uniform Frame {
   vec4 paper;
   // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.
   vec4 layer_look;
+  // Offsets from the eye, metres, into the axes of the horizon in scaled space (engine/render/sky/air_textures.h); the
+  // last column has the square of the polar over the equatorial radius.
+  mat4 horizon_from_ecef;
   // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
-  // over slot_px, slot_px.
+  // over slot_px; unused.
   vec4 relief;
-  // 1: magnified imagery is filtered bicubically; strength of the Sun's glint on the sea; height of the layer over
-  // the ground, in radii; light of the
-  // night side of a body of dust.
+  // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
+  // body of dust; unused.
   vec4 surface_look;
 };
 

@@ -3,12 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -36,8 +40,35 @@ struct CutShard {
   int count = 1;
 };
 
+/// A picture that is no local file, such as a TIFF on a server.
+struct CutRaster {
+  PictureFile picture;  ///< name, size and bytes
+  std::string key;      ///< differs if the pixels may differ
+  /// Opens the raster. Its blocks are read as those of a local one.
+  std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
+};
+
+/// Place of an encoded tile in a file of unfinished work. The file may get the name without ".part" at any time.
+struct CutTile {
+  TileId id;
+  std::filesystem::path log;  ///< without ".part"
+  std::uint64_t offset = 0;   ///< bytes
+  std::size_t size = 0;       ///< bytes
+};
+
+/// Receives the results of a cut while it goes on. Tiles of the coarsest levels are not among them, because they are
+/// made at the end.
+struct CutWatch {
+  /// thread: a thread of the cut, one at a time
+  std::function<void(const CutTile& tile)> tile_made;
+  /// Row of the picture on its grid, as RGBA8, for every row_step-th row. thread: the cut's
+  std::function<void(std::int64_t row, std::span<const std::uint8_t> rgba)> row_read;
+  std::int64_t row_step = 1;
+};
+
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;
@@ -60,6 +91,8 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
+  bool keep_unfinished = false;    ///< what is done stays for the next run if `progress` stops the cut
+  std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};
 };
@@ -81,6 +114,10 @@ struct CutSummary {
 /// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
 /// thread: any
 [[nodiscard]] Status check_pictures(const CutOptions& options);
+
+/// Name of the GeoPackage for an image file in the cache directory. thread: any
+[[nodiscard]] Result<std::filesystem::path> cache_path(const CutOptions& options,
+                                                       const std::filesystem::path& cache_dir);
 
 /// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
 /// change, and the place. Blocks. thread: any

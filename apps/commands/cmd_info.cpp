@@ -39,6 +39,7 @@ constexpr const char* kInfoExamples =
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
+    "  terrella info dem/                    a folder of rasters as one tile set: how many, and which are left out\n"
     "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
@@ -113,6 +114,7 @@ int run_info(const InfoOptions& options) {
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(path);
   report.levels = count_levels(**source);
+  if (const auto* const mosaic = dynamic_cast<const MosaicTiles*>(source->get())) report.mosaic = mosaic->facts();
   if (StopSignals::came()) {
     return fail("info", options.tile_set.redacted() + ": stopped before its tiles were counted");
   }
@@ -129,7 +131,8 @@ int run_info(const InfoOptions& options) {
   }
   print_result("{}", options.json ? to_json(report) : to_text(report));
   const bool damaged = report.cache && report.cache->problems && !report.cache->problems->empty();
-  return damaged || (report.verified && report.verified->bad > 0) ? kFailed : kDone;
+  if (damaged || (report.verified && report.verified->bad > 0)) return kFailed;
+  return report.mosaic && report.mosaic->left_out > 0 ? kDoneInPart : kDone;
 }
 
 }  // namespace
@@ -139,7 +142,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage, PMTiles, MBTiles or a picture")
+  command->add_option("TILESET", options->tile_set, "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles or a picture")
       ->required();
   add_place_options(*command, options->place);
   command->add_flag("--verify", options->verify,

@@ -16,6 +16,7 @@
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/open_rasters.h"
 #include "apps/setup/process.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/write_file.h"
@@ -198,7 +199,7 @@ int run(const RenderCommand& command) {
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
   if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
-    return rendered->all_objects ? kDone : kDoneInPart;
+    return rendered->all_objects && rasters_left_out() == 0 ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered->missing.size(), kMostNamed); ++k) {
     print_message("terrella render: missing: {}\n", name_of(rendered->missing[k]));

@@ -18,6 +18,7 @@
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/viewer.h"
+#include "streaming/cut/growing/growing_cut.h"
 #include "streaming/remote/describe_remote.h"
 
 namespace terrella {
@@ -35,6 +36,7 @@ constexpr const char* kHelpFooter =
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
+    "  terrella view cog_of_any_size.tif                  shows at once, nothing is stored\n"
     "  terrella view moon.tif --body moon                 a picture of the whole Moon, also from 0 to 360 degrees\n"
     "  terrella view --overlay flight_in_utm.tif          a picture in any projection, over the Earth\n"
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
@@ -111,11 +113,13 @@ int view(const ViewOptions& options) {
   if (!window) return fail("view", window.error().message);
   // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
-  auto imagery = open_imagery(options.scene);
+  std::vector<std::shared_ptr<GrowingCut>> cuts;
+  SceneOptions layers = options.scene;
+  layers.cuts = &cuts;
+  auto imagery = open_imagery(layers);
   if (!imagery) return fail("view", imagery.error().message);
   const auto body = scene_body(options.scene, (*imagery)->info());
   if (!body) return fail("view", body.error().message);
-  SceneOptions layers = options.scene;
   layers.body = *body;
   auto elevation = open_elevation(layers);
   if (!elevation) return fail("view", elevation.error().message);
@@ -143,6 +147,7 @@ int view(const ViewOptions& options) {
   tell_of_move("view", wanted, start);
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
+                                     .cuts = cuts,
                                      .layers = layer_rows(**globe, options.scene, first),
                                      .heights = *elevation,
                                      .files = layers,

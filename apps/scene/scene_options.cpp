@@ -183,7 +183,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       .add_option("--cache", options.cache,
                   "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
                   "TILESET is "
-                  "cut into the cache for later runs. 'off' caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
+                  "caches nothing (default: $XDG_CACHE_HOME/terrella or "
                   "~/.cache/terrella)")
       ->type_name("FILE|off");
   command
@@ -205,7 +206,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
-          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS or WMS, or "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
+          "TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);

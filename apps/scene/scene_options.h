@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "tiles/tile_source.h"
 
 namespace terrella {
+
+class GrowingCut;
 
 /// Value of one --overlay.
 struct OverlayOption {
@@ -42,11 +45,12 @@ struct SceneOptions {
   int polar_columns = 32;
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
-  Url elevation;              ///< tile set of heights; empty: none
-  double exaggeration = 1.0;  ///< factor for heights
-  Url night;                  ///< tile set for the night side; empty: none
-  OverlayOption clouds;       ///< top layer; brightness is alpha; empty: none
-  double cloud_height_m = 0.0;
+  Url elevation;                                 ///< tile set of heights; empty: none
+  std::optional<NumberInfo> elevation_encoding;  ///< of tiles whose heights are in colours; absent: as they state
+  double exaggeration = 1.0;                     ///< factor for heights
+  Url night;                                     ///< tile set for the night side; empty: none
+  OverlayOption clouds;                          ///< top layer; brightness is alpha; empty: none
+  double cloud_height_m = 0.0;                   ///< of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none
@@ -57,6 +61,8 @@ struct SceneOptions {
   std::size_t memory_mb = 512;       ///< limit for decoded tiles, in 2^20 bytes
   bool offline = false;              ///< use the cache only
   RemoteOptions remote;              ///< options of a remote TILESET
+  /// Receives the cuts that go on in the background; null: a picture is cut before it shows.
+  std::vector<std::shared_ptr<GrowingCut>>* cuts = nullptr;
 };
 
 /// Largest side of a picture or window, pixels.

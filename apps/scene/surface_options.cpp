@@ -4,6 +4,7 @@
 
 #include "apps/commands/option_checks.h"
 #include "streaming/objects/object_style.h"
+#include "streaming/sets/elevation_json.h"
 
 namespace terrella {
 namespace {
@@ -20,9 +21,19 @@ void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "--elevation", options.elevation,
-          "Raise the ground by a tile set of 16-bit heights, made by terrella cut --elevation or as a GDAL gridded "
-          "coverage. A JSON source description with \"elevation\" names heights on a server")
-      ->type_name("TILESET");
+          "Raise the ground by heights: a raster with one number a pixel in any coordinate system, a folder or list of "
+          "them, a tile set made by terrella cut --elevation, or a GDAL gridded coverage. A JSON source description "
+          "with "
+          "\"elevation\" or \"encoding\" names heights on a server")
+      ->type_name("RASTER|FOLDER|TILESET");
+  command
+      .add_option_function<std::string>(
+          "--elevation-encoding",
+          [&options](const std::string& name) { options.elevation_encoding = rgb_encoding(name); },
+          "Read heights from the colours of the tiles of --elevation")
+      ->check(CLI::IsMember({"terrain-rgb", "mapbox", "terrarium"}))
+      ->type_name("terrain-rgb|terrarium")
+      ->needs("--elevation");
   command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
       ->check(number_in(0.0, 100.0))
       ->capture_default_str();

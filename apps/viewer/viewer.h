@@ -12,6 +12,7 @@
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/bookmark_views.h"
+#include "apps/viewer/parts/cutting.h"
 #include "apps/viewer/parts/globe_frame.h"
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/parts/help.h"
@@ -30,6 +31,7 @@ namespace terrella {
 struct ViewerOptions {
   Camera camera;
   bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
   SceneOptions files = {};                      ///< options for opening dropped files
@@ -68,6 +70,7 @@ class Viewer {
   [[nodiscard]] bool work() const;
   void wait_for_work();
   [[nodiscard]] std::string job() const;
+  void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
   [[nodiscard]] PanelStatus status(const View& view) const;
@@ -92,13 +95,15 @@ class Viewer {
   Layers layers_;
   ViewModes modes_;
   Measure measure_{context_};
+  Cutting cutting_;
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 6> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_};
+  const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
-  std::string job_text_;   ///< job() in the last frame
-  KeptSettings started_;   ///< settings at the start of the run
-  KeptSettings saved_;     ///< settings in the file
+  bool was_at_texels_ = false;
+  std::string job_text_;  ///< job() in the last frame
+  KeptSettings started_;  ///< settings at the start of the run
+  KeptSettings saved_;    ///< settings in the file
   std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };

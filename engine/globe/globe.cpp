@@ -117,9 +117,10 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
     impl->sky_on = options.sky;
     if (options.time && options.body.name == "earth") sky.night_lights = options.night_lights;
   }
-  const bool glints = options.sky && options.time && options.body.name == "earth";
+  const PatchLight light{.relief = !options.unlit,
+                         .bicubic = options.surface.sharpness != Sharpness::bilinear && !options.unlit};
   Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(
-      {.texturing = options.texturing, .depth = options.depth, .regolith = is_dusty(options.body), .glint = glints},
+      {.texturing = options.texturing, .depth = options.depth, .regolith = is_dusty(options.body), .light = light},
       options.body.ellipsoid, options.sky ? &sky : nullptr);
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);

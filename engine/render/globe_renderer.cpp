@@ -46,7 +46,9 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
 }
 
 Status GlobeRenderer::set_relief(bool on) {
-  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options_, on);
+  RenderOptions options = options_;
+  options.light.relief = on && options.light.relief;
+  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options, on);
   if (!made) return made.error();
   patches_ = std::move(*made);
   slopes_.reset();
@@ -69,9 +71,11 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (const auto upper = pass.upper(); !upper.empty()) {
-    const bool special = std::ranges::any_of(upper, &LayerFrame::special);
-    if (Status s = patches_->prepare_upper(special); !s) return s;
+  patches_->set_air(air_of(pass));
+  patches_->set_light(light_of(pass.input));
+  for (const LayerFrame& layer : pass.input.layers) {
+    const bool numbers = layer.gpu->numbers.has_value();
+    if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
   }
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;
@@ -107,7 +111,15 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuf
   return counts;
 }
 
+// The air before ground and limb. An eye under the ground sees none.
+const AirTextures* GlobeRenderer::air_of(const Pass& pass) const {
+  if (!pass.input.sky || !sky_ || under_ground(pass) || pass.input.naive_translucency) return nullptr;
+  return sky_->fit_air(pass.eye.view, *pass.input.sky);
+}
+
 void GlobeRenderer::draw_picture(const Pass& pass) {
+  air_ = air_of(pass);
+  static_cast<void>(patches_->set_air(air_));  // prepare() has built the programs
   upload_frame(pass);
   begin_picture(pass);
   if (pass.input.naive_translucency) {
@@ -197,7 +209,7 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
     const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
     mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
-              : limb_->draw(view.viewport, picture, state);
+              : limb_->draw(view, picture, pass.input.lit ? LimbLook::lit : LimbLook::imagery, air_, state);
     ++pass.counts.draw_calls;
   };
   const int rows_apart = pass.eye.interlaced ? 2 : 1;

@@ -62,6 +62,7 @@ struct FrameInput {
   SurfaceLook surface;
   std::optional<SkyInput> sky;  ///< none: a black background
   bool lit = true;
+  bool earth = false;             ///< has seas
   bool timed = false;             ///< the Sun is where a time puts it; false: over the viewer's shoulder
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< direction to the Sun: unit vector, ECEF axes
   std::uint64_t frame = 0;
@@ -126,12 +127,17 @@ class GlobeRenderer {
     FrameCounts& counts;
     [[nodiscard]] const LayerFrame& base() const { return input.layers.front(); }
     [[nodiscard]] std::span<const LayerFrame> upper() const { return std::span(input.layers).subspan(1); }
+    [[nodiscard]] LayerRole role_of(const LayerFrame& layer) const {
+      if (&layer == &base()) return LayerRole::base;
+      return layer.special ? LayerRole::special : LayerRole::upper;
+    }
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   // globe_renderer.cpp: the order of the passes.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
+  [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
   void begin_picture(const Pass& pass) const;
   void draw_picture(const Pass& pass);
@@ -152,7 +158,7 @@ class GlobeRenderer {
   // globe_surface.cpp: the image layers.
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);
-  [[nodiscard]] static bool is_bicubic(const FrameInput& input);
+  [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
@@ -185,6 +191,7 @@ class GlobeRenderer {
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;
+  const AirTextures* air_ = nullptr;  ///< of the eye whose picture is drawn; null: none
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;

@@ -10,6 +10,13 @@
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 namespace terrella {
+namespace {
+
+// In a lit picture, pixels beside the limb are integrated whole, so that ice there shows no dashes. A picture of the
+// imagery alone keeps to the plain footprint, which measurements compare.
+constexpr double kLitFootprint_texels = 3.0;
+
+}  // namespace
 
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
   return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
@@ -20,7 +27,9 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
   patches_->set_paper_band(input.paper_band);
-  if (input.relief != nullptr && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
+  patches_->set_plain_footprint(input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
+  const bool shaded = input.relief != nullptr && input.lit;
+  if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
@@ -31,7 +40,7 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
       own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr ? &input.relief->grid() : nullptr);
     }
     patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
-    if (slopes_) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
+    if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
 }
 
@@ -81,8 +90,7 @@ void GlobeRenderer::draw_over_ground(const Pass& pass, const LayerFrame& layer, 
   if (layer.patches->empty()) return;
   const auto draw_at = [&](double height) {
     const auto value = static_cast<float>(height);
-    glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look) + 2 * sizeof(float),
-                         sizeof(float), &value);
+    glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look), sizeof(float), &value);
     draw_upper(pass, layer, state);
   };
   draw_at(-layer.height_m / ellipsoid_.a_m());
@@ -113,15 +121,15 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
-  if (slopes_) slopes_->bind(*base.gpu);
-  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, state, pass.counts);
+  if (light_of(pass.input).relief) slopes_->bind(*base.gpu);
+  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, LayerRole::base, state, pass.counts);
 }
 
 void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  if (slopes_) slopes_->bind(*layer.gpu);
-  patches_->draw_upper(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, layer.special, state, pass.counts);
+  if (light_of(pass.input).relief) slopes_->bind(*layer.gpu);
+  patches_->draw(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, pass.role_of(layer), state, pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
@@ -148,9 +156,11 @@ void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) c
                                layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
 }
 
-bool GlobeRenderer::is_bicubic(const FrameInput& input) {
+PatchLight GlobeRenderer::light_of(const FrameInput& input) {
   const Sharpness sharpness = input.surface.sharpness;
-  return sharpness == Sharpness::bicubic || (sharpness == Sharpness::automatic && input.lit);
+  return {.relief = input.relief != nullptr && input.lit,
+          .bicubic = sharpness == Sharpness::bicubic || (sharpness == Sharpness::automatic && input.lit),
+          .glint = input.lit && input.timed && input.sky && input.earth && input.surface.glint};
 }
 
 void GlobeRenderer::upload_frame(const Pass& pass) {
@@ -161,14 +171,16 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
-  if (slopes_) {
+  if (air_ != nullptr) {
+    block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
+    block.horizon_from_ecef[3].x = static_cast<float>(e.one_minus_e2());
+  }
+  if (light_of(pass.input).relief) {
     block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
-                             slopes_->slot_shape().x, slopes_->slot_shape().y);
+                             slopes_->slot_share(), 0.0);
   }
   constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
-  block.surface_look =
-      glm::vec4(is_bicubic(pass.input) ? 1.0F : 0.0F, pass.input.timed && pass.input.surface.glint ? 1.0F : 0.0F, 0.0F,
-                pass.input.timed ? kNightAtATime : kNight);
+  block.surface_look = glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight, 0.0F, 0.0F);
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

@@ -89,7 +89,7 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::ui
 
 bool Relief::changed_since(const TileId& id, std::uint64_t since) const {
   if (since < changes_forgotten_) return true;
-  const Change tile = change_of(id);
+  const Change tile = change_of(ancestor(id, std::max(0, id.level - grid().max_level)));
   const double half_deg = 0.5 * (tile.east - tile.west), middle_deg = 0.5 * (tile.west + tile.east);
   return std::any_of(changes_.begin() + static_cast<std::ptrdiff_t>(since - changes_forgotten_), changes_.end(),
                      [&](const Change& change) {

@@ -9,8 +9,8 @@ namespace terrella {
 namespace {
 
 constexpr double kPixelsPerSlope = 2.0;
-// A window of more tiles takes a coarser level.
-constexpr double kMostTiles = 6.0;
+// A window of more tiles, or of more heights, takes a coarser level.
+constexpr double kMostTiles = 6.0, kMostHeights = 1536.0;
 // Pixels of a slant of at most so many texels keep their level: more texels would be left out.
 constexpr double kLongPixel_texels = 2.0;
 
@@ -38,18 +38,20 @@ SlopeWindow slope_window(const Relief& relief, const PatchTree& tree, const Sele
   const PatchNode& node = *patch.node;
   const double wanted = wanted_level(relief, tree, patch);
   SlopeWindow window;
-  window.level = static_cast<int>(std::clamp(wanted, double(grid.min_level), double(grid.max_level)));
-  window.magnified = wanted > double(window.level);
+  window.level = static_cast<int>(std::clamp(wanted, double(grid.min_level), double(kMaxTileLevel)));
   const double west = node.lon_center_deg + node.west_deg, east = node.lon_center_deg + node.east_deg;
   const double north = height_row_deg(grid, tree, node.north_row_deg);
   const double south = height_row_deg(grid, tree, node.south_row_deg);
+  const double most_tiles = std::max(kMostTiles, kMostHeights / grid.tile_px);
   const double most_deg = std::max(east - west, north - south);
-  while (window.level > grid.min_level && most_deg > kMostTiles * tile_span_deg(grid, window.level)) --window.level;
+  while (window.level > grid.min_level && most_deg > most_tiles * tile_span_deg(grid, window.level)) --window.level;
   const TileXY nw = tile_xy(grid, window.level, north, west), se = tile_xy(grid, window.level, south, east);
   const auto within = [](double at, std::int64_t count) {
     return std::clamp(static_cast<std::int64_t>(std::floor(at)), std::int64_t{0}, count - 1);
   };
-  const std::int64_t across = columns(grid, window.level), down = rows(grid, window.level);
+  const int finer = std::max(0, window.level - grid.max_level);
+  const std::int64_t across = columns(grid, window.level - finer) << finer;
+  const std::int64_t down = rows(grid, window.level - finer) << finer;
   window.x0 = within(nw.x, across);
   window.y0 = within(nw.y, down);
   window.w = static_cast<int>(within(se.x, across) - window.x0) + 1;

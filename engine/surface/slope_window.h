@@ -15,11 +15,11 @@ struct SlopeWindow {
   std::int64_t x0 = 0, y0 = 0;
   int w = 1, h = 1;
   glm::vec4 center_and_scale{0.0F};  ///< as PatchDraw has it, in the rows of the heights' grid
-  bool magnified = false;            ///< a pixel is far smaller than a height's, so that filtering must be smooth
 };
 
-/// Chooses the level whose heights are 1 to 2 pixels apart, or the finest. A patch at a slant takes a coarser level, so
-/// that heights do not flicker. thread: any, while nothing changes the relief
+/// Chooses the level whose heights are 1 to 2 pixels apart, also beyond the grid's finest (HeightField::slopes()). A
+/// patch at a slant takes a coarser level, so that heights do not flicker. thread: any, while nothing changes the
+/// relief
 [[nodiscard]] SlopeWindow slope_window(const Relief& relief, const PatchTree& tree, const SelectedPatch& patch);
 
 /// Longitudes and row latitudes of the heights' grid at the vertices of a patch, relative to its centre, degrees, in

@@ -61,8 +61,7 @@ struct SurfaceLook {
   /// Shades relief by light from the north-west at 45°, as maps do, instead of by the Sun. No effect without heights.
   bool hillshade = false;
   Sharpness sharpness = Sharpness::automatic;
-  /// The Sun's glint on the Earth's seas, where the base layer is as blue as water. Needs a globe that was made with a
-  /// sky and a time.
+  /// The Sun's glint on the Earth's seas, where the base layer is as blue as water. Only with a sky and a time.
   bool glint = true;
   bool operator==(const SurfaceLook&) const = default;
 };

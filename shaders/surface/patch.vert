@@ -32,6 +32,24 @@ flat out uvec4 window;
 flat out vec4 center_and_scale;
 flat out vec4 frame;
 flat out vec4 row;
+#if defined(AIR)
+layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
+layout(binding = 8) uniform sampler2D ground_light;
+out vec3 air_through;
+out vec3 air_light;
+
+void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
+  mat3 to_horizon = mat3(horizon_from_ecef);
+  vec3 ray = normalize(to_horizon * position_from_eye);
+  vec3 up = normalize(to_horizon * (normal_ecef * vec3(1.0, 1.0, horizon_from_ecef[3].x)));
+  float down = clamp(-dot(ray, up), 0.0, 1.0);
+  vec2 size = vec2(textureSize(ground_through, 0));
+  vec2 at = vec2(atan(abs(ray.y), ray.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down)));
+  at = (at * (size - 1.0) + 0.5) / size;
+  air_through = textureLod(ground_through, at, 0.0).rgb;
+  air_light = textureLod(ground_light, at, 0.0).rgb;
+}
+#endif
 
 // Soft light from the sun's side. The night side keeps a quarter.
 float light_of(vec3 normal_ecef) {
@@ -43,10 +61,10 @@ float light_of(vec3 normal_ecef) {
 }
 
 #if defined(REGOLITH)
-// Dust shines towards the Sun. surface_look.w is the light of the night side.
+// Dust shines towards the Sun. surface_look.y is the light of the night side.
 float dust_light(vec3 normal_ecef, vec3 eye_ecef) {
   float day = regolith_light(normal_ecef, sun_ecef.xyz, eye_ecef);
-  return mix(1.0, mix(surface_look.w, 1.0, day), sun_ecef.w);
+  return mix(1.0, mix(surface_look.y, 1.0, day), sun_ecef.w);
 }
 #endif
 
@@ -63,7 +81,7 @@ vec3 sea_glint(vec3 normal, vec3 eye) {
   vec3 half_way = normalize(eye + sun_ecef.xyz), middle = in_enu(normal, half_way);
   float up = max(middle.z, 0.05), seen = max(dot(eye, normal), 0.05);
   float mirror = 0.02 + 0.98 * pow(1.0 - max(dot(eye, half_way), 0.0), 5.0);
-  float day = surface_look.y * sun_ecef.w * smoothstep(0.0, 0.1, dot(normal, sun_ecef.xyz));
+  float day = smoothstep(0.0, 0.1, dot(normal, sun_ecef.xyz));
   return vec3(middle.xy / up, day * mirror / (4.0 * seen * pow(up, 4.0)));
 }
 #endif
@@ -76,7 +94,7 @@ void main() {
   vec3 m = center + direction;
   vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
 #if defined(SPECIAL_LAYER)
-  position_from_eye += max(surface_look.z, 0.0) * normal;
+  position_from_eye += max(surface_look.x, 0.0) * normal;
 #endif
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;
@@ -84,13 +102,16 @@ void main() {
   window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
   row_direction = direction;
 #if defined(SPECIAL_LAYER)
-  // The shadow of a layer over the ground: what lies towards the Sun. surface_look.z is then its height in radii, less
+  // The shadow of a layer over the ground: what lies towards the Sun. surface_look.x is then its height in radii, less
   // than 0.
   vec3 sun_enu = in_enu(normal, sun_ecef.xyz);
   shadow_of_layer = 0.5 * sun_ecef.w * smoothstep(0.0, 0.2, sun_enu.z);
-  vec2 towards_sun = -min(surface_look.z, 0.0) * sun_enu.xy / max(sun_enu.z, 0.15);
+  vec2 towards_sun = -min(surface_look.x, 0.0) * sun_enu.xy / max(sun_enu.z, 0.15);
   towards_sun.x /= max(length(normal.xy), 0.01);
   window_point += degrees(towards_sun) * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
+#endif
+#if defined(AIR)
+  look_through_air(position_from_eye, normal);
 #endif
 #if defined(REGOLITH)
   light = dust_light(normal, -normalize(position_from_eye));

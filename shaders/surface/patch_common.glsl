@@ -1,5 +1,4 @@
 // Look-ups shared by all texturing methods of patches.
-layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
 layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
 in vec2 window_point;
@@ -46,8 +45,6 @@ Cell cell_at(vec2 p) {
 #define Imagery vec3
 #define IMAGERY(texel) (texel).rgb
 #endif
-
-Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
 
 // Geodetic normal, of any length.
 vec3 ground_normal() {
@@ -123,18 +120,15 @@ void finish(Imagery imagery_srgb) {
 #if defined(SPECIAL_LAYER)
   if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
   share *= part_shown();
-  if (surface_look.z < 0.0) {                    // the layer's shadow on the ground
+  if (surface_look.x < 0.0) {                    // the layer's shadow on the ground
     color_srgb = vec4(0.0, 0.0, 0.0, alpha * share * shadow_of_layer);
     WRITE_DEPTH(1.0);
     return;
   }
-  if (layer_look.x < 0.0) {
-    color_srgb = vec4(imagery_srgb.rgb, alpha) * share;
-  } else {
-    color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
-  }
+  vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
 #else
-  color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
+  vec3 color = lit(imagery_srgb.rgb, alpha);
 #endif
+  color_srgb = vec4(through_air(color, alpha), alpha) * share;
   WRITE_DEPTH(1.0);
 }

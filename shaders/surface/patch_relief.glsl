@@ -5,22 +5,15 @@ layout(binding = 10) uniform usamplerBuffer slope_cells;      // as window_cells
 
 in vec2 slope_point;
 in vec3 light_enu;
-flat in uvec4 slope_window;      // as window; the highest bit of the second number: smooth filtering
+flat in uvec4 slope_window;      // as window
 
 // A slope towards the light is brighter than level ground by this share of the change in the light's sine, but by no
 // more than kMostGain: the sky lights slopes that the Sun does not.
 const float kContrast = 1.3;
 const float kMostGain = 0.6;
 
-// Where heights are larger than pixels, bilinear slopes show the heights' grid.
-vec2 smooth_slope(vec3 at) {
-  vec4 slope;
-  SMOOTH_TEXTURE(slope, slopes, at, relief.w);
-  return slope.xy;
-}
-
 vec2 ground_slope() {
-  ivec2 size = ivec2(slope_window.y & 0xFFFFu, (slope_window.y >> 16) & 0x7FFFu);
+  ivec2 size = ivec2(slope_window.y & 0xFFFFu, slope_window.y >> 16);
   ivec2 c = clamp(ivec2(slope_point), ivec2(0), size - 1);
   uint bits = texelFetch(slope_cells, int(slope_window.x) + c.y * size.x + c.x).x;
   uint up = bits >> 24;
@@ -28,12 +21,11 @@ vec2 ground_slope() {
   vec2 part = vec2((slope_window.zw + uvec2(c)) & ((1u << up) - 1u)) - vec2(c);
   vec2 inside = clamp(slope_point, vec2(0.0), vec2(size));
   vec3 at = vec3((inside + part) * scale + (0.5 - 0.5 * relief.z), float(bits & 0xFFFFu));
-  return relief.x * (slope_window.y >> 31 != 0u || up > 0u ? smooth_slope(at) : textureLod(slopes, at, 0.0).xy);
+  return relief.x * textureLod(slopes, at, 0.0).xy;
 }
 
 // Factor for the light of level ground. After sunset the sky lights all slopes nearly alike.
 float relief_light() {
-  if (sun_ecef.w == 0.0) return 1.0;
   vec2 slope = ground_slope();
   float sine = (light_enu.z - dot(slope, light_enu.xy)) * inversesqrt(1.0 + dot(slope, slope));
   float gain = kContrast * smoothstep(-0.5, 0.0, light_enu.z) * (sine - light_enu.z);

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/hash_mix.h"
+#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 namespace {
@@ -26,6 +27,17 @@ std::string elevation_text(const std::optional<CutElevation>& elevation) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> images_of(const CutOptions& options) {
+  std::vector<std::filesystem::path> images;
+  for (const auto& image : options.images) {
+    images.push_back(image);
+    const auto list = is_mosaic(image) ? read_mosaic_list(image) : Result<MosaicList>(Error{});
+    if (!list) continue;
+    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+  }
+  return images;
+}
+
 std::string options_text(const CutOptions& options, std::string place) {
   const MosaicGrid mosaic = options.mosaic.value_or(MosaicGrid{0, 0});
   // The first line of a key holds the options.
@@ -38,7 +50,8 @@ std::string options_text(const CutOptions& options, std::string place) {
 
 Result<std::string> cut_key(const CutOptions& options, const std::string& place) {
   std::string key = options_text(options, place);
-  for (const auto& image : options.images) {
+  if (options.raster) return key + fmt::format("\n{}", options.raster->key);
+  for (const auto& image : images_of(options)) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {
       if (errno == ENOENT) return Error{fmt::format("{}: no such file", image.string())};

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 #include <proj.h>
+// Needs proj.h.
+#include <proj_experimental.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -33,6 +36,31 @@ ProjHandle horizontal(PJ_CONTEXT* context, ProjHandle crs) {
     }
   }
   return crs;
+}
+
+/// Moves the false easting of a transverse Mercator map of a sphere by a micrometre. PROJ would compute UTM's
+/// parameters by its program for UTM, which takes no sphere. Returns other systems as they are.
+ProjHandle without_utm(PJ_CONTEXT* context, ProjHandle crs, const CrsFacts& facts) {
+  if (facts.method != "Transverse Mercator" || facts.a_m != facts.b_m) return crs;
+  const ProjHandle conversion = wrap(proj_crs_get_coordoperation(context, crs.get()));
+  std::array<double, 5> si{};  // latitude, longitude (radians), scale, easting, northing (metres)
+  for (int i = 0; conversion && i < 5; ++i) {
+    double value = 0.0, unit = 1.0;
+    if (proj_coordoperation_get_param(context, conversion.get(), i, nullptr, nullptr, nullptr, &value, nullptr, &unit,
+                                      nullptr, nullptr, nullptr, nullptr) == 0) {
+      return crs;
+    }
+    si[static_cast<std::size_t>(i)] = value * unit;
+  }
+  constexpr double kMicrometre_m = 1e-6;
+  const ProjHandle moved = wrap(proj_create_conversion_transverse_mercator(
+      context, si[0], si[1], si[2], si[3] + kMicrometre_m, si[4], "radian", 1.0, "metre", 1.0));
+  const ProjHandle base = wrap(proj_crs_get_geodetic_crs(context, crs.get()));
+  const ProjHandle axes = wrap(proj_crs_get_coordinate_system(context, crs.get()));
+  if (!moved || !base || !axes) return crs;
+  ProjHandle made =
+      wrap(proj_create_projected_crs(context, proj_get_name(crs.get()), base.get(), moved.get(), axes.get()));
+  return made ? std::move(made) : std::move(crs);
 }
 
 void read_axes(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
@@ -155,6 +183,7 @@ Result<Crs> Crs::open(const std::string& text) {
     read_projection(context, made.crs_.get(), facts);
     const ProjHandle base = wrap(proj_crs_get_geodetic_crs(context, made.crs_.get()));
     if (base) read_axes(context, base.get(), facts);
+    made.crs_ = without_utm(context, std::move(made.crs_), facts);
   }
   return made;
 }

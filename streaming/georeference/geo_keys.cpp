@@ -114,6 +114,25 @@ Status check_against_register(GTIF* keys, const GTIFDefn& defn, geokey_t key, co
                            code)};
 }
 
+/// Adds what libgeotiff leaves out of its PROJ string.
+void complete(const GTIFDefn& defn, std::string& text) {
+  constexpr std::string_view kNoParallel = "+lat_ts=0.000000000 ";
+  constexpr int kObliqueMercatorB = 9815;
+  const double scale = defn.ProjParm[4];
+  if (defn.CTProjection == CT_Stereographic && scale > 0.0) text += fmt::format(" +k={:.17g}", scale);
+  // PROJ ignores the scale of Mercator's projection beside a standard parallel.
+  const std::size_t parallel = text.find(kNoParallel);
+  if (defn.CTProjection == CT_Mercator && scale > 0.0 && parallel != std::string::npos) {
+    text.erase(parallel, kNoParallel.size());
+  }
+  const bool variant_a = defn.CTProjection == CT_ObliqueMercator;
+  if (variant_a) text += " +no_uoff";
+  if ((variant_a || defn.CTProjection == kObliqueMercatorB) && defn.ProjParmId[3] == ProjRectifiedGridAngleGeoKey &&
+      text.find("+gamma=") == std::string::npos) {
+    text += fmt::format(" +gamma={:.17g}", defn.ProjParm[3]);
+  }
+}
+
 Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   const auto code = short_key(keys, ProjectedCSTypeGeoKey).value_or(KvUserDefined);
   const bool has_own = short_key(keys, ProjCoordTransGeoKey).has_value();
@@ -135,12 +154,15 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   }
   if (!has_own && defn.CTProjection == KvUserDefined) return Error{"its GeoKeys say that it is projected, and not how"};
   if (Status plausible = check_figure(defn); !plausible) return plausible.error();
+  // PROJ's utm takes no sphere, and the parameters of transverse Mercator say the same.
+  defn.MapSys = KvUserDefined;
   const std::unique_ptr<char, void (*)(char*)> text(GTIFGetProj4Defn(&defn), GTIFFreeMemory);
   if (!text || std::string_view(text.get()).find("+proj=unknown") != std::string_view::npos ||
       std::string_view(text.get()).find("+proj=") == std::string_view::npos) {
     return Error{fmt::format("its GeoKeys name a projection that is not known (ProjCoordTrans {})", defn.CTProjection)};
   }
   std::string whole = text.get();
+  complete(defn, whole);
   if (defn.PMLongToGreenwich != 0.0 && whole.find("+pm=") == std::string::npos) {
     whole += fmt::format(" +pm={:.17g}", defn.PMLongToGreenwich);
   }

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cstring>
 
 #include "streaming/raster/row_raster.h"
 #include "streaming/raster/tiff_coding.h"
 #include "streaming/raster/tiff_level.h"
+#include "streaming/raster/tiff_source.h"
 
 namespace terrella {
 namespace {
@@ -64,7 +66,20 @@ Result<Numbers, TileFailure> heights_of(TiffParts& parts, const TileId& block) {
   return stored_numbers(*part.store, block.x, block.y);
 }
 
-class TiffRaster : public RasterSource {
+bool is_wider_than_floats(SampleType type) {
+  return type == SampleType::uint32 || type == SampleType::int32 || type == SampleType::float64;
+}
+
+Result<double> exact_sample_at(RasterPart& part, std::int64_t column, std::int64_t row, std::size_t band) {
+  if (part.tiles) return part.tiles->exact_sample_at(column, row, band);
+  TiffSampleRows rows(part.level.part, 1);
+  const auto samples = rows.read(row);
+  if (!samples) return samples.error();
+  const TiffSamples& kind = part.level.part.picture.samples;
+  return exact_sample(kind, band, *samples + static_cast<std::size_t>(column) * kind.pixel_bytes());
+}
+
+class TiffRaster : public TiffSource {
  public:
   TiffRaster(std::shared_ptr<TiffParts> parts, RasterInfo info) : parts_(std::move(parts)), info_(std::move(info)) {}
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
@@ -78,6 +93,34 @@ class TiffRaster : public RasterSource {
       tile.make_picture = [parts = parts_, block] { return picture_of(*parts, block); };
     }
     return tile;
+  }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    auto value = RasterSource::value_at(column, row);
+    if (!value || !is_wider_than_floats(parts_->parts.back().level.part.picture.samples.type)) return value;
+    const NumberCoding& coding = *parts_->coding.numbers;
+    const auto sample = exact_sample_at(parts_->parts.back(), column, row, coding.band);
+    if (!sample) return TileFailure{MissingKind::broken, parts_->name + ": " + sample.error().message};
+    return (*sample * coding.scale + coding.offset) * info_.numbers->scale + info_.numbers->offset;
+  }
+
+  [[nodiscard]] Result<std::vector<ByteSpan>> spans(const TileId& block) override {
+    if (!has_block(info_, block)) return std::vector<ByteSpan>();
+    const RasterPart& part = parts_->parts[static_cast<std::size_t>(block.level)];
+    return part.tiles ? part.tiles->spans(block.x, block.y) : std::vector<ByteSpan>();
+  }
+
+  [[nodiscard]] std::unique_ptr<TiffSource> over(const std::shared_ptr<const ByteFile>& file) const override {
+    auto parts = std::make_shared<TiffParts>(TiffParts{parts_->name, parts_->coding, {}});
+    for (const RasterPart& part : parts_->parts) {
+      assert(part.tiles);
+      TiffLevel level = part.level;
+      level.part.file = file;
+      if (level.mask) level.mask->file = file;
+      parts->parts.push_back(
+          {.level = level, .tiles = std::make_unique<TiffTileLevel>(level), .rows = {}, .store = {}});
+    }
+    return std::make_unique<TiffRaster>(std::move(parts), info_);
   }
 
  private:
@@ -150,20 +193,28 @@ Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const Cr
                                                   const RasterOptions& options) {
   auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();
-  auto coding = choose_coding(*pyramid, options);
+  auto source = make_tiff_source(*std::move(pyramid), path.string(), place, options);
+  if (!source) return source.error();
+  return std::unique_ptr<RasterSource>(*std::move(source));
+}
+
+Result<std::unique_ptr<TiffSource>> make_tiff_source(TiffPyramid pyramid, const std::string& name,
+                                                     const CrsPlace& place, const RasterOptions& options) {
+  auto coding = choose_coding(pyramid, options);
   if (!coding) return coding.error();
-  const TiffLevel& whole = pyramid->whole();
-  RasterInfo info{.name = path.stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
+  const TiffLevel& whole = pyramid.whole();
+  RasterInfo info{.name = fs::path(name).stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
   info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
-  if (options.heights) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
-  const auto nodata = options.nodata ? options.nodata : pyramid->metadata.nodata;
-  auto parts = std::make_shared<TiffParts>(TiffParts{path.string(), *std::move(coding), {}});
-  for (TiffLevel& level : pyramid->levels) {
+  if (options.heights) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  const auto nodata = options.nodata ? options.nodata : pyramid.metadata.nodata;
+  auto parts = std::make_shared<TiffParts>(TiffParts{name, *std::move(coding), {}});
+  for (TiffLevel& level : pyramid.levels) {
     level.part.picture.samples.nodata = nodata;  // for tiles that are not stored
     parts->parts.push_back(make_part(level, *parts, options, info.opaque));
     info.levels.push_back(shape_of(parts->parts.back(), place, whole.part.picture));
+    info.by_rows = info.by_rows || !is_tiled(level);
   }
-  return std::unique_ptr<RasterSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
+  return std::unique_ptr<TiffSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
 }
 
 }  // namespace terrella

@@ -175,6 +175,13 @@ void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std
   });
 }
 
+double exact_sample(const TiffSamples& samples, std::size_t band, const std::uint8_t* pixel) {
+  double exact = 0.0;
+  with_sample_type(samples.type,
+                   [&](auto zero) { exact = static_cast<double>(sample_at<decltype(zero)>(pixel, band)); });
+  return exact;
+}
+
 void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to) {
   const auto each = static_cast<std::size_t>(bits);
   const auto mask = static_cast<std::uint8_t>((1U << each) - 1U);

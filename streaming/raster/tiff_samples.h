@@ -72,6 +72,9 @@ struct NumberCoding {
 void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std::uint8_t* from, std::size_t pixels,
                float* numbers);
 
+/// One sample of a pixel as a double, which holds the values of every type exactly. thread: any
+[[nodiscard]] double exact_sample(const TiffSamples& samples, std::size_t band, const std::uint8_t* pixel);
+
 /// Unpacks samples of 1, 2 or 4 bits, the first in the highest bits, to a byte each. thread: any
 void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to);
 

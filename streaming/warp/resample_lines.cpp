@@ -1,7 +1,9 @@
 #include "streaming/warp/resample_lines.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "streaming/warp/lanes.h"
 #include "streaming/warp/tile_pixels.h"
 
 namespace terrella {
@@ -29,26 +31,45 @@ bool are_copies(const std::vector<LineTaps>& lines) {
 
 template <std::size_t kChannels>
 void sum_rows(const Canvas<kChannels>& canvas, const Taps& taps, std::vector<float>& sums) {
+  const auto row = [&](std::size_t k) { return canvas.at(0, taps.first + static_cast<std::int64_t>(k)); };
   std::ranges::fill(sums, 0.0F);
-  for (std::size_t k = 0; k < taps.weights.size(); ++k) {
-    const float weight = taps.weights[k];
-    const float* row = canvas.at(0, taps.first + static_cast<std::int64_t>(k));
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * row[i];
+  std::size_t k = 0;
+  // Two rows at once, since reading and writing the sums costs more than adding to them.
+  for (; k + 2 <= taps.weights.size(); k += 2) {
+    const float weight = taps.weights[k], next_weight = taps.weights[k + 1];
+    const float *from = row(k), *next = row(k + 1);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * from[i] + next_weight * next[i];
   }
+  if (k == taps.weights.size()) return;
+  const float weight = taps.weights[k];
+  const float* from = row(k);
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * from[i];
 }
 
-template <std::size_t kChannels>
-void sum_columns(const std::vector<float>& sums, const Taps& taps, float (&sum)[kChannels]) {
+/// `kTaps` is the number of taps, if the compiler is to know it; otherwise 0.
+template <std::size_t kChannels, std::size_t kTaps>
+void sum_column(const std::vector<float>& sums, const Taps& taps, float* out) {
   const float* from = sums.data() + static_cast<std::size_t>(taps.first) * kChannels;
-  for (const float weight : taps.weights) {
-    for (std::size_t c = 0; c < kChannels; ++c) sum[c] += weight * from[c];
-    from += kChannels;
+  const std::size_t count = kTaps > 0 ? kTaps : taps.weights.size();
+  typename Lanes<kChannels>::Vector sum{};
+  for (std::size_t k = 0; k < count; ++k) sum += taps.weights[k] * load<kChannels>(from + k * kChannels);
+  std::memcpy(out, &sum, sizeof(sum));
+}
+
+/// Sums the columns of a row of the tile.
+template <std::size_t kChannels>
+void sum_columns(const std::vector<float>& sums, const std::vector<LineTaps>& columns, std::vector<float>& tile_row) {
+  float* out = tile_row.data();
+  for (const LineTaps& column : columns) {
+    column.taps.weights.size() == 4 ? sum_column<kChannels, 4>(sums, column.taps, out)
+                                    : sum_column<kChannels, 0>(sums, column.taps, out);
+    out += kChannels;
   }
 }
 
 /// The same sum without negative weights.
 template <std::size_t kChannels>
-void sum_positive(const Canvas<kChannels>& canvas, const Taps& column, const Taps& row, float (&sum)[kChannels]) {
+void sum_positive(const Canvas<kChannels>& canvas, const Taps& column, const Taps& row, float* sum) {
   float all = 0.0F;
   std::fill_n(sum, kChannels, 0.0F);
   for (std::size_t j = 0; j < row.weights.size(); ++j) {
@@ -60,7 +81,7 @@ void sum_positive(const Canvas<kChannels>& canvas, const Taps& column, const Tap
       all += weight;
     }
   }
-  for (float& part : sum) part /= all;
+  for (std::size_t c = 0; c < kChannels; ++c) sum[c] /= all;
 }
 
 }  // namespace
@@ -88,18 +109,23 @@ std::optional<TileFailure> copy_lines(const WarpPlan& plan, const WarpLevel& lev
 template <class Tile>
 void resample_lines(const WarpLines& lines, const Canvas<Tile::kChannels>& canvas, typename Tile::Pixels& to) {
   std::vector<float> sums(static_cast<std::size_t>(canvas.rect.width()) * Tile::kChannels);
+  std::vector<float> tile_row(lines.columns.size() * Tile::kChannels);
+  const bool inside =
+      std::ranges::all_of(lines.columns, [](const LineTaps& column) { return column.coverage >= 1.0F; });
   for (std::size_t y = 0; y < lines.rows.size(); ++y) {
     const LineTaps& row = lines.rows[y];
     if (row.coverage <= 0.0F || row.taps.weights.empty()) continue;
     sum_rows(canvas, row.taps, sums);
+    sum_columns<Tile::kChannels>(sums, lines.columns, tile_row);
+    const std::size_t line = y * lines.columns.size();
     for (std::size_t x = 0; x < lines.columns.size(); ++x) {
       const LineTaps& column = lines.columns[x];
+      float* sum = tile_row.data() + x * Tile::kChannels;
       if (column.taps.weights.empty()) continue;
-      float sum[Tile::kChannels] = {};
-      sum_columns(sums, column.taps, sum);
       if (!Tile::is_whole(sum)) sum_positive(canvas, column.taps, row.taps, sum);
-      Tile::write(sum, row.coverage * column.coverage, to, y * lines.columns.size() + x);
+      if (!inside || row.coverage < 1.0F) Tile::write(sum, row.coverage * column.coverage, to, line + x);
     }
+    if (inside && row.coverage >= 1.0F) Tile::write_row(tile_row.data(), lines.columns.size(), to, line);
   }
 }
 

@@ -31,6 +31,18 @@ struct ColourTile {
     for (std::size_t c = 0; c < 3; ++c) out[c] = as_byte(sum[c] * to_plain);
     out[3] = as_byte(std::min(sum[3], 255.0F) * coverage);
   }
+  /// Writes pixels side by side that lie on the source as a whole.
+  static void write_row(const float* sums, std::size_t count, Image& image, std::size_t at) {
+    std::size_t opaque = 0;
+    for (std::size_t i = 3; i < 4 * count; i += 4)
+      opaque += (sums[i] > 254.5F ? 1U : 0U) & (sums[i] < 255.5F ? 1U : 0U);
+    if (opaque < count) {
+      for (std::size_t i = 0; i < count; ++i) write(sums + 4 * i, 1.0F, image, at + i);
+      return;
+    }
+    std::uint8_t* out = image.rgba.data() + 4 * at;
+    for (std::size_t i = 0; i < 4 * count; ++i) out[i] = as_byte(sums[i]);
+  }
   static void copy(const Image& from, const BlockPart& part, Image& to, std::size_t at) {
     for (int row = 0; row < part.height; ++row) {
       const auto first = static_cast<std::size_t>(part.y + row) * static_cast<std::size_t>(from.width_px) +
@@ -42,7 +54,10 @@ struct ColourTile {
   static bool is_whole(const float*) { return true; }
 
  private:
-  static std::uint8_t as_byte(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F); }
+  /// Clamps the whole number, because the vectoriser gives up at a clamped float.
+  static std::uint8_t as_byte(float value) {
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(value + 0.5F), 0, 255));
+  }
 };
 
 /// The same of numbers: sums are the number times its weight, and the weight.
@@ -55,6 +70,9 @@ struct NumberTile {
   }
   static void write(const float* sum, float coverage, Numbers& numbers, std::size_t at) {
     if (sum[1] >= 0.5F && coverage >= 0.5F) numbers.values[at] = sum[0] / sum[1];
+  }
+  static void write_row(const float* sums, std::size_t count, Numbers& numbers, std::size_t at) {
+    for (std::size_t i = 0; i < count; ++i) write(sums + 2 * i, 1.0F, numbers, at + i);
   }
   static void copy(const Numbers& from, const BlockPart& part, Numbers& to, std::size_t at) {
     for (int row = 0; row < part.height; ++row) {

@@ -18,6 +18,7 @@ EARTH = "EPSG:4326"
 MOON, MARS, EUROPA, VESTA = ("+proj=longlat +R=1737400 +no_defs", "+proj=longlat +R=3396190 +no_defs",
                              "+proj=longlat +R=1560800 +no_defs", "+proj=longlat +a=289000 +b=229000 +no_defs")
 MARS_FIGURE = "+proj=longlat +a=3396190 +b=3376200 +no_defs"
+SPHERE = "+proj=longlat +R=6378137 +no_defs"
 MOON_HALF, MARS_HALF, EUROPA_HALF = math.pi * 1737400, math.pi * 3396190, math.pi * 1560800
 WIDE, SIDE = (192, 96), (128, 96)
 
@@ -101,7 +102,41 @@ PARTS = {
                         *box(-64000, 9e5, 1000, SIDE)),
     "lambert of mars": (MARS_FIGURE, RESAMPLED, SIDE, *proj("+proj=lcc +lat_1=30 +lat_2=60 +lat_0=45 +a=3396190 +b=3376200"),
                         *box(-6e5, 5e5, 10000, SIDE)),
+    # Spheres. With UTM's parameters GDAL writes UTM's code, which PROJ knows for flattened bodies only.
+    "sphere, utm's parameters": (SPHERE, RESAMPLED, SIDE, *proj("+proj=tmerc +lon_0=9 +k=0.9996 +x_0=500000 +R=6378137"),
+                                 *box(400000, 5000000, 1000, SIDE)),
+    "sphere, utm's parameters in the south": (MOON, RESAMPLED, SIDE, *proj("+proj=tmerc +lon_0=-75 +k=0.9996 +x_0=500000 "
+                                              "+y_0=10000000 +R=1737400"), *box(450000, 9100000, 500, SIDE)),
+    "sphere, transverse mercator": (MOON, RESAMPLED, SIDE, *proj("+proj=tmerc +lat_0=5 +lon_0=20 +R=1737400"),
+                                    *box(-64000, 3e5, 1000, SIDE)),
+    "sphere, lambert azimuthal": (SPHERE, RESAMPLED, SIDE, *proj("+proj=laea +lat_0=50 +lon_0=10 +R=6378137"),
+                                  *box(-3e5, 4e5, 5000, SIDE)),
+    "sphere, lambert azimuthal at the pole": (MARS, RESAMPLED, SIDE, *proj("+proj=laea +lat_0=-90 +R=3396190"),
+                                              *box(3e5, 2e6, 10000, SIDE)),
+    "sphere, oblique stereographic": (SPHERE, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=40 +lon_0=9 +k=0.99 +R=6378137"),
+                                      *box(-3e5, 4e5, 5000, SIDE)),
+    "sphere, stereographic with a parallel": (SPHERE, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=90 +lat_ts=71 +R=6378137"),
+                                              *box(-2.4e6, -1.2e6, 20000, SIDE)),
+    "sphere, equirectangular": (SPHERE, RESAMPLED, SIDE, *proj("+proj=eqc +lat_ts=30 +lon_0=15 +R=6378137"),
+                                *box(-3e5, 5e6, 10000, SIDE)),
+    "sphere, sinusoidal around 180": (MOON, RESAMPLED, SIDE, *proj("+proj=sinu +lon_0=180 +R=1737400"),
+                                      *box(-3e5, 1e6, 5000, SIDE)),
+    "sphere, mercator": (MOON, RESAMPLED, SIDE, *proj("+proj=merc +lon_0=40 +R=1737400"), *box(-2e5, 2e6, 5000, SIDE)),
+    # Parameters that libgeotiff's PROJ strings do not have.
+    "mercator with a scale": (SPHERE, RESAMPLED, SIDE, *proj("+proj=merc +k=0.9 +lon_0=20 +R=6378137"),
+                              *box(1e6, 5e6, 10000, SIDE)),
+    "oblique mercator": (EARTH, RESAMPLED, SIDE, *proj("+proj=omerc +lat_0=45 +lonc=7 +alpha=30 +k=0.99 +x_0=500 +gamma=10 "
+                                                       "+ellps=WGS84"), *box(1e5, 2e5, 5000, SIDE)),
+    "oblique mercator of variant A": (SPHERE, RESAMPLED, SIDE, *proj("+proj=omerc +no_uoff +lat_0=45 +lonc=7 +alpha=30 "
+                                      "+k=0.99 +gamma=20 +R=6378137"), *box(3e6, 5e6, 5000, SIDE)),
+    "sphere, mercator with a parallel": (SPHERE, RESAMPLED, SIDE, *proj("+proj=merc +lat_ts=30 +R=6378137"),
+                                         *box(1e6, 5e6, 10000, SIDE)),
 }
+
+# What gdaltransform has to be told, because it fails at UTM's code for a sphere: the same but for a micrometre.
+SAID = {"sphere, utm's parameters": ("-s_srs", "+proj=tmerc +lon_0=9 +k=0.9996 +x_0=500000.000001 +R=6378137 +no_defs"),
+        "sphere, utm's parameters in the south": ("-s_srs", "+proj=tmerc +lon_0=-75 +k=0.9996 +x_0=500000.000001 "
+                                                  "+y_0=10000000 +R=1737400 +no_defs")}
 
 # GeoTIFF tags that gdal_translate would not write.
 TURNED = [0.12, 0.04, 0, 10, 0.04, -0.12, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1.0]
@@ -123,14 +158,15 @@ class PlacementTest(ProgramTest):
     def info(self, name, *options):
         return json.loads(self.assert_done("info", name, "--json", *options).stdout)
 
-    def assert_placed(self, name, degrees, drawn, size, *options, turn_px=0):
+    def assert_placed(self, name, degrees, drawn, size, *options, turn_px=0, source_crs=()):
         info = self.info(name, *options)
         self.assertTrue(info["shown"], info)
         self.assertEqual(info["drawn"], drawn, info)
         body = shlex.split(info["command"])[3:] if "--body" in info["command"] else []
         body = body[body.index("--body"):][:2] if body else []
         self.assert_done("cut", name, "-o", "out.gpkg", "--format", "png", "--force", *body, *options)
-        errors = placement.spot_errors(self.folder / name, self.folder / "out.gpkg", degrees, size, turn_px)
+        errors = placement.spot_errors(self.folder / name, self.folder / "out.gpkg", degrees, size, turn_px,
+                                       source_crs)
         self.assertLessEqual(max(errors), RESAMPLED_PX if drawn == RESAMPLED else UNCHANGED_PX, errors)
 
     def test_what_gdal_writes(self):
@@ -138,7 +174,7 @@ class PlacementTest(ProgramTest):
             for name, (degrees, drawn, size, *options) in cases.items():
                 with self.subTest(name):
                     placement.place_spots(self.folder / "in.tif", size, *options)
-                    self.assert_placed("in.tif", degrees, drawn, size, turn_px=turn_px)
+                    self.assert_placed("in.tif", degrees, drawn, size, turn_px=turn_px, source_crs=SAID.get(name, ()))
 
     def test_tags(self):
         for name, (degrees, drawn, tags) in TAGS.items():

@@ -21,7 +21,7 @@ std::vector<std::uint16_t> ramp() {
   return values;
 }
 
-Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const ElevationInfo& info, double tile_scale = 1.0,
+Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const NumberInfo& info, double tile_scale = 1.0,
                                        double tile_offset = 0.0) {
   return decode_heights(kId, {std::move(bytes), tile_scale, tile_offset}, info, kSide_px);
 }
@@ -103,8 +103,8 @@ TEST(HeightDecoder, ATileOfNothingKnownIsLevel) {
 }
 
 TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
-  const ElevationInfo whole;
-  const ElevationInfo floats{.nodata = {}, .floats = true};
+  const NumberInfo whole;
+  const NumberInfo floats{.nodata = {}, .floats = true};
   expect_broken(decode(bytes_of("junk"), whole), "no PNG picture");
   expect_broken(decode({}, whole), "no PNG picture");
   expect_broken(decode(*encode_png(gradient(kSide_px, kSide_px)), whole), "RGB of 8 bits");
@@ -118,7 +118,7 @@ TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
 }
 
 /// Every prefix, and bits flipped: whatever comes out, it must come out, and be finite.
-void feed_damaged(const std::vector<std::byte>& whole, const ElevationInfo& info) {
+void feed_damaged(const std::vector<std::byte>& whole, const NumberInfo& info) {
   const auto check = [&info](const std::vector<std::byte>& bytes) {
     const auto tile = decode(bytes, info);
     if (!tile) {

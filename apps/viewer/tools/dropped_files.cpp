@@ -62,10 +62,11 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.latitude.reset();
   tiles_options.place = {};
   tiles_options.remote = {};
+  tiles_options.cuts = nullptr;
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
-  if (!(*tiles)->info().elevation) return OpenedFile{path, *std::move(tiles)};
+  if (!(*tiles)->info().numbers) return OpenedFile{path, *std::move(tiles)};
   auto heights = ElevationSource::open(*std::move(tiles), path.string());
   if (!heights) return heights.error();
   return OpenedFile{path, *std::move(heights)};

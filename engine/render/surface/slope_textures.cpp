@@ -11,7 +11,6 @@ namespace {
 constexpr int kFirstLayers = 32;
 constexpr std::size_t kBudget_bytes = 64UL << 20;
 constexpr float kSteepest = 1000.0F;  // a half float holds it, also where a gap of the data makes a cliff
-constexpr std::uint32_t kSmooth = 0x80000000U;
 
 template <class T>
 void send(gl::Buffer& buffer, const std::vector<T>& data) {
@@ -34,10 +33,6 @@ SlopeTextures::SlopeTextures(const TileGrid& grid) : grid_(grid), sampler_(gl::m
     glSamplerParameteri(sampler_.name(), wrap, GL_CLAMP_TO_EDGE);
   }
   static_cast<void>(grow());
-}
-
-glm::vec2 SlopeTextures::slot_shape() const {
-  return {static_cast<float>(grid_.tile_px) / static_cast<float>(slot_px()), static_cast<float>(slot_px())};
 }
 
 bool SlopeTextures::grow() {
@@ -87,10 +82,10 @@ int SlopeTextures::layer_of(const Relief& relief, const TileId& id, std::uint64_
   return found->second.layer;
 }
 
-// The finest loaded tile of the cell's place, or level ground.
+// The tile itself, or an ancestor if all layers are in use.
 WindowCell SlopeTextures::cell_of(const Relief& relief, TileId id, std::uint64_t frame) {
   for (int up = 0;; ++up, id = parent(id)) {
-    const int layer = relief.field().has(id) ? layer_of(relief, id, frame) : 0;
+    const int layer = layer_of(relief, id, frame);
     if (layer != 0 || id.level <= grid_.min_level) return window_cell(layer, up, up);
   }
 }
@@ -104,8 +99,7 @@ void SlopeTextures::upload(PatchLayer& layer, const Relief& relief, const PatchT
     const SlopeWindow window = slope_window(relief, tree, patch);
     const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
     const auto size = static_cast<std::uint32_t>(window.w) | static_cast<std::uint32_t>(window.h) << 16U;
-    draws.push_back({window.center_and_scale,
-                     {cells.size(), size | (window.magnified ? kSmooth : 0U), low(window.x0), low(window.y0)}});
+    draws.push_back({window.center_and_scale, {cells.size(), size, low(window.x0), low(window.y0)}});
     for (int y = 0; y < window.h; ++y) {
       for (int x = 0; x < window.w; ++x) {
         cells.push_back(cell_of(relief, {window.level, window.x0 + x, window.y0 + y}, frame));

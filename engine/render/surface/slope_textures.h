@@ -21,7 +21,7 @@ namespace terrella {
 class SlopeTextures {
  public:
   static constexpr GLuint kUnit = 9, kCellsUnit = 10;  ///< texture units that the shaders read
-  static constexpr int kGutter_px = 2;                ///< reach of the smooth filter
+  static constexpr int kGutter_px = 1;                 ///< reach of filtering, and room for rounding
 
   explicit SlopeTextures(const TileGrid& grid);
 
@@ -32,8 +32,8 @@ class SlopeTextures {
   void bind(const PatchLayer& layer) const;
 
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
-  /// Texels of a tile over those of its slot, and the slot's.
-  [[nodiscard]] glm::vec2 slot_shape() const;
+  /// Texels of a tile over those of its slot.
+  [[nodiscard]] double slot_share() const { return static_cast<double>(grid_.tile_px) / slot_px(); }
 
  private:
   struct Slot {
@@ -58,7 +58,7 @@ class SlopeTextures {
 /// Where a patch lies in the windows of slopes, as the shader programs take it.
 struct SlopeDraw {
   glm::vec4 center_and_scale;
-  glm::uvec4 window;  ///< as PatchDraw::window; the highest bit of the second number asks for smooth filtering
+  glm::uvec4 window;  ///< as PatchDraw::window
 };
 
 }  // namespace terrella

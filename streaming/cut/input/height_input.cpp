@@ -85,8 +85,8 @@ Status widen(const fs::path& image, const HeightCoding& coding, Range& range) {
 
 Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, HeightPlan plan) {
   if (options.scale || options.offset) {
-    plan.elevation.scale = options.scale.value_or(1.0);
-    plan.elevation.offset = options.offset.value_or(0.0);
+    plan.numbers.scale = options.scale.value_or(1.0);
+    plan.numbers.offset = options.offset.value_or(0.0);
   } else {
     Range range;
     for (const fs::path& image : images) {
@@ -94,12 +94,12 @@ Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutEle
     }
     if (range.least > range.most) return Error{fmt::format("{}: holds no height", images.front().string())};
     const double span = static_cast<double>(range.most) - static_cast<double>(range.least);
-    plan.elevation.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
-    plan.elevation.offset = range.least;
+    plan.numbers.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
+    plan.numbers.offset = range.least;
   }
-  plan.elevation.nodata = kFloatNodata;
-  plan.coding.scale = plan.elevation.scale;
-  plan.coding.offset = plan.elevation.offset;
+  plan.numbers.nodata = kFloatNodata;
+  plan.coding.scale = plan.numbers.scale;
+  plan.coding.offset = plan.numbers.offset;
   return plan;
 }
 
@@ -174,9 +174,9 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
     return plan_floats(images, options, plan);
   }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
-  plan.elevation.scale = options.scale.value_or(first->scale);
-  plan.elevation.offset = options.offset.value_or(first->offset) - shift * plan.elevation.scale;
-  if (plan.coding.nodata) plan.elevation.nodata = static_cast<int>(*plan.coding.nodata) + shift;
+  plan.numbers.scale = options.scale.value_or(first->scale);
+  plan.numbers.offset = options.offset.value_or(first->offset) - shift * plan.numbers.scale;
+  if (plan.coding.nodata) plan.numbers.nodata = static_cast<int>(*plan.coding.nodata) + shift;
   return plan;
 }
 
@@ -186,8 +186,8 @@ RasterOptions raster_of(const HeightPlan& plan) {
   options.nodata = plan.coding.nodata;
   const bool is_float = plan.coding.kind == HeightKind::float32;
   const int shift = plan.coding.kind == HeightKind::int16 ? kInt16Shift : 0;
-  options.scale = is_float ? plan.coding.sample_scale : plan.elevation.scale;
-  options.offset = is_float ? plan.coding.sample_offset : plan.elevation.offset + shift * plan.elevation.scale;
+  options.scale = is_float ? plan.coding.sample_scale : plan.numbers.scale;
+  options.offset = is_float ? plan.coding.sample_offset : plan.numbers.offset + shift * plan.numbers.scale;
   return options;
 }
 

@@ -14,7 +14,7 @@ namespace terrella {
 
 struct HeightPlan {
   HeightCoding coding;
-  ElevationInfo elevation;  ///< meaning of the numbers in tiles
+  NumberInfo numbers;  ///< meaning of the numbers in tiles
 };
 
 /// Chooses how tiles store the heights of the pictures. Reads all pixels once if the samples are 32-bit floats and the

@@ -57,4 +57,16 @@ struct Patch {
   }
 };
 
+/// A row of a patch: the source pixel as a parabola over s. thread: any
+struct PatchRow {
+  PatchRow(const Patch& patch, double t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = (patch.u[6 + i] * t + patch.u[3 + i]) * t + patch.u[i];
+      v[i] = (patch.v[6 + i] * t + patch.v[3 + i]) * t + patch.v[i];
+    }
+  }
+  [[nodiscard]] CrsPoint at(double s) const { return {(u[2] * s + u[1]) * s + u[0], (v[2] * s + v[1]) * s + v[0]}; }
+  std::array<double, 3> u{}, v{};
+};
+
 }  // namespace terrella

@@ -8,7 +8,7 @@ namespace terrella {
 namespace {
 
 /// Most error at the test points of a patch, source pixels. Between them it is at most a tenth larger.
-constexpr double kMostError_px = 0.02;
+constexpr double kMostError_px = 0.005;
 /// A patch is not larger, so that its nodes do not miss a whole wave.
 constexpr double kMostSpan_deg = 30.0;
 /// An area of this size without a point of the map at its nodes has none at all.
