@@ -84,6 +84,24 @@ TEST(HeightSlopes, TakeCoarserHeightsWhereANeighbourIsMissing) {
   EXPECT_LE(mean_slope_error_deg(field, alone, 0), 5.0);
 }
 
+TEST(HeightSlopes, BeyondTheFinestLevelBendEvenlyBetweenTheHeights) {
+  HeightField field(earth().ellipsoid, kSlopesGrid);
+  for (std::int64_t y = 0; y < rows(kSlopesGrid, 2); ++y) {
+    for (std::int64_t x = 0; x < columns(kSlopesGrid, 2); ++x) {
+      field.add(slopes_waves({.level = 2, .x = x, .y = y}));
+    }
+  }
+  for (const std::int64_t x : {0, 26, 63})
+    EXPECT_LE(mean_slope_error_deg(field, {.level = 5, .x = x, .y = 14}, 1), 3.0);
+  // Eight slopes to a height: neighbours differ by a fraction of what heights' slopes do, also at the tiles' borders.
+  const std::vector<glm::vec2> slopes = field.slopes({.level = 5, .x = 31, .y = 15}, 1);
+  float most = 0.0F;
+  for (std::size_t k = 2; k < 34; ++k) {
+    most = std::max(most, std::abs(slopes[k].x - 2.0F * slopes[k - 1].x + slopes[k - 2].x));
+  }
+  EXPECT_LT(most, 0.01F);
+}
+
 TEST(HeightSlopes, OfLevelGroundAreZeroAndFiniteAtThePoles) {
   HeightField field(earth().ellipsoid, kSlopesGrid);
   HeightTile tile = slopes_waves({.level = 2, .x = 5, .y = 0});
