@@ -17,6 +17,12 @@ layout(std140, binding = 0) uniform Frame {
   // the eye's radius and height, metres. The last row has the place of the forward axis in the picture, pixels, and
   // the slope of a pixel.
   mat4 horizon_from_ecef;
+  // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
+  // over slot_px; unused.
+  vec4 relief;
+  // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
+  // body of dust; unused.
+  vec4 surface_look;
 };
 
 // Depth in the format of DepthMode. `w` is the distance in front of the eye's plane, metres.

@@ -29,7 +29,8 @@ double GlobeRenderer::inner_radius_m(const FrameInput& input) const {
 bool GlobeRenderer::has_inner_sphere(const Pass& pass) const {
   if (inner_radius_m(pass.input) <= 0.0) return false;
   if (under_ground(pass)) return true;
-  return pass.input.surface.alpha < 1.0 && objects_ && objects_->has(ObjectPart::underground);
+  const bool coloured = pass.input.surface.inner_sphere_srgb != glm::vec3(0.0F);
+  return pass.input.surface.alpha < 1.0 && (coloured || (objects_ && objects_->has(ObjectPart::underground)));
 }
 
 // Radius of a sphere that hides objects, so that they need not be drawn: the inner sphere, or the largest sphere under
