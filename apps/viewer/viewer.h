@@ -30,10 +30,11 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
+  std::filesystem::path places = {};            ///< GeoJSON for the search; empty: the program's cities
   SceneOptions files = {};                      ///< options for opening dropped files
   KeptSettings kept = {};                       ///< settings from the file
   bool first_run = false;                       ///< true: show a hint
@@ -70,9 +71,10 @@ class Viewer {
   [[nodiscard]] bool work() const;
   void wait_for_work();
   [[nodiscard]] std::string job() const;
+  void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
-  [[nodiscard]] PanelStatus status(const View& view) const;
+  [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_camera_at_rest();
@@ -90,7 +92,7 @@ class Viewer {
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_};
-  Search search_{context_};
+  Search search_{context_, options_.places};
   Layers layers_;
   ViewModes modes_;
   Measure measure_{context_};
@@ -99,9 +101,10 @@ class Viewer {
   const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
-  std::string job_text_;   ///< job() in the last frame
-  KeptSettings started_;   ///< settings at the start of the run
-  KeptSettings saved_;     ///< settings in the file
+  bool was_at_texels_ = false;
+  std::string job_text_;  ///< job() in the last frame
+  KeptSettings started_;  ///< settings at the start of the run
+  KeptSettings saved_;    ///< settings in the file
   std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };

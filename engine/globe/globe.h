@@ -184,6 +184,9 @@ class Globe {
   /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
   /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
   [[nodiscard]] std::vector<std::string> attributions() const;
+  /// Returns the side of the finest texels of the image layers that the last frame showed, in metres along the
+  /// equator; none if it showed no imagery.
+  [[nodiscard]] std::optional<double> finest_texel_m() const;
   /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< true if the globe has elevation

@@ -159,6 +159,19 @@ std::vector<std::string> Globe::attributions() const {
   return texts;
 }
 
+std::optional<double> Globe::finest_texel_m() const {
+  std::optional<double> finest;
+  if (!impl_->may_call("Globe::finest_texel_m")) return finest;
+  const double degree_m = options().body.ellipsoid.a_m() * Angle::degrees(1.0).rad();
+  for (const ImageLayer* layer : impl_->stack) {
+    if (!layer->is_on_screen()) continue;
+    const TileGrid& grid = layer->grid();
+    const double texel_m = tile_span_deg(grid, grid.max_level) / grid.tile_px * degree_m;
+    finest = std::min(finest.value_or(texel_m), texel_m);
+  }
+  return finest;
+}
+
 // Relief raises the vertices of patches and adds slopes, so all patches are discarded.
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   const auto call = impl_->may_draw("Globe::set_elevation");

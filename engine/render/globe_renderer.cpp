@@ -68,6 +68,7 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
+  patches_->set_air(air_of(pass));
   for (const LayerFrame& layer : pass.input.layers) {
     const bool numbers = layer.gpu->numbers.has_value();
     if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
@@ -106,7 +107,15 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuf
   return counts;
 }
 
+// The air before ground and limb. An eye under the ground sees none.
+const AirTextures* GlobeRenderer::air_of(const Pass& pass) const {
+  if (!pass.input.sky || !sky_ || under_ground(pass) || pass.input.naive_translucency) return nullptr;
+  return sky_->fit_air(pass.eye.view, *pass.input.sky);
+}
+
 void GlobeRenderer::draw_picture(const Pass& pass) {
+  air_ = air_of(pass);
+  static_cast<void>(patches_->set_air(air_));  // prepare() has built the programs
   upload_frame(pass);
   begin_picture(pass);
   if (pass.input.naive_translucency) {
@@ -194,7 +203,7 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
     const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
     mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
-              : limb_->draw(view.viewport, picture, state);
+              : limb_->draw(view, picture, pass.input.lit ? LimbLook::lit : LimbLook::imagery, air_, state);
     ++pass.counts.draw_calls;
   };
   const int rows_apart = pass.eye.interlaced ? 2 : 1;

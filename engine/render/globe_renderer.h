@@ -131,6 +131,7 @@ class GlobeRenderer {
   // globe_renderer.cpp: the order of the passes.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
+  [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
   void begin_picture(const Pass& pass) const;
   void draw_picture(const Pass& pass);
@@ -180,6 +181,7 @@ class GlobeRenderer {
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;
+  const AirTextures* air_ = nullptr;  ///< of the eye whose picture is drawn; null: none
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;

@@ -1,5 +1,6 @@
 #include "render/globe_renderer.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "render/frame_camera.h"
@@ -9,6 +10,13 @@
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 namespace terrella {
+namespace {
+
+// In a lit picture, pixels beside the limb are integrated whole, so that ice there shows no dashes. A picture of the
+// imagery alone keeps to the plain footprint, which measurements compare.
+constexpr double kLitFootprint_texels = 3.0;
+
+}  // namespace
 
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
   return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
@@ -19,6 +27,7 @@ void GlobeRenderer::upload_layers(const FrameInput& input) const {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
   patches_->set_paper_band(input.paper_band);
+  patches_->set_plain_footprint(input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
@@ -128,6 +137,16 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
+  if (air_ != nullptr) {
+    block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
+    const double r = air_->eye_radius(), horizon_m = e.a_m() * std::sqrt((r - 1.0) * (r + 1.0));
+    block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, 0.0, 0.0);
+    const double focal_px = view.pixels_per_radian();
+    block.horizon_from_ecef[0].w =
+        static_cast<float>(pass.eye.left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px);
+    block.horizon_from_ecef[1].w = static_cast<float>(0.5 * view.viewport.height_px);
+    block.horizon_from_ecef[2].w = static_cast<float>(1.0 / focal_px);
+  }
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

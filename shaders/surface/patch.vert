@@ -19,6 +19,30 @@ flat out uvec4 window;
 flat out vec4 center_and_scale;
 flat out vec4 frame;
 flat out vec4 row;
+#if defined(AIR)
+layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
+layout(binding = 8) uniform sampler2D ground_light;
+out vec3 air_through;                                     // both per metre of distance: air.glsl
+out vec3 air_light;
+
+void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
+  mat3 to_horizon = mat3(horizon_from_ecef);
+  vec3 way = to_horizon * position_from_eye;
+  float away = max(length(way), 1e-3);
+  vec3 ray = way / away;
+  vec3 up = normalize(to_horizon * (normal_ecef * vec3(1.0, 1.0, horizon_from_ecef[3].x)));
+  float over = -dot(ray, up), down = clamp(over, 0.0, 1.0);
+  vec2 size = vec2(textureSize(ground_through, 0));
+  vec2 at = vec2(atan(abs(ray.y), ray.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down)));
+  at = (at * (size - 1.0) + 0.5) / size;
+  air_through = textureLod(ground_through, at, 0.0).rgb;
+  air_light = textureLod(ground_light, at, 0.0).rgb;
+  // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
+  float metres = over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away;
+  air_through = (1.0 - air_through) / metres;
+  air_light /= metres;
+}
+#endif
 
 // Soft light from the sun's side. The night side keeps a quarter.
 float light_of(vec3 normal_ecef) {
@@ -42,6 +66,9 @@ void main() {
   vec3 m = center + direction;
   vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
   light = light_of(normal);
+#if defined(AIR)
+  look_through_air(position_from_eye, normal);
+#endif
 #if defined(RELIEF)
   vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
   vec3 ground = normalize(normal - slope.x * east - slope.y * cross(normal, east));

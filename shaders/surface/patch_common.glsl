@@ -97,13 +97,10 @@ void finish(Imagery imagery_srgb) {
 #if defined(SPECIAL_LAYER)
   if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
   share *= part_shown();
-  if (layer_look.x < 0.0) {
-    color_srgb = vec4(imagery_srgb.rgb, alpha) * share;
-  } else {
-    color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
-  }
+  vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
 #else
-  color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
+  vec3 color = lit(imagery_srgb.rgb, alpha);
 #endif
+  color_srgb = vec4(through_air(color, alpha), alpha) * share;
   WRITE_DEPTH(1.0);
 }

@@ -58,7 +58,7 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 }
 
 Status PatchPass::prepare(LayerRole role, bool numbers) {
-  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0];
+  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][air_ != nullptr ? 1 : 0];
   if (!set.made) {
     if (Status built = build_programs(set.programs, role, numbers); !built) return built;
     set.made = true;
@@ -76,7 +76,7 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
                         bool numbers) const {
   return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", air_ != nullptr ? "AIR" : "NO_AIR",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)),
                      kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
@@ -84,13 +84,14 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
 Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const {
   using enum PatchLayer::Program;
   const auto make = [&](PatchLayer::Program which, std::string_view file) {
-    return build(programs[which], {"frame.glsl", "patch_common.glsl", "patch_taps.glsl", file}, role, numbers);
+    return build(programs[which], {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", file}, role,
+                 numbers);
   };
   const auto make_exact = [&](PatchLayer::Program which, std::string_view file) {
-    return build(
-        programs[which],
-        {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_exact_point.glsl", file}, role,
-        numbers);
+    return build(programs[which],
+                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl",
+                  "patch_exact_point.glsl", file},
+                 role, numbers);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
     Status s = make_exact(polar, "patch_polar.frag");
@@ -142,7 +143,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
-  return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
+  return patch.footprint_texels > plain_footprint_texels_ ? oblique : plain;
 }
 
 void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -196,8 +197,9 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0];
+  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][air_ != nullptr ? 1 : 0];
   assert(set.made);
+  if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());

@@ -11,6 +11,7 @@
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
+#include "render/sky/air_textures.h"
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
@@ -50,13 +51,18 @@ class PatchPass {
   /// `has_relief` means that patches have slopes.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Builds the programs that draw a layer of pictures or numbers, once; for upper layers also that of draw_flat().
+  /// Sees the ground through this air from now on; null: without air.
+  void set_air(const AirTextures* air) { air_ = air; }
+  /// Builds the programs that draw a layer of pictures or numbers in the present air, once; for upper layers also that
+  /// of draw_flat(). Call after set_air().
   Status prepare(LayerRole role, bool numbers);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
   /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
   void set_paper_band(double band) { paper_band_ = band; }
+  /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
+  void set_plain_footprint(double texels) { plain_footprint_texels_ = texels; }
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -88,13 +94,15 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  /// The programs of a role, for pictures or numbers.
+  /// The programs of a role, for pictures or numbers, without air or with it.
   struct ProgramSet {
     gl::Program programs[kPrograms];
     bool made = false;
   };
-  ProgramSet sets_[3][2];
+  ProgramSet sets_[3][2][2];
+  const AirTextures* air_ = nullptr;
   double paper_band_ = 0.05;
+  double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;
