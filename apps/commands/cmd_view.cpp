@@ -42,6 +42,9 @@ constexpr const char* kHelpFooter =
     "  terrella view --overlay flight_in_utm.tif          a picture in any projection, over the Earth\n"
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
 
+// Dark, so that objects under the ground stand out, and bright enough to look round.
+constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
+
 struct ViewOptions {
   SceneOptions scene;
   std::string places;  // GeoJSON for the search; empty: the Earth's cities
@@ -178,6 +181,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
+  options->scene.surface.inner_sphere_srgb = kInnerSphere_srgb;
   command->callback([options, command, &exit_code] {
     begin_as_kept(*options, *command);
     exit_code = view(*options);

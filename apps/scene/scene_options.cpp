@@ -8,9 +8,9 @@
 #include "apps/commands/remote_set_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/scene/scene_overlays.h"
+#include "apps/scene/surface_options.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
-#include "streaming/sets/elevation_json.h"
 #include "view/view_limits.h"
 
 namespace terrella {
@@ -79,6 +79,12 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
                   "Set the texels per pixel: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
       ->check(number_in(0.125, 8.0))
       ->capture_default_str();
+  add_choice<Sharpness>(
+      command, "--magnify", options.surface.sharpness,
+      {{"bilinear", Sharpness::bilinear}, {"bicubic", Sharpness::bicubic}, {"auto", Sharpness::automatic}},
+      "Choose the filter of imagery whose texels are larger than pixels; auto is bicubic, and "
+      "bilinear with --unlit")
+      ->default_str("auto");
   add_choice<DepthMode>(
       command, "--depth", options.depth,
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
@@ -117,58 +123,12 @@ void add_layer_options(CLI::App& command, SceneOptions& options) {
           [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
           "Add white-on-black cloud imagery above all other layers; black is clear. The opacity is 0 to 1")
       ->type_name("TILESET[:OPACITY]");
-}
-
-void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option(
-          "--elevation", options.elevation,
-          "Raise the ground by a raster or a folder of rasters with one number a pixel, tiles made by terrella cut "
-          "--elevation, a GDAL gridded coverage, or a JSON description with \"elevation\" or \"encoding\"")
-      ->type_name("RASTER|FOLDER|TILESET");
-  const auto read_encoding = [&options](const std::string& name) { options.elevation_encoding = rgb_encoding(name); };
-  command
-      .add_option_function<std::string>("--elevation-encoding", read_encoding, "Read heights from the tiles' colours")
-      ->check(CLI::IsMember({"terrain-rgb", "mapbox", "terrarium"}))
-      ->needs("--elevation");
-  command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
-      ->check(number_in(0.0, 100.0))
+      .add_option("--cloud-height", options.cloud_height_m,
+                  "Draw --clouds this many metres over the ground, with their shadow; at 0 they lie on the ground")
+      ->check(number_in(0.0, 1.0e6))
+      ->type_name("METRES")
       ->capture_default_str();
-}
-
-void add_translucency_options(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option("--surface-alpha", options.surface.alpha, "Set the surface's opacity: 0 is invisible, 1 is opaque")
-      ->check(number_in(0.0, 1.0))
-      ->capture_default_str();
-  add_choice<Blend>(command, "--blend", options.surface.blend,
-                    {{"normal", Blend::normal}, {"additive", Blend::additive}},
-                    "Choose how a translucent surface blends with what lies behind")
-      ->default_str("normal");
-  command
-      .add_option_function<std::string>(
-          "--inner-sphere",
-          [&options](const std::string& text) {
-            options.surface.inner_sphere_below_m = parsed_or_throw("--inner-sphere", parse_length_or_off(text));
-          },
-          "Set the depth in metres of the inner sphere under the equator. The sphere hides the far side of a "
-          "translucent "
-          "globe. The depth is for Earth and scales with other bodies")
-      ->type_name("METRES_BELOW|off")
-      ->default_str("1000000");
-  add_choice<SurfaceFromBelow>(
-      command, "--surface-from-below", options.surface.from_below,
-      {{"opaque", SurfaceFromBelow::opaque},
-       {"translucent", SurfaceFromBelow::translucent},
-       {"selective", SurfaceFromBelow::selective}},
-      "Choose how the surface looks from below; selective lets only objects with through_surface "
-      "show through")
-      ->default_str("opaque");
-  add_choice<HorizonCulling>(
-      command, "--horizon-culling", options.surface.horizon_culling,
-      {{"on", HorizonCulling::on}, {"off", HorizonCulling::off}, {"auto", HorizonCulling::automatic}},
-      "Skip what the planet hides; 'on' also skips the far half when the eye is under the ground")
-      ->default_str("auto");
 }
 
 // Parses a time and refuses years outside the almanac.
@@ -184,6 +144,9 @@ Result<UtcTime> parse_time(std::string_view text) {
 void add_sky_options(CLI::App& command, SceneOptions& options) {
   add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}},
                    "Draw stars, Sun, Moon and atmosphere")
+      ->default_str("on");
+  add_choice<bool>(command, "--glint", options.surface.glint, {{"on", true}, {"off", false}},
+                   "Draw the Sun's glint on the sea at --time")
       ->default_str("on");
   command
       .add_option_function<std::string>(

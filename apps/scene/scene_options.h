@@ -52,6 +52,7 @@ struct SceneOptions {
   double exaggeration = 1.0;                     ///< factor for heights
   Url night;                                     ///< tile set for the night side; empty: none
   OverlayOption clouds;                          ///< top layer; brightness is alpha; empty: none
+  double cloud_height_m = 0.0;                   ///< of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none

@@ -172,7 +172,7 @@ std::optional<double> Globe::finest_texel_m() const {
   return finest;
 }
 
-// Relief raises the vertices of patches and adds slopes, so all patches are discarded.
+// Relief raises the vertices of patches, so all patches are discarded.
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   const auto call = impl_->may_draw("Globe::set_elevation");
   if (!call) return call.error();
@@ -180,6 +180,7 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (elevation.has_value() != has_relief()) {
     if (Status made = impl_->renderer->set_relief(elevation.has_value()); !made) return made;
   }
+  impl_->renderer->forget_slopes();
   impl_->heights.reset();
   if (elevation) impl_->heights = std::make_unique<HeightLayer>(*elevation, impl_->options, impl_->bell);
   for (const auto& layer : impl_->images) layer->discard_patches();

@@ -87,7 +87,8 @@ bool ImageLayer::is_opaque(bool has_night) const {
 }
 
 bool ImageLayer::is_special(bool has_night) const {
-  return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
+  return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
+         (has_night && look_.daylight != Daylight::both);
 }
 
 // Slot 0 and the slots of root tiles are never evicted. A tenth of the others stays free for tiles in flight.
@@ -176,6 +177,7 @@ LayerFrame ImageLayer::frame(bool is_base, bool has_night) {
           .opacity = is_base ? 1.0 : look_.opacity,
           .daylight = has_night ? look_.daylight : Daylight::both,
           .alpha = look_.alpha,
+          .height_m = is_base ? 0.0 : look_.height_m,
           .special = is_special(has_night)};
 }
 

@@ -67,15 +67,38 @@ vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
 }
 #endif
 
-vec3 lit(vec3 imagery_srgb, float alpha) {
-#if defined(NIGHT_LIGHTS)
-  return by_day_and_night(imagery_srgb, alpha);
+#if defined(GLINT) && !defined(UPPER_LAYER)
+in vec3 glint;
+
+// Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. The sea is where the imagery is clearly more
+// blue than red and no less than green. White ground of a full Sun has the light 1.
+vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
+  float light = glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029;
+  if (light < 1e-4) return color_srgb;
+  vec3 c = imagery_srgb + 0.02;
+  light *= smoothstep(1.2, 1.7, c.b / c.r) * smoothstep(0.85, 1.05, c.b / c.g);
+  return pow(pow(color_srgb, vec3(2.2)) + min(light, 1.5) * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));
+}
 #else
-  return imagery_srgb * light;
+#define with_glint(color_srgb, imagery_srgb) (color_srgb)
+#endif
+
+vec3 lit(vec3 imagery_srgb, float alpha) {
+#if defined(RELIEF)
+  vec3 shaded_srgb = imagery_srgb * relief_light();
+#else
+  vec3 shaded_srgb = imagery_srgb;
+#endif
+#if defined(NIGHT_LIGHTS)
+  return with_glint(by_day_and_night(shaded_srgb, alpha), imagery_srgb);
+#else
+  return with_glint(shaded_srgb * light, imagery_srgb);
 #endif
 }
 
 #if defined(SPECIAL_LAYER)
+in float shadow_of_layer;   // by day
+
 // Shown fraction of a layer by day or night. Civil twilight: the Sun's centre from 6 degrees under the horizon up to it
 // (engine/surface/daylight.h).
 float part_shown() {
@@ -97,6 +120,11 @@ void finish(Imagery imagery_srgb) {
 #if defined(SPECIAL_LAYER)
   if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
   share *= part_shown();
+  if (surface_look.x < 0.0) {                    // the layer's shadow on the ground
+    color_srgb = vec4(0.0, 0.0, 0.0, alpha * share * shadow_of_layer);
+    WRITE_DEPTH(1.0);
+    return;
+  }
   vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
 #else
   vec3 color = lit(imagery_srgb.rgb, alpha);

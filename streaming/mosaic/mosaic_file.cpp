@@ -24,9 +24,10 @@ Status read_tiff_header(MosaicFile& file) {
   const TiffSamples& samples = pyramid->whole().part.picture.samples;
   file.one_band = samples.colour == TiffColour::gray || samples.colour == TiffColour::gray_inverted;
   file.is_numbers = file.one_band && samples.type != SampleType::uint8;
-  file.unit = pyramid->metadata.unit;
-  file.scale = pyramid->metadata.scale;
-  file.offset = pyramid->metadata.offset;
+  const BandMetadata band = pyramid->metadata.band(0);
+  file.unit = band.unit;
+  file.scale = band.scale;
+  file.offset = band.offset;
   return Done{};
 }
 

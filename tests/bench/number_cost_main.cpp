@@ -92,18 +92,18 @@ std::unique_ptr<Globe> make_globe(const Layer& layer, Texturing texturing) {
   return *std::move(globe);
 }
 
-struct View {
+struct Case {
   const char* name;
   const char* camera;
   Texturing texturing = Texturing::automatic;
 };
-constexpr View kViews[] = {{"four radii, 10 N 20 E", "10,20,19134411"},
+constexpr Case kCases[] = {{"four radii, 10 N 20 E", "10,20,19134411"},
                            {"over the pole", "90,0,19134411"},
                            {"slanted, 500 km", "46,7,500000,30,-25"},
                            {"near, magnified", "46,7,2000"},
                            {"four radii, every patch polar", "10,20,19134411", Texturing::exact}};
 
-void measure(const View& view, int rounds, const NumberLook& look) {
+void measure(const Case& view, int rounds, const NumberLook& look) {
   OffscreenTarget target{kSize};
   std::vector<std::unique_ptr<Globe>> globes;
   std::vector<Subject> subjects;
@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
     fmt::print("{}, {}\n\n| view | layer | processor | {} | slots, MiB |\n|---|---|---|---|---|\n",
                bench::renderer_name(), bench::timing_method(), "frame");
     const NumberLook look{.low = kLow, .high = kHigh, .colors = *named_color_map("viridis")};
-    for (const View& view : kViews) measure(view, rounds, look);
+    for (const Case& view : kCases) measure(view, rounds, look);
   } catch (const std::exception& wrong) {
     fmt::print(stderr, "{}\n", wrong.what());
     return 1;

@@ -63,6 +63,17 @@ class ShownTest(RemoteTiffTest):
             self.assertGreater(told["tiles_asked"], 10)
             self.assertLessEqual(len(server.asked), told["tiles_asked"] + 3, "more than one request a tile")
 
+    def test_a_large_table_is_read_by_parts(self):
+        """The table of the 14,280 tiles of the finest level has 170 kB. No tile is stored, so all requests are of tables."""
+        gdal("gdal_create", "-q", "-outsize", 43200, 21600, "-bands", 1, "-ot", "Byte", *PLANET, "-co", "TILED=YES", "-co",
+             "SPARSE_OK=YES", self.folder / "empty.tif")
+        gdal("gdal_translate", "-q", "-of", "COG", "-co", "SPARSE_OK=TRUE", "-co", "BLOCKSIZE=256", "-co", "BIGTIFF=YES",
+             "-co", "OVERVIEW_RESAMPLING=NEAREST", self.folder / "empty.tif", self.folder / "a.tif")
+        with range_server((self.folder / "a.tif").read_bytes(), name="a.tif") as (url, server):
+            self.pixels(url, "--cache", "off")
+            self.assertLessEqual(len(server.asked), 3)
+            self.assertLessEqual(sum(last + 1 - first for first, last in server.asked), 128 << 10)
+
     def test_no_name_and_other_endings(self):
         data = self.planet()
         with range_server(data, name="a.tif") as (url, _):

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "tests/gl/gl_fixture.h"
@@ -120,6 +121,37 @@ TEST_F(LimbPictures, HasNoCombWithASky) {
 }
 
 TEST_F(LimbPictures, HasNoDashesWithoutASky) { check(camera_at(-40.0, 130.0, 12000000, 30), 160, false); }
+
+// A ball whose centre lies under the ground, and which stands out over the limb. The Sun is over the eye's shoulder.
+TEST_F(LimbPictures, HaveNoAirOverAnObject) {
+  constexpr Viewport kPicture{400, 400};
+  constexpr double kRadius_m = 6.0e5;
+  const PointObject ball{.place = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(72.0), .height_m = -1.0e5},
+                         .radius_m = kRadius_m,
+                         .color = {255, 64, 32, 255}};
+  ASSERT_TRUE(globe_->add_objects({.points = {ball}}));
+  const Camera camera = camera_at(20.9, 0.1, 15202000);
+  globe_->set_camera(camera);
+  const View view = make_view(camera, earth().ellipsoid, kPicture);
+  const glm::dvec3 center = earth().ellipsoid.to_ecef(ball.place).xyz_m - view.eye.xyz_m;
+  globe_->set_sky(false);
+  settle(*globe_, kPicture);
+  const Picture bare = picture();
+  globe_->set_sky(true);
+  settle(*globe_, kPicture);
+  const Picture seen = picture();
+  int pixels = 0;
+  for (int y = 0; y < kPicture.height_px; ++y) {
+    for (int x = 0; x < kPicture.width_px; ++x) {
+      const glm::dvec3 ray = pixel_ray(view, {x + 0.5, y + 0.5}).xyz;
+      if (glm::length(center - glm::dot(center, ray) * ray) > 0.9 * kRadius_m) continue;
+      if (pick(view, earth().ellipsoid, {x + 0.5, y + 0.5})) continue;
+      EXPECT_EQ(seen.at(x, y), bare.at(x, y)) << x << ", " << y;
+      ++pixels;
+    }
+  }
+  EXPECT_GT(pixels, 100) << "the ball is not over the limb";
+}
 
 }  // namespace
 }  // namespace terrella::test

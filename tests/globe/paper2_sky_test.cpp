@@ -23,9 +23,9 @@ constexpr int kStars = 6000;
 constexpr float kStarMagnitude = 0.0F;
 // A ball looked at from its night side has four fifths of its colour, and half of that by its alpha.
 constexpr Color kShadedGlass = {16, 92, 24};
-// The limb takes its colours from both sides; from 20,000 km it is a pixel wide, a hundredth of the radius.
 // The air is dithered, by half a level before rounding.
 constexpr int kDither_levels = 1;
+// The limb takes its colours from both sides; from 20,000 km it is a pixel wide, a hundredth of the radius.
 constexpr double kBesideTheLimb = 0.03;
 
 /// Spread evenly over the sky, on a spiral.

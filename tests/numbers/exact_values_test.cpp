@@ -116,7 +116,7 @@ TEST_P(ExactValuesTest, ShownDirectly) {
   const CrsPlace place{.to_crs = {-180.0, 360.0 / kWidth, 0.0, 90.0, 0.0, -180.0 / kHeight}, .crs = "EPSG:4326"};
   auto opened = open_raster(raster, place, {.heights = true, .stored = true});
   ASSERT_TRUE(opened) << opened.error().message;
-  auto tiles = warp_source(*std::move(opened), {.figure = {earth().ellipsoid, {}, {}}}, "in.tif");
+  auto tiles = warp_source(*std::move(opened), {.figure = {earth().ellipsoid, {}, {}}, .tile_px = 64}, "in.tif");
   ASSERT_TRUE(tiles) << tiles.error().message;
   expect_same(**tiles, by_gdal(raster, places(), folder.path()), expected());
 }
@@ -124,7 +124,7 @@ TEST_P(ExactValuesTest, ShownDirectly) {
 TEST_P(ExactValuesTest, CutIntoAGeoPackageThatGdalReadsToo) {
   const ScratchFolder folder;
   const fs::path raster = make_raster(GetParam(), folder.path());
-  const auto done = cut({.images = {raster}, .output = folder / "out.gpkg", .numbers = CutNumbers{}});
+  const auto done = cut({.images = {raster}, .output = folder / "out.gpkg", .tile_px = 64, .numbers = CutNumbers{}});
   ASSERT_TRUE(done) << done.error().message;
   const auto tiles = open_tile_set(folder / "out.gpkg");
   ASSERT_TRUE(tiles) << tiles.error().message;
@@ -140,7 +140,7 @@ TEST_P(ExactValuesTest, CutIntoAGeoPackageThatGdalReadsToo) {
 TEST_P(ExactValuesTest, CutIntoAFolder) {
   const ScratchFolder folder;
   const fs::path raster = make_raster(GetParam(), folder.path());
-  const auto done = cut({.images = {raster}, .output = folder / "out", .numbers = CutNumbers{}});
+  const auto done = cut({.images = {raster}, .output = folder / "out", .tile_px = 64, .numbers = CutNumbers{}});
   ASSERT_TRUE(done) << done.error().message;
   const auto tiles = open_tile_set(folder / "out");
   ASSERT_TRUE(tiles) << tiles.error().message;

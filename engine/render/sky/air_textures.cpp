@@ -113,6 +113,8 @@ glm::dmat3 AirTextures::ecef_from_horizon() const {
   return {axes_[0] * shape, axes_[1] * shape, axes_[2] * shape};
 }
 
+bool AirTextures::near_ground() const { return (eye_.radius - 1.0) * body_.ellipsoid.a_m() < 5.0 * air().gas_scale_m; }
+
 void AirTextures::bind_sky() const {
   bind(0, sky_light_);
   bind(1, sky_rows_);

@@ -28,6 +28,9 @@ class AirTextures {
   [[nodiscard]] double eye_radius() const { return eye_.radius; }
   [[nodiscard]] double limb_pixel() const { return pixel_; }  ///< height over the limb that a pixel covers, in radii
 
+  /// True if triangles of the ground may be as large as the eye's height: fragments then compute their distance.
+  [[nodiscard]] bool near_ground() const;
+
   void bind_sky() const;     ///< textures 0 and 1: colours; rows
   void bind_limb() const;    ///< textures 2 and 3: sums of light; sums of the part that passes
   void bind_ground() const;  ///< textures 7 and 8: part that passes; light

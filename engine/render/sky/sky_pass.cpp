@@ -51,7 +51,7 @@ Status SkyPass::build_programs() {
   const auto build = [](gl::Program& into, std::string_view vertex, std::string_view fragment) {
     return build_into(into,
                       {{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
-                       {GL_FRAGMENT_SHADER, {"frame.glsl", "air.glsl", "sky_color.glsl", fragment}}},
+                       {GL_FRAGMENT_SHADER, {"frame.glsl", "air.glsl", "sky_color.glsl", "regolith.glsl", fragment}}},
                       {});
   };
   if (Status s = build(star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;

@@ -20,6 +20,8 @@ struct PatchLayer {
   gl::Buffer draws, commands, cells;
   gl::Buffer frame_block;  ///< used for upper layers
   gl::Texture cells_texture;
+  gl::Buffer slope_draws, slope_cells;  ///< made by SlopeTextures; only with relief
+  gl::Texture slope_cells_texture;
   int first_command[kPrograms + 1] = {};
   long triangles = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
+#include "render/surface/slope_textures.h"
 
 namespace terrella {
 namespace {
@@ -58,7 +59,7 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 }
 
 Status PatchPass::prepare(LayerRole role, bool numbers) {
-  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][air_ != nullptr ? 1 : 0];
+  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][which()][light_.index()];
   if (!set.made) {
     if (Status built = build_programs(set.programs, role, numbers); !built) return built;
     set.made = true;
@@ -74,9 +75,14 @@ Status PatchPass::prepare_depth() {
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
                         bool numbers) const {
-  return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                    {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", air_ != nullptr ? "AIR" : "NO_AIR",
+  const bool pictures = !numbers;
+  return build_into(place,
+                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                    {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", options_.regolith ? "REGOLITH" : "NO_DUST",
+                     light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
+                     light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
+                     which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)),
                      kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
@@ -84,13 +90,15 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
 Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const {
   using enum PatchLayer::Program;
   const auto make = [&](PatchLayer::Program which, std::string_view file) {
-    return build(programs[which], {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", file}, role,
-                 numbers);
+    return build(
+        programs[which],
+        {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
+        role, numbers);
   };
   const auto make_exact = [&](PatchLayer::Program which, std::string_view file) {
     return build(programs[which],
-                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl",
-                  "patch_exact_point.glsl", file},
+                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl",
+                  "patch_taps.glsl", "patch_exact_point.glsl", file},
                  role, numbers);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
@@ -117,7 +125,13 @@ void PatchPass::set_up_vertex_array() {
   glEnableVertexArrayAttrib(array, 7);
   glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
   glVertexArrayAttribBinding(array, 7, 1);
-  if (has_relief_) gl::float_attribute(array, 8, 2, 2, 0);
+  if (!has_relief_) return;
+  gl::float_attribute(array, 8, 2, 2, 0);
+  glVertexArrayBindingDivisor(array, 3, 1);
+  gl::float_attribute(array, 9, 3, 4, offsetof(SlopeDraw, center_and_scale));
+  glEnableVertexArrayAttrib(array, 10);
+  glVertexArrayAttribIFormat(array, 10, 4, GL_UNSIGNED_INT, offsetof(SlopeDraw, window));
+  glVertexArrayAttribBinding(array, 10, 3);
 }
 
 void PatchPass::set_up_samplers() {
@@ -183,7 +197,12 @@ void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& verti
   glVertexArrayElementBuffer(array, vertices.index_buffer());
   glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
   glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
-  if (has_relief_) glVertexArrayVertexBuffer(array, 2, vertices.slope_buffer(), 0, sizeof(glm::vec2));
+  if (has_relief_) {
+    // Programs without light on relief read no slopes.
+    const bool slopes = static_cast<bool>(layer.slope_draws);
+    glVertexArrayVertexBuffer(array, 2, vertices.height_offset_buffer(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array, 3, slopes ? layer.slope_draws.name() : layer.draws.name(), 0, sizeof(SlopeDraw));
+  }
   glBindVertexArray(array);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, layer.commands.name());
 }
@@ -197,7 +216,7 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][air_ != nullptr ? 1 : 0];
+  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][which()][light_.index()];
   assert(set.made);
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());

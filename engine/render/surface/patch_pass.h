@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -24,10 +25,20 @@
 
 namespace terrella {
 
+/// Light and filter of a frame's surface; each combination has programs of its own, made when first needed.
+struct PatchLight {
+  bool relief = false;   ///< slopes are lit; the caller uploads and binds them (SlopeTextures)
+  bool bicubic = false;  ///< magnified pictures are filtered bicubically
+  bool glint = false;    ///< the sea mirrors the Sun
+  [[nodiscard]] int index() const { return (relief ? 1 : 0) + (bicubic ? 2 : 0) + (glint ? 4 : 0); }
+};
+
 /// Options that determine the programs. Changing them needs a new renderer.
 struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
+  bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
+  PatchLight light = {};                          ///< of the first frame; `relief` follows from the heights
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
@@ -48,13 +59,15 @@ enum class LayerRole {
 /// caller has bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
-  /// `has_relief` means that patches have slopes.
+  /// `has_relief`: the patches have heights.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
   /// Sees the ground through this air from now on; null: without air.
   void set_air(const AirTextures* air) { air_ = air; }
-  /// Builds the programs that draw a layer of pictures or numbers in the present air, once; for upper layers also that
-  /// of draw_flat(). Call after set_air().
+  /// Draws in this light from now on.
+  void set_light(const PatchLight& light) { light_ = light; }
+  /// Builds the programs that draw a layer of pictures or numbers in the present air and light, once; for upper layers
+  /// also that of draw_flat(). Call after set_air() and set_light().
   Status prepare(LayerRole role, bool numbers);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
@@ -80,7 +93,10 @@ class PatchPass {
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms;
 
-  PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
+  PatchPass(const RenderOptions& options, bool has_relief)
+      : options_(options), has_relief_(has_relief), light_(options.light) {}
+  /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
+  [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
   Status build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const;
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
                bool numbers) const;
@@ -94,13 +110,14 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  /// The programs of a role, for pictures or numbers, without air or with it.
+  /// The programs of a role, for pictures or numbers, by which() air, in a light.
   struct ProgramSet {
     gl::Program programs[kPrograms];
     bool made = false;
   };
-  ProgramSet sets_[3][2][2];
+  ProgramSet sets_[3][2][3][8];
   const AirTextures* air_ = nullptr;
+  PatchLight light_;
   double paper_band_ = 0.05;
   double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;

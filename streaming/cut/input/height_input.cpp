@@ -97,7 +97,12 @@ Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutEle
     for (const fs::path& image : images) {
       if (Status widened = widen(image, plan.coding, range); !widened) return widened.error();
     }
-    if (range.least > range.most) return Error{fmt::format("{}: holds no height", images.front().string())};
+    if (range.least > range.most) {
+      return Error{
+          fmt::format("{}: holds no height: each pixel is no data or not a number; say with --nodata which value "
+                      "means no data, or name another file",
+                      images.front().string())};
+    }
     const double span = static_cast<double>(range.most) - static_cast<double>(range.least);
     plan.numbers.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
     plan.numbers.offset = range.least;
