@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,6 +13,7 @@
 #include "base/result.h"
 #include "streaming/georeference/georeference.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/numbers/stretch_rule.h"
 #include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"
 
@@ -32,6 +34,19 @@ struct CutElevation {
   std::optional<double> scale = {};
   std::optional<double> offset = {};
   std::optional<double> nodata = {};  ///< picture value that means "no height"; NaN always does
+};
+
+/// Makes the cut keep the numbers of one band (streaming/cut/README.md, "Numbers").
+struct CutNumbers {
+  int band = 1;                       ///< counted from 1
+  std::optional<double> nodata = {};  ///< value that means "no data"; default: as stated by the picture
+};
+
+/// Makes the cut show three bands as red, green and blue, each stretched by itself (8-bit tiles).
+struct CutBands {
+  std::array<int, 3> bands{1, 2, 3};                    ///< counted from 1
+  std::array<std::optional<StretchRule>, 3> stretch{};  ///< none: 8 bits as they are, else percent:2,98
+  std::optional<double> nodata = {};                    ///< transparent where all three bands have it
 };
 
 /// One of `count` machines that cut the same picture together.
@@ -76,6 +91,8 @@ struct CutOptions {
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
+  std::optional<CutNumbers> numbers = {};  ///< of `elevation`, `numbers` and `composite` at most one is set
+  std::optional<CutBands> composite = {};
   /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself
   /// (streaming/georeference). Without one the picture is the whole planet and must be 2:1.
   std::optional<GeoRect> bounds{};
@@ -91,7 +108,7 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
-  bool keep_unfinished = false;    ///< what is done stays for the next run if `progress` stops the cut
+  bool keep_unfinished = false;     ///< what is done stays for the next run if `progress` stops the cut
   std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};

@@ -7,6 +7,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/scene/number_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_remote_tiff.h"
@@ -29,6 +30,8 @@ constexpr const char* kCutExamples =
     "  terrella cut world.200412.3x21600x21600.??.jpg -o earth.gpkg     NASA's eight parts as one\n"
     "  terrella cut nw.png ne.png sw.png se.png --mosaic 2x2 -o tiles\n"
     "  terrella cut etopo5.png --elevation --offset -32768 -o relief.gpkg\n"
+    "  terrella cut temperature.tif -o temperature.gpkg                 numbers stay numbers\n"
+    "  terrella cut landsat.tif --bands 4,3,2 --stretch percent:2,98 -o landsat.gpkg\n"
     "  terrella cut huge.tif -o huge.gpkg --shard 3/8                   on each of 8 machines, 1/8 to 8/8, then\n"
     "  terrella cut huge.tif -o huge.gpkg --join\n"
     "After an interruption the same command resumes and writes the same bytes.";
@@ -40,6 +43,7 @@ struct CutCommand {
   bool elevation = false;
   CutElevation heights;
   PlaceWords place;
+  NumberOptions numbers;
   bool json = false;
 };
 
@@ -107,7 +111,12 @@ Status open_address(CutCommand& command) {
 int run(CutCommand& command) {
   command.cut.images.assign(command.images.begin(), command.images.end());
   command.cut.output = command.output;
-  if (command.elevation) command.cut.elevation = command.heights;
+  if (command.elevation) {
+    command.heights.nodata = command.numbers.nodata;
+    command.cut.elevation = command.heights;
+  } else {
+    set_numbers(command.cut, command.numbers, command.cut.images.front());
+  }
   set_place(command.cut, command.place);
   command.cut.remark = [](const std::string& remark) { print_message("terrella cut: {}\n", remark); };
   const StopSignals signals;
@@ -161,7 +170,16 @@ void add_input_options(CLI::App& app, CutCommand& command) {
       ->needs(elevation);
   app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
       ->needs(elevation);
-  app.add_option("--nodata", command.heights.nodata, "Set the picture's value for unknown heights")->needs(elevation);
+  app.add_option("--nodata", command.numbers.nodata,
+                 "Set the value for no data in a picture of heights or numbers that does not say it");
+  app.add_option("--band", command.numbers.band,
+                 "Keep the numbers of this band of a TIFF, counted from 1. Without it, gray TIFFs of 16 bits and more, "
+                 "and of floats, keep their numbers, unless --format asks for pictures")
+      ->check(whole_number_in(1, 65535))
+      ->excludes(elevation);
+  add_stretch_options(app, command.numbers);
+  app.get_option("--bands")->excludes(elevation)->excludes("--band");
+  app.get_option("--stretch")->needs("--bands");
 }
 
 void add_work_options(CLI::App& app, CutCommand& command) {

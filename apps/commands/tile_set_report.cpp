@@ -42,6 +42,10 @@ std::string rows_text(const TileGrid& grid) {
 
 std::string elevation_text(const NumberInfo& elevation) {
   const std::string nodata = elevation.nodata ? fmt::format(", {} says that there is none", *elevation.nodata) : "";
+  if (!elevation.unit.empty() && elevation.unit != "m") {
+    return fmt::format("numbers      {} = number * {:.9g} + {:.9g}{}{}\n", one_line(elevation.unit), elevation.scale,
+                       elevation.offset, elevation.quantity.empty() ? "" : ", " + one_line(elevation.quantity), nodata);
+  }
   return fmt::format("elevation    metres = number * {:.9g} + {:.9g}{}\n", elevation.scale, elevation.offset, nodata);
 }
 

@@ -17,6 +17,7 @@ Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set,
   layer.projection.reset();
   layer.latitude.reset();
   layer.place = {};
+  layer.numbers = {};
   layer.remote = {};
   if (layer.cache != "off") layer.cache.clear();
   auto tiles = open_imagery(layer);

@@ -63,11 +63,6 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
       ->check(number_in(2.0, 8.0))
       ->capture_default_str();
-  command
-      .add_option("--band", options.band,
-                  "Set the width b of the pole bands for --texturing paper, as a fraction of the picture's height")
-      ->check(number_in(0.001, 0.5))
-      ->capture_default_str();
   add_choice<bool>(
       command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
       "Choose the tiles near the poles in a set made by terrella cut: the few squeezed ones, or the full grid")
@@ -213,6 +208,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_place_options(command, options.place);
+  add_number_options(command, options.numbers, options.band);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);

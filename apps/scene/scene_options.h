@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/number_options.h"
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "globe/globe.h"
@@ -35,6 +36,7 @@ struct SceneOptions {
   std::optional<Projection> projection;          ///< absent: as the tile set states
   std::optional<LatitudeKind> latitude;          ///< absent: as the tile set states
   PlaceWords place;                              ///< place of TILESET, if it is a picture
+  NumberOptions numbers;                         ///< of TILESET; of the overlays if TILESET is empty
   std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
   std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
   bool unlit = false;

@@ -67,6 +67,13 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
                     "where it lies; leave them out",
                     path.string())};
   }
+  const NumberOptions& numbers = options.numbers;
+  if (!picture && (numbers.bands || numbers.band > 0 || numbers.nodata)) {
+    return Error{
+        fmt::format("{}: --band, --bands and --nodata choose what is read of a TIFF, and this is a tile set; "
+                    "leave them out",
+                    path.string())};
+  }
   if (picture) return open_picture(path, options, told);
   auto tiles = open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
@@ -81,6 +88,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.projection.reset();
   heights.latitude.reset();
   heights.place = {};
+  heights.numbers = {};
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
@@ -172,7 +180,7 @@ Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   auto tiles = open_any_tiles(options);
   if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
-      fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
+      fmt::format("{0}: its tiles are numbers, not pictures; name them as TILESET or with --overlay, or heights with "
                   "--elevation {0}",
                   options.tile_set.redacted())};
 }

@@ -20,7 +20,7 @@ namespace terrella {
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options,
                                                                  const CutProgress& progress = {});
 
-/// Like open_any_tiles(), but refuses tiles of heights and says how to use them. thread: main
+/// Like open_any_tiles(), but refuses tiles of numbers and says how to use them. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
 
 /// Opens the heights of --elevation; nullopt if the option is empty. The error names the input. Throws

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/scene/number_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
@@ -70,6 +71,7 @@ CutOptions cut_options(const fs::path& picture, const SceneOptions& options) {
   cut.body = body_text(options);
   cut.latitude = options.latitude;
   set_place(cut, options.place);
+  set_numbers(cut, options.numbers, picture);
   cut.remark = print_remark;
   cut.images = {picture};
   cut.name = picture.stem().string();
@@ -94,7 +96,8 @@ Result<Tiles> cut_and_open(CutOptions cut, const fs::path& folder, const CutProg
 Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const SceneOptions& options,
                        const CutProgress& told) {
   CutOptions cut = cut_options(picture, options);
-  if (options.cuts == nullptr) return cut_and_open(std::move(cut), folder, told);
+  // A cut of numbers is waited for: its unfinished tiles are not shown.
+  if (options.cuts == nullptr || cut.numbers || cut.composite) return cut_and_open(std::move(cut), folder, told);
   const auto path = cache_path(cut, folder);
   if (!path) return path.error();
   std::error_code failed;
@@ -114,7 +117,9 @@ Result<DirectFile> open_in_place(const fs::path& picture, const SceneOptions& op
   auto grid = grid_of_pixels(cut);
   if (!grid) return grid.error();
   if (*grid) (*grid)->reduced = false;
-  return open_direct(picture, {cut.body, options.latitude, options.place, *grid});
+  DirectOptions direct{cut.body, options.latitude, options.place, *grid, {}};
+  set_numbers(direct.reading, options.numbers, picture);
+  return open_direct(picture, direct);
 }
 
 }  // namespace

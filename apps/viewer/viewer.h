@@ -30,10 +30,11 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
+  std::filesystem::path places = {};            ///< GeoJSON for the search; empty: the program's cities
   SceneOptions files = {};                      ///< options for opening dropped files
   KeptSettings kept = {};                       ///< settings from the file
   bool first_run = false;                       ///< true: show a hint
@@ -73,7 +74,7 @@ class Viewer {
   void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
-  [[nodiscard]] PanelStatus status(const View& view) const;
+  [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_camera_at_rest();
@@ -91,7 +92,7 @@ class Viewer {
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_};
-  Search search_{context_};
+  Search search_{context_, options_.places};
   Layers layers_;
   ViewModes modes_;
   Measure measure_{context_};

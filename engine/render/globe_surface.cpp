@@ -1,5 +1,6 @@
 #include "render/globe_renderer.h"
 
+#include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 
@@ -173,7 +174,13 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
   if (air_ != nullptr) {
     block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
-    block.horizon_from_ecef[3].x = static_cast<float>(e.one_minus_e2());
+    const double r = air_->eye_radius(), horizon_m = e.a_m() * std::sqrt((r - 1.0) * (r + 1.0));
+    block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, 0.0, 0.0);
+    const double focal_px = view.pixels_per_radian();
+    block.horizon_from_ecef[0].w =
+        static_cast<float>(pass.eye.left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px);
+    block.horizon_from_ecef[1].w = static_cast<float>(0.5 * view.viewport.height_px);
+    block.horizon_from_ecef[2].w = static_cast<float>(1.0 / focal_px);
   }
   if (light_of(pass.input).relief) {
     block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRingRows = 32, kRingColumns = 65, kRingTurn = 512;
 constexpr int kDomeRows = 48, kDomeColumns = 61, kDomeTurn = 120;
 constexpr int kGroundSteps = 20;
-// Satellites look down through this many vertical air masses: up to 34 degrees from the vertical.
+// Satellites look up to 34 degrees away from the vertical, through this many vertical air masses.
 constexpr float kPicturedAirMass = 1.2F;
 
 glm::vec3 encoded_srgb(const glm::vec3& linear) {
@@ -68,9 +68,7 @@ class LimbProfile {
   }
 
  private:
-  [[nodiscard]] double height(std::size_t row) const {
-    return top_ * squared(double(row) / (SkyTable::kRows - 1.0));
-  }
+  [[nodiscard]] double height(std::size_t row) const { return top_ * squared(double(row) / (SkyTable::kRows - 1.0)); }
   double top_;
   std::vector<glm::vec3> colors_, sums_;
 };
@@ -107,7 +105,8 @@ class Ring {
  private:
   [[nodiscard]] double height(int row) const {
     const double first = 0.05 * top_ + pixel_;
-    return row == 0 ? -first : (top_ + pixel_) * squared((row - 1) / (kRingRows - 2.0)) - (row == 1 ? 0.5 * pixel_ : 0.0);
+    return row == 0 ? -first
+                    : (top_ + pixel_) * squared((row - 1) / (kRingRows - 2.0)) - (row == 1 ? 0.5 * pixel_ : 0.0);
   }
   [[nodiscard]] double limb_height(int k) const { return pixel_ * k / SkyColors::kLimbSteps; }
 
@@ -145,7 +144,8 @@ SkyColors dome_colors(const AirTables& air, const AirEye& eye) {
     c.zenith.emplace_back(std::cos(elevation), std::sin(elevation));
     const double at = part * (SkyTable::kRows - 1);
     const auto k = std::min(static_cast<std::size_t>(at), table.transmitted.size() - 2);
-    const glm::vec3 passed = glm::mix(table.transmitted[k], table.transmitted[k + 1], static_cast<float>(at - double(k)));
+    const glm::vec3 passed =
+        glm::mix(table.transmitted[k], table.transmitted[k + 1], static_cast<float>(at - double(k)));
     c.through.emplace_back(stored_part(passed), 0.0F);
     for (int column = 0; column < kDomeColumns; ++column) {
       const double azimuth = column / (kDomeColumns - 1.0);
@@ -156,6 +156,22 @@ SkyColors dome_colors(const AirTables& air, const AirEye& eye) {
     }
   }
   return c;
+}
+
+// Sunlight and skylight on level ground.
+glm::vec3 light_on_ground(const AirTables& air, double sun_cos) {
+  constexpr glm::vec3 kNight(1e-5F);  // without a colour
+  return air.sunlight(1.0, sun_cos) * static_cast<float>(std::max(0.0, sun_cos)) +
+         air.skylight(1.0, sun_cos) * static_cast<float>(std::numbers::pi) + kNight;
+}
+
+// The colour of the light on the ground, whose brightness the ground's own programs know: red beside the terminator. A
+// picture of the ground is taken by day, with the Sun at 20 degrees or more.
+glm::vec3 tint_of_ground(const AirTables& air, double sun_cos) {
+  constexpr double kPictured_cos = 0.35;
+  if (sun_cos >= kPictured_cos) return glm::vec3(1.0F);
+  const glm::vec3 color = light_on_ground(air, sun_cos) / light_on_ground(air, kPictured_cos);
+  return color / std::max({color.r, color.g, color.b});
 }
 
 // The ground's light after `passed` of its own and `light` of the air's, so that black and a middle grey come out as
@@ -175,11 +191,14 @@ SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel)
 
 GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
   GroundColors c;
-  const glm::vec3 pictured = glm::pow(air.vertical(), glm::vec3(kPicturedAirMass));
+  const glm::vec3 below =
+      air.vertical() / (eye.radius < air.top() ? air.transmittance(eye.radius, 1.0) : glm::vec3(1.0F));
+  const glm::vec3 pictured = glm::pow(below, glm::vec3(kPicturedAirMass));
   for (int row = 0; row < GroundColors::kRows; ++row) {
     const double v = 1.0 - squared(row / (GroundColors::kRows - 1.0)), down = 1.0 - v * v;  // at the ground
     const double sine = std::sqrt(std::max(0.0, 1.0 - down * down)) / eye.radius;
-    const AirRay ray = air_ray(air, eye, std::min(sine, 1.0), -std::sqrt(std::max(0.0, 1.0 - sine * sine)));
+    const AirRay ray =
+        air_ray(air, eye, std::min(sine, 1.0), -std::sqrt(std::max(0.0, 1.0 - sine * sine)), RayEnd::ground);
     const RaySteps steps = ray_steps(air, eye, ray, kGroundSteps);
     const glm::vec3 passed = steps.transmitted.back(), beyond = glm::min(glm::vec3(1.0F), passed / pictured);
     const glm::vec3 share = (1.0F - beyond) / glm::max(1.0F - passed, glm::vec3(1e-6F));
@@ -187,7 +206,10 @@ GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
       const double azimuth_cos = std::cos(std::numbers::pi * column / (GroundColors::kColumns - 1.0));
       const AirLight light = march(air, eye, ray, steps, azimuth_cos).back();
       const double to_sun = sun_cosine(eye, ray.sine, ray.cosine, azimuth_cos);
-      add_ground_color(beyond, on_film(share * radiance(light, air.air(), to_sun), air.air()), c);
+      // The Sun over the ground: the eye's place and the ray add up to the ground's.
+      const double over_ground = eye.radius * eye.sun_cos + (ray.end - ray.eye) * to_sun;
+      add_ground_color(beyond * tint_of_ground(air, over_ground),
+                       on_film(share * radiance(light, air.air(), to_sun), air.air()), c);
     }
   }
   return c;

@@ -30,10 +30,11 @@ struct SkyColors {
 [[nodiscard]] SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel);
 
 /// The air before the ground, as two factors: squares of stored colours are multiplied by `through`, and `light_sq` is
-/// added. Squares stand for light, as if the screen's gamma were 2. The picture of the ground is what a satellite sees
-/// through 1.2 vertical air masses, so only air beyond these changes it: the air's light counts by the part
-/// (1 - t') / (1 - t), where t is the part of the ground's light that passes, and t' = min(1, t / t of these masses) is
-/// what is left of the picture. Light adds up as on film: 1 - exp(-x). thread: any
+/// added. Squares stand for light, as if the screen's gamma were 2. A picture of the ground is what a satellite sees
+/// through the air, so an eye that looks straight down sees the picture's own colours. Only air beyond 1.2 times the
+/// air under the eye changes them. If t of the ground's light passes, and t0 through that air, then min(1, t / t0) = t'
+/// of the picture is left, and the air's light counts by (1 - t') / (1 - t). Light adds up as on film: 1 - exp(-x). The
+/// part that passes also has the colour of the light on the ground: red beside the terminator. thread: any
 struct GroundColors {
   static constexpr int kColumns = 32;  ///< azimuths from the Sun, 0 to half a turn, both ends included
   /// Cosines m between the ray and the ground's vertical, by sqrt(1 - sqrt(1 - m)): 0 at the horizon, 1 at the nadir.

@@ -11,7 +11,7 @@
 namespace terrella {
 namespace {
 
-constexpr int kCosines = 256, kHeights = 64;      // of the table of transmittance
+constexpr int kCosines = 256, kHeights = 64;       // of the table of transmittance
 constexpr int kSunCosines = 32, kSkyHeights = 32;  // of the table of skylight
 constexpr int kDepthSteps = 40, kRaySteps = 24;
 constexpr int kZeniths = 8, kAzimuths = 4;  // directions from which skylight is gathered; azimuths of half a turn
@@ -44,22 +44,28 @@ void in_two(int count, Each each) {
 }  // namespace
 
 AirTables::AirTables(const Atmosphere& air, double planet_radius_m)
-    : air_(air), radius_m_(planet_radius_m), top_(1.0 + air.top_m / planet_radius_m) {
+    : air_(air),
+      radius_m_(planet_radius_m),
+      top_(1.0 + air.top_m / planet_radius_m),
+      farthest_(std::sqrt(squared(top_) - 1.0)),
+      gas_(air.gas_scatter_per_m * planet_radius_m),
+      dust_(air.dust_scatter_per_m * planet_radius_m),
+      dust_extinct_(air.dust_extinct_per_m * planet_radius_m),
+      ozone_(air.ozone_absorb_per_m * planet_radius_m),
+      gas_scale_m_(static_cast<float>(air.gas_scale_m)),
+      dust_scale_m_(static_cast<float>(air.dust_scale_m)),
+      ozone_height_m_(static_cast<float>(air.ozone_height_m)),
+      ozone_half_width_m_(static_cast<float>(air.ozone_half_width_m)) {
   make_transmittance();
   make_skylight();
 }
 
 AirTables::Density AirTables::density(double height) const {
-  const double h_m = std::max(0.0, height) * radius_m_;
-  const auto gas = static_cast<float>(radius_m_ * std::exp(-h_m / air_.gas_scale_m));
-  const auto dust = static_cast<float>(radius_m_ * std::exp(-h_m / air_.dust_scale_m));
-  const auto ozone = static_cast<float>(
-      radius_m_ * std::max(0.0, 1.0 - std::abs(h_m - air_.ozone_height_m) / air_.ozone_half_width_m));
-  Density d{};
-  d.gas = gas * glm::vec3(air_.gas_scatter_per_m);
-  d.dust = dust * glm::vec3(air_.dust_scatter_per_m);
-  d.extinct = d.gas + dust * glm::vec3(air_.dust_extinct_per_m) + ozone * glm::vec3(air_.ozone_absorb_per_m);
-  return d;
+  const auto h_m = static_cast<float>(std::max(0.0, height) * radius_m_);
+  const float gas = std::exp(-h_m / gas_scale_m_), dust = std::exp(-h_m / dust_scale_m_);
+  const float ozone = std::max(0.0F, 1.0F - std::abs(h_m - ozone_height_m_) / ozone_half_width_m_);
+  const glm::vec3 gas_scattered = gas * gas_;
+  return {gas_scattered, dust * dust_, gas_scattered + dust * dust_extinct_ + ozone * ozone_};
 }
 
 // Steps are shortest where the air is densest: at the lowest point of the ray.
@@ -83,13 +89,12 @@ glm::vec3 AirTables::integrate_transmittance(double radius, double cosine) const
 
 // Rows are distances to the horizon, columns are distances to the end of the air (Bruneton 2017).
 void AirTables::make_transmittance() {
-  const double farthest = std::sqrt(squared(top_) - 1.0);
   transmittance_.resize(static_cast<std::size_t>(kCosines) * kHeights);
   in_two(kHeights, [&](int j) {
-    const double to_horizon = farthest * j / (kHeights - 1.0);
+    const double to_horizon = farthest_ * j / (kHeights - 1.0);
     const double radius = std::sqrt(1.0 + squared(to_horizon)), least = top_ - radius;
     for (int i = 0; i < kCosines; ++i) {
-      const double d = least + (to_horizon + farthest - least) * i / (kCosines - 1.0);
+      const double d = least + (to_horizon + farthest_ - least) * i / (kCosines - 1.0);
       const double cosine = d > 0.0 ? (squared(top_) - squared(radius) - squared(d)) / (2.0 * radius * d) : 1.0;
       transmittance_[static_cast<std::size_t>(j * kCosines + i)] =
           integrate_transmittance(radius, std::clamp(cosine, -1.0, 1.0));
@@ -99,24 +104,21 @@ void AirTables::make_transmittance() {
 
 glm::vec3 AirTables::transmittance(double radius, double cosine) const {
   const double r = std::clamp(radius, 1.0, top_);
-  const double farthest = std::sqrt(squared(top_) - 1.0), to_horizon = std::sqrt(squared(r) - 1.0);
+  const double to_horizon = std::sqrt(squared(r) - 1.0);
   const double end = -r * cosine + std::sqrt(std::max(0.0, squared(r) * (squared(cosine) - 1.0) + squared(top_)));
   const double least = top_ - r;
-  return at(transmittance_, kCosines, kHeights, (end - least) / (to_horizon + farthest - least),
-            to_horizon / farthest);
+  return at(transmittance_, kCosines, kHeights, (end - least) / (to_horizon + farthest_ - least),
+            to_horizon / farthest_);
 }
 
 glm::vec3 AirTables::sunlight(double radius, double cosine) const {
+  // The horizon's cosine to the zenith. A ray to a Sun that is partly under it passes over the ground.
+  const double sine = 1.0 / std::max(1.0, radius), least = -std::sqrt(1.0 - squared(sine));
+  // Height of the Sun's middle over the horizon, in radii of its disc.
+  const double over = (cosine - least) / (sine * kSunSize_rad);
+  if (over <= -1.0) return glm::vec3(0.0F);
   double shown = 1.0;
-  if (cosine < 0.1) {
-    // Height of the Sun's middle over the ground's horizon, in radii of its disc.
-    const double horizon = -std::sqrt(std::max(0.0, 1.0 - 1.0 / squared(std::max(1.0, radius))));
-    const double over = (std::asin(std::max(-1.0, cosine)) - std::asin(horizon)) / kSunSize_rad;
-    if (over <= -1.0) return glm::vec3(0.0F);
-    if (over < 1.0) shown = 0.5 + (over * std::sqrt(1.0 - over * over) + std::asin(over)) / std::numbers::pi;
-  }
-  // A ray to a Sun at the horizon passes over the ground.
-  const double least = -std::sqrt(std::max(0.0, 1.0 - 1.0 / squared(std::max(1.0, radius))));
+  if (over < 1.0) shown = 0.5 + (over * std::sqrt(1.0 - over * over) + std::asin(over)) / std::numbers::pi;
   return static_cast<float>(shown) * transmittance(radius, std::max(cosine, least));
 }
 

@@ -38,7 +38,6 @@ class AirTables {
   [[nodiscard]] glm::vec3 vertical() const { return transmittance(1.0, 1.0); }
 
  private:
-  struct Scattered;
   struct RayStep;
   [[nodiscard]] glm::vec3 integrate_transmittance(double radius, double cosine) const;
   [[nodiscard]] std::vector<RayStep> walk(double radius, double cosine) const;
@@ -47,7 +46,9 @@ class AirTables {
   void make_skylight_row(int row);
 
   Atmosphere air_;
-  double radius_m_, top_;
+  double radius_m_, top_, farthest_;
+  glm::vec3 gas_, dust_, dust_extinct_, ozone_;  // per radius of length
+  float gas_scale_m_, dust_scale_m_, ozone_height_m_, ozone_half_width_m_;
   std::vector<glm::vec3> transmittance_, skylight_;
 };
 

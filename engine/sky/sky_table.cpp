@@ -28,12 +28,12 @@ glm::vec3 radiance(const AirLight& light, const Atmosphere& air, double sun_cos)
   return light.gas * static_cast<float>(g_phase) + light.dust * dust + light.more;
 }
 
-AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosine) {
+AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosine, RayEnd end) {
   AirRay ray{.sine = sine, .cosine = cosine, .eye = eye.radius * cosine};
   const double across2 = squared(eye.radius * sine);
   const double half = std::sqrt(std::max(0.0, squared(air.top()) - across2));
   ray.begin = std::max(ray.eye, -half);
-  ray.end = std::max(ray.begin, cosine < 0.0 && across2 < 1.0 ? -std::sqrt(1.0 - across2) : half);
+  ray.end = std::max(ray.begin, end == RayEnd::ground ? -std::sqrt(std::max(0.0, 1.0 - across2)) : half);
   return ray;
 }
 
@@ -102,8 +102,7 @@ SkyTable make_sky_table(const AirTables& air, const AirEye& eye) {
       sine = std::cos(elevation);
       cosine = std::sin(elevation);
     }
-    AirRay ray = air_ray(air, eye, sine, cosine);
-    if (row == 0) ray.end = std::max(ray.begin, std::sqrt(squared(air.top()) - squared(eye.radius * sine)));
+    const AirRay ray = air_ray(air, eye, sine, cosine, RayEnd::air);
     const RaySteps steps = ray_steps(air, eye, ray, kSkySteps);
     table.transmitted.push_back(steps.transmitted.back());
     for (int column = 0; column < SkyTable::kColumns; ++column) {

@@ -29,8 +29,9 @@ struct AirRay {
   double eye = 0.0;                 ///< the eye's coordinate
   double begin = 0.0, end = 0.0;    ///< of the part in the air
 };
-/// The part of a ray before it leaves the air, or meets the ground.
-[[nodiscard]] AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosine);
+/// The part of a ray in the air: to where it meets the ground, or to the end of the air as if there were no ground.
+enum class RayEnd { ground, air };
+[[nodiscard]] AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosine, RayEnd end);
 
 /// Places at which a ray is looked at, at most kMostSteps + 1 of them, in order from the eye. The light between two
 /// places is computed from their middle.

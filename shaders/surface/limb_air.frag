@@ -92,7 +92,7 @@ void main() {
     if (!has_air) continue;
     vec3 thick, thick_light;
     ground_air(air, -from_px - 0.5 * part * width, thick, thick_light);
-    ground_sum += part * sqrt(max(vec3(0.0), (ground * ground - thin_light) * (thick / thin) + thick_light));
+    ground_sum += part * sqrt(max(vec3(0.0), (ground * ground - thin_light) * min(thick / max(thin, 1e-4), 2.0) + thick_light));
     light += mean_over(limb_light, air, from_px, from_px + width) / width;
     through += mean_over(limb_through, air, from_px, from_px + width) / width;
   }

@@ -35,19 +35,25 @@ flat out vec4 row;
 #if defined(AIR)
 layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
 layout(binding = 8) uniform sampler2D ground_light;
-out vec3 air_through;
+out vec3 air_through;                                     // both per metre of distance: air.glsl
 out vec3 air_light;
 
 void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   mat3 to_horizon = mat3(horizon_from_ecef);
-  vec3 ray = normalize(to_horizon * position_from_eye);
+  vec3 way = to_horizon * position_from_eye;
+  float away = max(length(way), 1e-3);
+  vec3 ray = way / away;
   vec3 up = normalize(to_horizon * (normal_ecef * vec3(1.0, 1.0, horizon_from_ecef[3].x)));
-  float down = clamp(-dot(ray, up), 0.0, 1.0);
+  float over = -dot(ray, up), down = clamp(over, 0.0, 1.0);
   vec2 size = vec2(textureSize(ground_through, 0));
   vec2 at = vec2(atan(abs(ray.y), ray.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down)));
   at = (at * (size - 1.0) + 0.5) / size;
   air_through = textureLod(ground_through, at, 0.0).rgb;
   air_light = textureLod(ground_light, at, 0.0).rgb;
+  // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
+  float metres = over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away;
+  air_through = (1.0 - air_through) / metres;
+  air_light /= metres;
 }
 #endif
 

@@ -39,14 +39,19 @@ bool is_planet(const CutPlan& plan) {
 }
 
 PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
-  if (input.numbers) return PixelKind::height;
+  if (input.numbers) return input.numbers->floats ? PixelKind::number : PixelKind::height;
   if (input.rows->info().has_alpha) return PixelKind::alpha;
   return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
-  if (!input.numbers || !input.numbers->nodata) return {};
+  if (!input.numbers || input.numbers->floats || !input.numbers->nodata) return {};
   return static_cast<std::uint16_t>(*input.numbers->nodata);
+}
+
+std::optional<float> float_nodata_of(const CutInput& input) {
+  if (!input.numbers || !input.numbers->floats || !input.numbers->nodata) return {};
+  return static_cast<float>(*input.numbers->nodata);
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
@@ -77,7 +82,9 @@ struct Job {
             .coding = {.format = info.format,
                        .quality = options.quality,
                        .heights = input.numbers.has_value(),
-                       .png_outline = has_png_outline(options, input)},
+                       .floats = input.numbers && input.numbers->floats,
+                       .png_outline = has_png_outline(options, input),
+                       .nodata = float_nodata_of(input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,
             .progress = options.progress,

@@ -25,6 +25,22 @@ std::string elevation_text(const std::optional<CutElevation>& elevation) {
                      number_text(elevation->nodata));
 }
 
+/// Nothing for pictures and heights, so that their keys stay as they were.
+std::string numbers_text(const CutOptions& options) {
+  std::string text;
+  if (const auto& numbers = options.numbers) {
+    text = fmt::format("|numbers {},{}", numbers->band, number_text(numbers->nodata));
+  }
+  if (const auto& composite = options.composite) {
+    text = "|bands " + number_text(composite->nodata);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& stretch = composite->stretch[c];
+      text += fmt::format(",{} {}", composite->bands[c], stretch ? stretch_text(*stretch) : "-");
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> images_of(const CutOptions& options) {
@@ -45,7 +61,8 @@ std::string options_text(const CutOptions& options, std::string place) {
   return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}x{}|{}", kKeyVersion, options.tile_px, options.quality,
                      options.format ? static_cast<int>(*options.format) : -1, place,
                      static_cast<int>(options.projection), options.name, options.attribution, options.body,
-                     mosaic.columns, mosaic.rows, elevation_text(options.elevation));
+                     mosaic.columns, mosaic.rows, elevation_text(options.elevation)) +
+         numbers_text(options);
 }
 
 Result<std::string> cut_key(const CutOptions& options, const std::string& place) {

@@ -73,7 +73,7 @@ Result<DirectFile> open_direct(const fs::path& path, const DirectOptions& option
   const auto place = place_raster(*std::move(placed), picture, options);
   if (!place) return place.error();
   if (!*place) return DirectFile{};
-  auto raster = open_raster(path, (*place)->at);
+  auto raster = open_raster(path, (*place)->at, options.reading);
   if (!raster) return raster.error();
   if (!shows_at_once((*raster)->info())) return DirectFile{};
   auto tiles = direct_tiles(*std::move(raster), **place, options, path.string());

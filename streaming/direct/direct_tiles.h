@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "streaming/georeference/placement.h"
+#include "streaming/raster/open_raster.h"
 #include "streaming/raster/raster_source.h"
 #include "tiles/tile_source.h"
 
@@ -20,6 +21,7 @@ struct DirectOptions {
   PlaceWords place{};
   /// Grid of the raster's own pixels, so that tiles are copies of them; default: warp_grid().
   std::optional<TileGrid> grid = {};
+  RasterOptions reading = {};  ///< what is read: a picture, numbers of a band, three bands
 };
 
 /// Place of a raster on the globe.

@@ -15,6 +15,7 @@ constexpr double kOnLattice_px = 0.02;
 constexpr double kSameResolution = 1.05;
 /// The coarsest level of a sheet shows the largest file by about this many pixels.
 constexpr std::int64_t kCoarsest_px = 128;
+constexpr std::int64_t kLeastBlock_px = 16, kMostBlock_px = 256;
 
 /// Pixel coordinates of a point.
 CrsPoint pixel_at(const Affine& t, CrsPoint point) {
@@ -61,7 +62,7 @@ void move_origin(MosaicSheet& sheet, std::int64_t column, std::int64_t row) {
 
 /// Sets origin, size and levels from the parts.
 void finish(MosaicSheet& sheet, const std::vector<PlacedFile>& files) {
-  std::int64_t west = sheet.parts.front().column, north = sheet.parts.front().row, largest = 0;
+  std::int64_t west = sheet.parts.front().column, north = sheet.parts.front().row, wide = 0, high = 0;
   for (const SheetPart& part : sheet.parts) {
     west = std::min(west, part.column);
     north = std::min(north, part.row);
@@ -71,9 +72,12 @@ void finish(MosaicSheet& sheet, const std::vector<PlacedFile>& files) {
     const MosaicFile& file = files[static_cast<std::size_t>(part.file)].file;
     sheet.width_px = std::max(sheet.width_px, part.column + file.width_px());
     sheet.height_px = std::max(sheet.height_px, part.row + file.height_px());
-    largest = std::max({largest, file.width_px(), file.height_px()});
+    wide = std::max(wide, file.width_px());
+    high = std::max(high, file.height_px());
   }
-  while ((largest >> sheet.levels) >= kCoarsest_px) ++sheet.levels;
+  sheet.block_width_px = static_cast<int>(std::clamp(wide, kLeastBlock_px, kMostBlock_px));
+  sheet.block_height_px = static_cast<int>(std::clamp(high, kLeastBlock_px, kMostBlock_px));
+  while ((std::max(wide, high) >> sheet.levels) >= kCoarsest_px) ++sheet.levels;
 }
 
 int resolution_class(double pixel_m) {

@@ -26,6 +26,7 @@ struct MosaicSheet {
   std::string crs;
   Affine to_crs;  ///< pixels of the lattice to coordinates, pixel-is-area
   std::int64_t width_px = 0, height_px = 0;
+  int block_width_px = 256, block_height_px = 256;  ///< a file's size if that is small, so that a block needs few files
   int levels = 1;                ///< the lattice itself, and each with half the pixels of the one before
   std::vector<SheetPart> parts;  ///< the lowest first
 };

@@ -10,7 +10,6 @@
 namespace terrella {
 namespace {
 
-constexpr int kBlock_px = 256;
 /// An overview of a side that does not divide evenly is a little coarser than its name says.
 constexpr double kSlightlyCoarser = 1.05;
 
@@ -33,11 +32,11 @@ class SheetRaster : public RasterSource {
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
     if (!has_block(info_, block)) return TileFailure{MissingKind::absent, {}};
     const RasterLevel& level = info_.levels[static_cast<std::size_t>(block.level)];
-    const std::int64_t x = block.x * kBlock_px, y = block.y * kBlock_px;
+    const std::int64_t x = block.x * level.block_width_px, y = block.y * level.block_height_px;
     const MeanBox box{.x = x,
                       .y = y,
-                      .width = static_cast<int>(std::min<std::int64_t>(kBlock_px, level.width_px - x)),
-                      .height = static_cast<int>(std::min<std::int64_t>(kBlock_px, level.height_px - y))};
+                      .width = static_cast<int>(std::min<std::int64_t>(level.block_width_px, level.width_px - x)),
+                      .height = static_cast<int>(std::min<std::int64_t>(level.block_height_px, level.height_px - y))};
     const int halvings = sheet_.levels - 1 - block.level;
     std::vector<SheetPart> under = parts_under(box, halvings);
     if (under.empty()) return TileFailure{MissingKind::blank, {}};
@@ -141,8 +140,8 @@ RasterInfo raster_info_of(const MosaicSheet& sheet, bool numbers) {
     const std::int64_t rest = (std::int64_t{1} << halvings) - 1;
     RasterLevel level{.width_px = (sheet.width_px + rest) >> halvings,
                       .height_px = (sheet.height_px + rest) >> halvings,
-                      .block_width_px = kBlock_px,
-                      .block_height_px = kBlock_px,
+                      .block_width_px = sheet.block_width_px,
+                      .block_height_px = sheet.block_height_px,
                       .to_crs = sheet.to_crs};
     level.to_crs.x_per_column *= pixel;
     level.to_crs.y_per_column *= pixel;

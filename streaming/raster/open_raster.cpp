@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "streaming/raster/row_raster.h"
 #include "streaming/raster/tiff_coding.h"
@@ -173,7 +175,12 @@ RasterLevel shape_of(const RasterPart& part, const CrsPlace& place, const TiffPi
 }
 
 Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOptions& options) {
-  const CodingOptions given{.nodata = options.nodata, .scale = options.scale, .offset = options.offset};
+  CodingOptions given{.nodata = options.nodata,
+                      .scale = options.scale,
+                      .offset = options.offset,
+                      .band = {},
+                      .composite = options.composite};
+  if (options.band > 0) given.band = static_cast<std::size_t>(options.band - 1);
   PixelCoding coding;
   if (options.heights) {
     const auto numbers = numbers_of(pyramid, given);
@@ -185,6 +192,42 @@ Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOption
   if (!colours) return colours.error();
   coding.colours = *std::move(colours);
   return coding;
+}
+
+/// The range of stored numbers of at most 16 bits, without a nodata at its end.
+std::optional<WholeRange> whole_range(SampleType type, const std::optional<double>& nodata) {
+  WholeRange range;
+  switch (type) {
+    case SampleType::uint8:
+      range = {.least = 0, .most = 255};
+      break;
+    case SampleType::int8:
+      range = {.least = -128, .most = 127};
+      break;
+    case SampleType::uint16:
+      range = {.least = 0, .most = 65535};
+      break;
+    case SampleType::int16:
+      range = {.least = -32768, .most = 32767};
+      break;
+    default:
+      return {};
+  }
+  if (nodata == static_cast<double>(range.least)) ++range.least;
+  if (nodata == static_cast<double>(range.most)) --range.most;
+  return range;
+}
+
+/// The meaning of the blocks' numbers. Moves scale and offset into it if blocks keep the stored numbers.
+NumberInfo numbers_info(const TiffPyramid& pyramid, const RasterOptions& options, PixelCoding& coding) {
+  const BandMetadata band = pyramid.metadata.band(static_cast<std::size_t>(std::max(options.band, 1) - 1));
+  NumberInfo info{
+      .scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true, .unit = band.unit, .quantity = band.description};
+  if (!options.stored || !coding.numbers) return info;
+  info.scale = std::exchange(coding.numbers->scale, 1.0);
+  info.offset = std::exchange(coding.numbers->offset, 0.0);
+  info.whole = whole_range(pyramid.whole().part.picture.samples.type, coding.numbers->nodata);
+  return info;
 }
 
 }  // namespace
@@ -203,9 +246,10 @@ Result<std::unique_ptr<TiffSource>> make_tiff_source(TiffPyramid pyramid, const 
   auto coding = choose_coding(pyramid, options);
   if (!coding) return coding.error();
   const TiffLevel& whole = pyramid.whole();
+  const NumberInfo meaning = numbers_info(pyramid, options, *coding);
   RasterInfo info{.name = fs::path(name).stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
   info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
-  if (options.heights) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  if (options.heights) info.numbers = meaning;
   const auto nodata = options.nodata ? options.nodata : pyramid.metadata.nodata;
   auto parts = std::make_shared<TiffParts>(TiffParts{name, *std::move(coding), {}});
   for (TiffLevel& level : pyramid.levels) {

@@ -21,6 +21,12 @@ Status check_words(const SqliteQuery& row) {
   return Done{};
 }
 
+/// "value" is what `cut` writes where nothing is known, and "Height" the table's default.
+std::string quantity_of(const std::string& stated) {
+  if (stated == "value") return {};
+  return stated == "Height" ? "height" : stated;
+}
+
 Result<NumberInfo> info_of(const SqliteQuery& row) {
   if (Status known = check_words(row); !known) return known.error();
   const std::optional<double> scale = row.number(1);
@@ -30,7 +36,8 @@ Result<NumberInfo> info_of(const SqliteQuery& row) {
                     .offset = *offset,
                     .nodata = row.number(3),
                     .floats = row.text(0) == std::string("float"),
-                    .unit = row.text(4).value_or("")};
+                    .unit = row.text(4).value_or(""),
+                    .quantity = quantity_of(row.text(6).value_or(""))};
 }
 
 }  // namespace
@@ -40,7 +47,8 @@ Result<NumberInfo> read_coverage(SqliteReader& reader, const std::string& table,
     return Error{fmt::format("{}: the numbers of \"{}\" (gpkg_2d_gridded_coverage_ancillary): {}", where, table, why)};
   };
   Result<SqliteQuery, SqlError> query = reader.prepare(
-      "SELECT datatype, scale, \"offset\", data_null, uom, grid_cell_encoding FROM gpkg_2d_gridded_coverage_ancillary "
+      "SELECT datatype, scale, \"offset\", data_null, uom, grid_cell_encoding, quantity_definition FROM "
+      "gpkg_2d_gridded_coverage_ancillary "
       "WHERE tile_matrix_set_name = ?1");
   if (!query) return refuse(query.error().message);
   query->bind(1, table);

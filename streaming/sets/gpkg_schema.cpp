@@ -169,11 +169,12 @@ void describe_numbers(const NumberInfo& info, std::vector<SqlStatement>& all) {
   std::vector<double> numbers = {info.scale, info.offset};
   // GDAL rounds to the precision. The schema's default is one metre.
   if (info.nodata) numbers.push_back(*info.nodata);
+  const std::string quantity = info.quantity.empty() ? "value" : info.quantity;
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
-                             "offset, precision, data_null, uom) VALUES ('tiles', " +
-                             std::string(info.floats ? "'float'" : "'integer'") + ", ?2, ?3, abs(?2), ") +
-                     (info.nodata ? "?4" : "NULL") + ", ?1)",
-                 {info.unit.empty() ? "m" : info.unit},
+                             "offset, precision, data_null, uom, field_name, quantity_definition) VALUES ('tiles', " +
+                             std::string(info.floats ? "'float'" : "'integer'") + ", ?3, ?4, abs(?3), ") +
+                     (info.nodata ? "?5" : "NULL") + ", nullif(?1, ''), ?2, ?2)",
+                 {info.unit, quantity},
                  std::move(numbers)});
 }
 

@@ -17,7 +17,7 @@ import tempfile
 import time
 
 SIZE = (1280, 800)
-PATIENCE_S = 60.0
+PATIENCE_S = 240.0
 LARGE = ("-outsize", "86400", "43200", "-r", "nearest", "-a_srs", "EPSG:4326", "-a_ullr", "-180", "90", "180", "-90")
 FILES = {
     "mosaic.tif": (*LARGE, "-of", "COG", "-co", "COMPRESS=ZSTD", "-co", "LEVEL=1", "-co", "BIGTIFF=YES",

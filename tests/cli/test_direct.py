@@ -11,9 +11,11 @@ from program import BLUE_MARBLE, ProgramTest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
 import png  # noqa: E402
 
-# Rounding to 8 bits once more in each overview.
+# The finest pixels are the same. Overviews are rounded to 8 bits once more, which moves some pixels by one.
 SAME_RMS = 0.3
-GLOBAL = ("30,20,12000000", "0,180,6000000", "46,7,2500000,30,-50", "-50,-100,4000000", "60,40,3000000")
+# A coarse tile in another projection and that of the cut are rounded independently: 0.29 each.
+ROUNDED_RMS = 0.5
+GLOBAL = ("30,20,12000000", "0,180,6000000", "46,7,2500000,30,-50", "-50,-100,4000000", "90,0,6000000")
 TILED = ("-co", "TILED=YES", "-co", "COMPRESS=DEFLATE")
 
 
@@ -22,25 +24,29 @@ class DirectTest(ProgramTest):
         gdal("gdal_translate", "-q", "-r", "average", "-outsize", *size, "-a_srs", "EPSG:4326", "-a_ullr", -180, 90, 180, -90,
              *options, BLUE_MARBLE, self.folder / name)
 
+    def cog(self):
+        self.planet("planet.tif")  # first: a COG of a JPEG would get the JPEG's own overviews
+        gdal("gdal_translate", "-q", "-of", "COG", "-co", "COMPRESS=DEFLATE", "-co", "BLOCKSIZE=256",
+             "-co", "OVERVIEW_RESAMPLING=AVERAGE", self.folder / "planet.tif", self.folder / "cog.tif")
+
     def shot(self, tiles, camera, name, *options):
         self.assert_done("render", tiles, "-o", name, "--unlit", "--sky", "off", "--size", "256x256", "--camera", camera,
                          *options)
         return png.read(self.folder / name)
 
-    def assert_like_its_cut(self, raster, cameras, *options):
-        self.assert_done("cut", raster, "-o", "cut.gpkg", "--format", "png", "--force", *options)
+    def assert_like_its_cut(self, raster, cameras, most_rms=SAME_RMS):
+        self.assert_done("cut", raster, "-o", "cut.gpkg", "--format", "png", "--force")
         for camera in cameras:
-            a, b = (self.shot(tiles, camera, f"{pathlib.Path(tiles).stem}.png", *options) for tiles in (raster, "cut.gpkg"))
+            a, b = (self.shot(tiles, camera, f"{pathlib.Path(tiles).stem}.png") for tiles in (raster, "cut.gpkg"))
             squares = sum((p - q) ** 2 for x, y in zip(a[2], b[2]) for p, q in zip(x, y))
             self.assertGreater(sum(map(sum, a[2])), 0, "a black picture")
-            self.assertLess(math.sqrt(squares / (256 * 256 * 3)), SAME_RMS, camera)
+            self.assertLess(math.sqrt(squares / (256 * 256 * 3)), most_rms, camera)
 
     def stored(self):
         return sorted(p.name for p in (self.folder / "cache").rglob("*") if p.suffix == ".gpkg")
 
     def test_a_planet_is_drawn_as_its_cut(self):
-        self.planet("cog.tif", "-of", "COG", "-co", "COMPRESS=DEFLATE", "-co", "BLOCKSIZE=256",
-                    "-co", "OVERVIEW_RESAMPLING=AVERAGE")
+        self.cog()
         self.assert_like_its_cut("cog.tif", GLOBAL)
         self.assertEqual(self.stored(), [])
 
@@ -49,7 +55,8 @@ class DirectTest(ProgramTest):
         gdal("gdalwarp", "-q", "-r", "cubic", "-t_srs", "EPSG:32632", "-te", -300000, 4200000, 1300000, 5800000, "-ts", 700, 700,
              *TILED, "-dstalpha", self.folder / "planet.tif", self.folder / "utm.tif")
         gdal("gdaladdo", "-q", "-r", "average", self.folder / "utm.tif", 2, 4)
-        self.assert_like_its_cut("utm.tif", ("45,9,2200000", "46,7,900000,30,-60", "42,12,1200000"))
+        self.assert_like_its_cut("utm.tif", ("46,7,900000,30,-60", "42,12,600000", "48,4,800000"))
+        self.assert_like_its_cut("utm.tif", ("45,9,2200000",), ROUNDED_RMS)
         self.assertEqual(self.stored(), [])
 
     def test_overviews_beside_the_file_and_none_in_a_small_one(self):
@@ -76,10 +83,10 @@ class DirectTest(ProgramTest):
         self.shot("moon.tif", "10,15,5000000", "m.png", "--body", "moon")
 
     def test_damage_is_named(self):
-        self.planet("cog.tif", "-of", "COG", "-co", "COMPRESS=DEFLATE", "-co", "BLOCKSIZE=256")
+        self.cog()
         whole = (self.folder / "cog.tif").read_bytes()
         (self.folder / "cog.tif").write_bytes(whole[:len(whole) // 2])
-        done = self.run_program("render", "cog.tif", "-o", "a.png", "--size", "256x256", "--camera", "46,7,100000")
+        done = self.run_program("render", "cog.tif", "-o", "a.png", "--size", "256x256", "--camera", "-60,7,100000")
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("cog.tif: block", done.stderr)
         self.assertIn("truncated or damaged", done.stderr)

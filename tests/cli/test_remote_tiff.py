@@ -17,6 +17,7 @@ import servers  # noqa: E402
 VIEW = ("--unlit", "--sky", "off", "--size", "256x256")
 WHOLE = "20,10,9000000"
 NEAR = "40,10,700000"
+FAR = "-40,-150,700000"  # not in the view of the whole
 PLANET = ("-a_srs", "EPSG:4326", "-a_ullr", "-180", "90", "180", "-90")
 HEAD = 32768
 
@@ -52,14 +53,15 @@ class ShownTest(RemoteTiffTest):
             self.assertEqual(len(server.asked), len(cold), "the second run asked the server")
         self.assertEqual(self.pixels(url, "--cache", "c.gpkg", "--offline"), whole)
         # What was never looked at is drawn from what was.
-        self.assertNotEqual(self.pixels(url, "--cache", "c.gpkg", "--offline", camera=NEAR), whole)
+        self.shot(url, "--cache", "c.gpkg", "--offline", camera=FAR, code=DONE_IN_PART)
 
     def test_neighbours_are_one_request(self):
-        """The view needs many of 128 tiles; the rows of a COG lie one after the other."""
+        """The view needs some four tiles of the COG for each of its own; rows of a COG lie one after the other."""
         with range_server(self.planet(), name="a.tif", latency_s=0.02) as (url, server):
             told = json.loads(self.assert_done("render", url, "-o", "x.png", "--camera", WHOLE, "--cache", "off", "--json",
                                                "--unlit", "--sky", "off", "--size", "1024x1024").stdout)
-            self.assertLess(len(server.asked), told["tiles"]["wanted"] if "tiles" in told else 60)
+            self.assertGreater(told["tiles_asked"], 10)
+            self.assertLessEqual(len(server.asked), told["tiles_asked"] + 3, "more than one request a tile")
 
     def test_no_name_and_other_endings(self):
         data = self.planet()
@@ -102,7 +104,7 @@ class VersionTest(RemoteTiffTest):
             self.pixels(url, *options)
             server.data, server.tag = second, '"two"'
             # The cache is fresh, so the server is not asked; but a tile that is not in it is refused.
-            _, told = self.shot(url, camera=NEAR, code=DONE_IN_PART)
+            _, told = self.shot(url, camera=FAR, code=DONE_IN_PART)
             self.assertIn("a.tif", told)
             self.assertIn("has changed on the server", told)
             # The next run asks, and begins anew.
@@ -111,7 +113,7 @@ class VersionTest(RemoteTiffTest):
             self.assertNotEqual(new, old)
             self.assertEqual(self.pixels(url, "--cache", "off"), new)
             # A cache that the user named is not deleted.
-            self.shot(url, *options, camera=NEAR, code=DONE_IN_PART)
+            self.shot(url, *options, camera=FAR, code=DONE_IN_PART)
             self.assert_fails(FAILED, "render", url, "-o", "x.png", *VIEW, *options, says=["c.gpkg", "earlier version"])
 
     def test_a_file_that_changes_midway_is_noticed(self):
@@ -204,7 +206,6 @@ class RefusedTest(RemoteTiffTest):
             "2^31 pixels": (changed(("<HII", tags[256] + 2, 4, 1, 1 << 31)), "too many"),
             "tiles of 2^31": (changed(("<HII", tags[322] + 2, 4, 1, 1 << 31)), ""),
             "offsets of a wrong type": (changed(("<H", tags[324] + 2, 2)), ""),
-            "2^31 offsets": (changed(("<I", tags[324] + 4, 1 << 31)), ""),
             "offsets beyond the end": (changed(*(("<I", offsets + 4 * n, 0xFFFFFF00) for n in range(count))),
                                        "beyond the end"),
             "one tile's bytes for all": (changed(*(("<I", offsets + 4 * n, 8) for n in range(count))), "cannot be read"),

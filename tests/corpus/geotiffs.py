@@ -87,7 +87,7 @@ def degrees_of(info):
     return f"+proj=longlat +a={crs['semi_major_m']} +b={crs['semi_minor_m']} +no_defs"
 
 
-def judge_place(path, cut, info):
+def judge_place(path, cut, info, is_heights):
     """Says "placed", "flat" if the values cannot tell, or what is wrong."""
     generator = random.Random(7)
     width, height = info["width_px"], info["height_px"]
@@ -95,6 +95,7 @@ def judge_place(path, cut, info):
               for _ in range(SPOTS)]
     degrees = degrees_of(info)
     truth = values_at(path, [(int(x), int(y)) for x, y in pixels])
+    truth = [None if value == info.get("nodata") else value for value in truth]
     found = []
     for dx, dy in SHIFTS_PX:
         places, why = longitudes(path, [(x + dx, y + dy) for x, y in pixels], degrees)
@@ -103,7 +104,11 @@ def judge_place(path, cut, info):
         # gdallocationinfo knows no longitudes beyond 180°.
         known = [i for i, place in enumerate(places) if place]
         places = [((places[i][0] + 180) % 360 - 180, places[i][1]) for i in known]
-        found.append(correlation([truth[i] for i in known], values_at(cut, places, degrees="EPSG:4326")))
+        there = values_at(cut, places, degrees="EPSG:4326")
+        # No data and masked pixels are transparent, so their colours mean nothing.
+        alpha = values_at(cut, places, 4, "EPSG:4326") if not is_heights else []
+        there = [value if i >= len(alpha) or alpha[i] == 255 else None for i, value in enumerate(there)]
+        found.append(correlation([truth[i] for i in known], there))
     if found[0] is None:
         return "flat"
     beside = max((c for c in found[1:] if c is not None), default=-1)
@@ -138,7 +143,7 @@ def check_file(path, folder):
     code, _, why = run(PROGRAM, "cut", path, "-o", cut, "--force", *words, *([] if "--elevation" in words else ["--format", "png"]))
     if code != 0:
         return refused(why) if code == 1 else f"CRASH {code}: {why[:200]}"
-    return judge_place(path, cut, info)
+    return judge_place(path, cut, info, "--elevation" in words)
 
 
 def check_direct(path, folder):

@@ -1,6 +1,7 @@
 // A picture shows before it is cut: coarse pictures, and tiles that arrive while the cut goes on.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <future>
 #include <numbers>
@@ -17,28 +18,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Waves of a sixth of the picture, different in each channel.
+/// Waves of a third of the picture, different in each channel.
 Image waves(int width_px, int height_px) {
-  return painted(width_px, height_px, [=](int x, int y, int c) {
+  const auto wave = [](int size_px, double turned) {
+    std::vector<double> values;
+    for (int i = 0; i < size_px; ++i) {
+      values.push_back(60.0 * std::sin(6.0 * std::numbers::pi * (i + 0.5) / size_px + turned));
+    }
+    return values;
+  };
+  std::array<std::vector<double>, 3> across, down;
+  for (std::size_t c = 0; c < 3; ++c) {
+    across[c] = wave(width_px, static_cast<double>(c));
+    down[c] = wave(height_px, 2.0 - static_cast<double>(c));
+  }
+  return painted(width_px, height_px, [&](int x, int y, int c) {
     if (c == 3) return 255;
-    const double u = 6.0 * std::numbers::pi * (x + 0.5) / width_px, v = 6.0 * std::numbers::pi * (y + 0.5) / height_px;
-    return static_cast<int>(std::lround(127.0 + 60.0 * std::sin(u + c) + 60.0 * std::cos(v - c)));
+    const auto k = static_cast<std::size_t>(c);
+    return static_cast<int>(
+        std::lround(127.0 + across[k][static_cast<std::size_t>(x)] + down[k][static_cast<std::size_t>(y)]));
   });
 }
 
+/// Of the colours as they show: where nothing shows, any colour is stored.
 double rms(const Image& a, const Image& b) {
   EXPECT_EQ(a.rgba.size(), b.rgba.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) sum += std::pow(a.rgba[i] - b.rgba[i], 2);
+  for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) {
+    const std::size_t alpha = i | 3U;
+    const auto shown = [&](const Image& of) { return i == alpha ? of.rgba[i] : of.rgba[i] * of.rgba[alpha] / 255.0; };
+    sum += std::pow(shown(a) - shown(b), 2);
+  }
   return std::sqrt(sum / static_cast<double>(a.rgba.size()));
-}
-
-Image read_made(TileSource& source, const TileId& id) {
-  auto tile = source.read(id);
-  EXPECT_TRUE(tile) << id.level << " " << id.x << " " << id.y;
-  if (!tile) return {};
-  auto image = tile->make_picture ? tile->make_picture() : Result<Image, TileFailure>(*decode_image(tile->bytes));
-  return image ? *std::move(image) : Image{};
 }
 
 std::vector<std::byte> bytes_of(const Result<EncodedTile, TileFailure>& tile) {
@@ -47,6 +58,11 @@ std::vector<std::byte> bytes_of(const Result<EncodedTile, TileFailure>& tile) {
 
 class GrowingCutTest : public testing::Test {
  protected:
+  /// Five bands of 256 rows, wider than a canvas.
+  void write_large() {
+    write_png(options_.images.front(), noise(2560, 1280));
+    options_.tile_px = 32;
+  }
   std::shared_ptr<GrowingCut> start() {
     auto cut = GrowingCut::start(options_, folder_.path());
     EXPECT_TRUE(cut) << cut.error().message;
@@ -82,10 +98,9 @@ TEST_F(GrowingCutTest, EveryTileIsThatOfThePlainCutInTheEnd) {
 }
 
 TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
-  write_png(options_.images.front(), noise(4096, 2048));
-  options_.tile_px = 64;
+  write_large();
   const auto cut = start();
-  const TileId last{.level = cut->info().grid.max_level, .x = 11, .y = 31};
+  const TileId last{.level = cut->info().grid.max_level, .x = 11, .y = 39};
   std::promise<std::vector<std::byte>> arrived;
   ASSERT_FALSE(cut->read(last)) << "the last row is not cut at the start";
   EXPECT_EQ(cut->read(last).error().kind, MissingKind::remote);
@@ -93,7 +108,7 @@ TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
   EXPECT_GT(cut->edition_of({}), 0U) << "coarse tiles become better";
   EXPECT_TRUE(cut->read({}).value().make_picture) << "the coarsest tile is there at once";
   cut->remote()->fetch(last, 0.0, [&](auto tile) { arrived.set_value(bytes_of(tile)); });
-  const TileId given_up{.level = last.level, .x = 12, .y = 31};
+  const TileId given_up{.level = last.level, .x = 12, .y = 39};
   cut->remote()->fetch(given_up, 0.0, [](auto) { ADD_FAILURE() << "it was cancelled"; });
   cut->remote()->cancel(given_up);
   const auto bytes = arrived.get_future().get();
@@ -103,8 +118,7 @@ TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
 }
 
 TEST_F(GrowingCutTest, AStoppedCutKeepsWhatIsDoneAndTheNextGoesOnFromThere) {
-  write_png(options_.images.front(), noise(4096, 2048));
-  options_.tile_px = 64;  // four bands of 512 rows
+  write_large();
   for (auto cut = start(); cut->state().share < 0.4;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const fs::path left = left_over();
   ASSERT_FALSE(left.empty());
@@ -120,13 +134,14 @@ TEST_F(GrowingCutTest, AStoppedCutKeepsWhatIsDoneAndTheNextGoesOnFromThere) {
 }
 
 TEST_F(GrowingCutTest, ADamagedPictureIsToldAndFineTilesThenFail) {
-  write_png(options_.images.front(), noise(1024, 512));
+  write_large();
   fs::resize_file(options_.images.front(), fs::file_size(options_.images.front()) / 2);
   const auto cut = start();
   while (!cut->state().ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_TRUE(cut->state().error);
   EXPECT_NE(cut->state().error->message.find("in.png: row"), std::string::npos) << cut->state().error->message;
-  const auto tile = cut->read({.level = cut->info().grid.max_level, .x = 0, .y = 31});
+  const auto tile = cut->read({.level = cut->info().grid.max_level, .x = 0, .y = 39});
+  ASSERT_FALSE(tile);
   EXPECT_EQ(tile.error().kind, MissingKind::broken);
   EXPECT_TRUE(cut->read({}).value().make_picture) << "the coarse picture stays";
   EXPECT_TRUE(left_over().empty()) << "work that failed is not kept";
@@ -139,27 +154,30 @@ void expect_canvas_near_cut(const CutOptions& options, const Image& picture) {
   ASSERT_TRUE(planned) << planned.error().message;
   CoarseCanvas canvas(planned->plan);
   for (int y = 0; y < picture.height_px; y += static_cast<int>(canvas.row_step())) {
-    canvas.add_row(y, std::span(picture.rgba).subspan(static_cast<std::size_t>(y) * picture.width_px * 4,
-                                                      static_cast<std::size_t>(picture.width_px) * 4));
+    canvas.add_row(y, std::span(picture.rgba)
+                          .subspan(static_cast<std::size_t>(y) * picture.width_px * 4,
+                                   static_cast<std::size_t>(picture.width_px) * 4));
   }
   const auto tiles = open_tile_set(options.output);
   for (const auto& [id, bytes] : all_tiles(options.output)) {
-    if (id.level > canvas.grid().max_level) continue;
-    // Waves of 680 pixels: a row of four is taken, and JPEG adds about 1.
-    EXPECT_LT(rms(canvas.tile(id), *decode_image(bytes)), 4.0)
+    // Coarser pixels are degrees high, where the cut's weights by area count, and edges of a part are wide.
+    if (id.level > canvas.grid().max_level || id.level < canvas.grid().max_level - 2) continue;
+    EXPECT_LT(rms(canvas.tile(id), *decode_image(bytes)), 5.0)
         << id.level << "/" << id.x << "/" << id.y << " squeezed " << id.squeeze;
   }
 }
 
 TEST_F(GrowingCutTest, CoarseTilesAreNearThoseOfTheCut) {
-  const Image picture = waves(4096, 2048);
-  options_.tile_px = 64;
+  const Image picture = waves(2560, 1280);
+  options_.tile_px = 32;
   options_.output = folder_ / "out.gpkg";
   write_png(options_.images.front(), picture);
   expect_canvas_near_cut(options_, picture);
-  // A part that crosses ±180°, with pixels a quarter as long.
+  // A part that crosses ±180°.
   options_.output = folder_ / "part.gpkg";
-  options_.bounds = GeoRect{.west = Angle::degrees(170), .south = Angle::degrees(-10), .east = Angle::degrees(-170),
+  options_.bounds = GeoRect{.west = Angle::degrees(170),
+                            .south = Angle::degrees(-10),
+                            .east = Angle::degrees(-170),
                             .north = Angle::degrees(0)};
   expect_canvas_near_cut(options_, picture);
 }
@@ -172,7 +190,7 @@ class CoarseRaster : public testing::TestWithParam<CoarseCase> {};
 
 TEST_P(CoarseRaster, IsASmallVersionOfThePicture) {
   const ScratchFolder folder;
-  const Image picture = waves(6000, 3000);
+  const Image picture = waves(3000, 1500);
   write_jpeg(folder / "in.jpg", picture);
   fs::path file = folder / "in.jpg";
   if (*GetParam().made_by != '\0') {
@@ -181,7 +199,7 @@ TEST_P(CoarseRaster, IsASmallVersionOfThePicture) {
                                 (folder / "in.jpg").string() + " " + file.string();
     ASSERT_EQ(std::system(command.c_str()), 0);
   }
-  CrsPlace place{.to_crs = {.x0 = -180.0, .x_per_column = 0.06, .y0 = 90.0, .y_per_row = -0.06}, .crs = "EPSG:4326"};
+  CrsPlace place{.to_crs = {.x0 = -180.0, .x_per_column = 0.12, .y0 = 90.0, .y_per_row = -0.12}, .crs = "EPSG:4326"};
   const auto raster = open_coarse_raster(file, place);
   ASSERT_TRUE(raster) << raster.error().message;
   ASSERT_TRUE(*raster);
@@ -193,7 +211,7 @@ TEST_P(CoarseRaster, IsASmallVersionOfThePicture) {
   ASSERT_TRUE(block);
   const auto image = block->make_picture();
   ASSERT_TRUE(image);
-  const double by = 6000.0 / static_cast<double>(level.width_px);
+  const double by = 3000.0 / static_cast<double>(level.width_px);
   double worst = 0.0;
   const auto high = std::min<std::int64_t>(level.height_px, image->height_px);
   for (int y = 0; y < high; ++y) {
@@ -205,15 +223,16 @@ TEST_P(CoarseRaster, IsASmallVersionOfThePicture) {
       worst = std::max(worst, std::abs(double(at(*image, x, y)) - at(picture, true_x, true_y)));
     }
   }
-  // The waves' slope is 0.4 levels a pixel at most, JPEG adds a few levels; a tile's mean is off by half a tile.
-  EXPECT_LT(worst, 0.4 * by + 12.0);
+  // The waves' slope is at most 1.2 levels a pixel, JPEG adds a few levels.
+  EXPECT_LT(worst, 1.2 * by + 12.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CoarseRaster,
                          testing::Values(CoarseCase{"jpeg", ""}, CoarseCase{"strips", "-co COMPRESS=DEFLATE"},
                                          CoarseCase{"strips_of_eight_rows", "-co BLOCKYSIZE=8"},
-                                         CoarseCase{"tiles", "-co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64"},
-                                         CoarseCase{"few_tiles", "-co TILED=YES -co BLOCKXSIZE=512 -co BLOCKYSIZE=512"}),
+                                         CoarseCase{"tiles", "-co TILED=YES -co BLOCKXSIZE=32 -co BLOCKYSIZE=32"},
+                                         CoarseCase{"few_tiles",
+                                                    "-co TILED=YES -co BLOCKXSIZE=512 -co BLOCKYSIZE=512"}),
                          [](const auto& made) { return made.param.name; });
 
 TEST(CoarseRasterOf, ProgressiveAndInterlacedPicturesOpenWithoutDecoding) {

@@ -40,6 +40,7 @@ class Renewed : public TileSource {
 class Editions : public GlTest {
  protected:
   void SetUp() override {
+    GlTest::SetUp();
     source_ = std::make_shared<Renewed>();
     globe_ = make_globe(unlit_options(), source_);
     globe_->set_camera({.eye = {.lat = Angle::degrees(20), .lon = Angle::degrees(15), .height_m = 9.0e6}});

@@ -11,7 +11,7 @@ import png
 from real_window import SIZE, WindowTest, wait_until
 
 MARBLE = pathlib.Path(os.environ["TERRELLA_SOURCE"]) / "data/earth/blue_marble_4096x2048.jpg"
-PICTURE = (12288, 6144)  # three bands of 2048 rows
+PICTURE = (16384, 8192)  # four bands of 2048 rows: a cut of some seconds
 BAR = (SIZE[0] // 2 - 100, SIZE[0] // 2 + 100, 30)  # columns and row of the progress bar's panel
 SAHARA = (SIZE[0] // 2, SIZE[1] // 2)
 
@@ -20,7 +20,7 @@ class Cutting(WindowTest):
     def setUp(self):
         super().setUp()
         self.picture = self.folder / "striped.tif"
-        subprocess.run(["gdal_translate", "-q", "-outsize", *map(str, PICTURE), "-co", "COMPRESS=DEFLATE", "-co", "ZLEVEL=1",
+        subprocess.run(["gdal_translate", "-q", "-outsize", *map(str, PICTURE), "-co", "COMPRESS=ZSTD", "-co", "ZSTD_LEVEL=1",
                         MARBLE, self.picture], check=True)
         self.addCleanup(self.picture.unlink)
         self.cache = self.kept / "terrella"
@@ -57,6 +57,7 @@ class Cutting(WindowTest):
 
     def test_it_shows_at_once_and_goes_on_after_a_kill_and_after_closing(self):
         killed = self.view()
+        self.assert_coarse_picture_and_bar(killed)
         self.wait_for_bands(1)
         earlier = self.logs()
         time.sleep(0.3)
@@ -66,7 +67,6 @@ class Cutting(WindowTest):
 
         left = self.logs()
         closed = self.view()
-        self.assert_coarse_picture_and_bar(closed)
         self.assert_goes_on_from(left)
         self.wait_for_bands(2)
         closed.key("Escape")
@@ -76,7 +76,7 @@ class Cutting(WindowTest):
 
         left = self.logs()
         last = self.view()
-        whole = wait_until("the whole cut", lambda: list(self.cache.glob("striped-*.gpkg")))
+        whole = wait_until("the whole cut", lambda: list(self.cache.glob("striped-*.gpkg")), 240)
         self.assertEqual(len(whole), 1)
         wait_until("the folder's end", lambda: self.work() is None)
         time.sleep(1.5)

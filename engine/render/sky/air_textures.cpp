@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <vector>
@@ -71,7 +72,8 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
   const double scale = 0.05 * (tables_.top() - 1.0);
   const double moved = std::abs(eye.radius - eye_.radius) / (eye.radius - 1.0 + scale);
   const bool crossed = (eye.radius > tables_.top()) != sky_.outside;
-  const double pixel = eye.radius > tables_.top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
+  const double pixel =
+      eye.radius > tables_.top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
   const bool same_pixel = std::abs(pixel - pixel_) <= 0.003 * pixel_;
   if (!crossed && same_pixel && moved < kHeightStep && std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep) return true;
   eye_ = eye;
@@ -81,6 +83,8 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
 }
 
 void AirTextures::upload() {
+  std::future<GroundColors> ground_colors =
+      std::async(std::launch::async, [this] { return make_ground_colors(tables_, eye_); });
   sky_ = make_sky_colors(tables_, eye_, pixel_);
   sky_light_ = make_table(sky_.columns, sky_.rows, sky_.light_srgb);
   std::vector<glm::vec4> rows;
@@ -93,7 +97,7 @@ void AirTextures::upload() {
     limb_light_ = make_table(sky_.columns, SkyColors::kLimbRows, sky_.limb_light_sum);
     limb_through_ = make_table(1, SkyColors::kLimbRows, sky_.limb_through_sum);
   }
-  const GroundColors ground = make_ground_colors(tables_, eye_);
+  const GroundColors ground = ground_colors.get();
   ground_through_ = make_table(GroundColors::kColumns, GroundColors::kRows, ground.through);
   ground_light_ = make_table(GroundColors::kColumns, GroundColors::kRows, ground.light_sq);
 }

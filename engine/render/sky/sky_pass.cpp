@@ -77,8 +77,9 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
 int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state) const {
   if (star_count_ == 0) return 0;
   const double height_m = body_.ellipsoid.to_geodetic(view.eye).height_m;
-  const double visibility =
-      air_ && input.atmosphere ? star_visibility(air_->air(), height_m, sun_cosine(body_, view, input.almanac.sun)) : 1.0;
+  const double visibility = air_ && input.atmosphere
+                                ? star_visibility(air_->air(), height_m, sun_cosine(body_, view, input.almanac.sun))
+                                : 1.0;
   if (visibility < 1e-3) return 0;
   state.blend = kAdd;
   state.program_point_size = true;

@@ -91,7 +91,8 @@ void CoarseCanvas::put_row(std::int64_t row) {
   std::uint8_t* to = pixels_.data() + row * (px_.x1 - px_.x0) * 4;
   for (std::size_t i = 0; i < sums_.size(); i += 4, to += 4) {
     const float alpha = sums_[i + 3];
-    for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(alpha > 0.0F ? sums_[i + c] / alpha + 0.5F : 0);
+    for (std::size_t c = 0; c < 3; ++c)
+      to[c] = static_cast<std::uint8_t>(alpha > 0.0F ? sums_[i + c] / alpha + 0.5F : 0);
     to[3] = static_cast<std::uint8_t>(alpha / std::max(counts_[i / 4], 1.0F) + 0.5F);
   }
 }
@@ -123,7 +124,9 @@ Image CoarseCanvas::tile(const TileId& id) const {
     columns.push_back(taps(x * wide, (x + 1.0) * wide, px_.x0, width, turn_px_, plan_.wraps));
     rows.push_back(taps(y * pixel, (y + 1.0) * pixel, px_.y0, height, 0, plan_.wraps));
   }
-  Image made{.width_px = side, .height_px = side, .rgba = std::vector<std::uint8_t>(static_cast<std::size_t>(side) * side * 4)};
+  Image made{.width_px = side,
+             .height_px = side,
+             .rgba = std::vector<std::uint8_t>(static_cast<std::size_t>(side) * side * 4)};
   std::uint8_t* to = made.rgba.data();
   const std::shared_lock lock(mutex_);
   for (const Taps& row : rows) {

@@ -30,8 +30,8 @@ constexpr std::int64_t kSampledTiles = 512;
 
 /// A picture of fewer pixels that covers the same area.
 struct CoarseShape {
-  std::int64_t width_px, height_px;        ///< of the picture
-  std::int64_t columns = 0, rows = 0;      ///< of the coarse one
+  std::int64_t width_px, height_px;    ///< of the picture
+  std::int64_t columns = 0, rows = 0;  ///< of the coarse one
   /// First pixel of a coarse column or row.
   [[nodiscard]] static std::int64_t begin(std::int64_t at, std::int64_t size, std::int64_t count) {
     return at * size / count;
@@ -139,8 +139,8 @@ Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place) {
   } else {
     tiff->by_rows = std::make_unique<TiffRowLevel>(level, 0);
   }
-  const CrsPlace at = shrunk(place, pyramid->whole().part.picture.width_px, pyramid->whole().part.picture.height_px,
-                             tiff->shape);
+  const CrsPlace at =
+      shrunk(place, pyramid->whole().part.picture.width_px, pyramid->whole().part.picture.height_px, tiff->shape);
   return make_coarse(path, at, tiff->shape, [tiff](std::span<std::uint8_t> row) -> Status {
     Status read = Done{};
     if (tiff->by_rows) {
@@ -163,7 +163,10 @@ Result<Coarse> open_coarse_jpeg(const fs::path& path, const CrsPlace& place) {
   if (!whole) return whole.error();
   const PictureInfo& info = (*whole)->info();
   const std::int64_t side = std::max(info.width_px, info.height_px);
-  auto opened = open(side >= 8 * kCoarseSide_px ? 1 : side >= 4 * kCoarseSide_px ? 2 : side >= 2 * kCoarseSide_px ? 4 : 8);
+  auto opened = open(side >= 8 * kCoarseSide_px   ? 1
+                     : side >= 4 * kCoarseSide_px ? 2
+                     : side >= 2 * kCoarseSide_px ? 4
+                                                  : 8);
   if (!opened) return opened.error();
   const PictureInfo& small = (*opened)->info();
   const CoarseShape shape{info.width_px, info.height_px, small.width_px, small.height_px};

@@ -1,6 +1,8 @@
 #include "streaming/cut/growing/growing_cut.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -20,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Priority of the cut's threads: the window comes first.
+constexpr int kPriority = 10;
 /// Time between two editions. Each reads the coarse tiles in view again.
 constexpr std::chrono::milliseconds kBetweenEditions{1000};
 
@@ -49,8 +53,8 @@ Result<std::unique_ptr<TileSource>> coarse_tiles(const CutOptions& options, cons
   if (!*raster) return std::unique_ptr<TileSource>{};
   const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
   if (!body) return body.error();
-  auto planner = TilePlanner::open((*raster)->info(), {body->ellipsoid, grid.latitude, grid.latitude}, grid,
-                                   Overviews::stored);
+  auto planner =
+      TilePlanner::open((*raster)->info(), {body->ellipsoid, grid.latitude, grid.latitude}, grid, Overviews::stored);
   if (!planner) return planner.error();
   TileSetInfo info{.name = {}, .attribution = {}, .body = {}, .grid = grid};
   return make_warp_source(*std::move(raster), *std::move(planner), std::move(info), {}, kWarpDecodedBytes);
@@ -115,6 +119,8 @@ void GrowingCut::renew(bool now) {
 void GrowingCut::run(const fs::path& folder) {
   try {
     paint_coarse();
+    // Linux counts the priority by threads, and threads take it over from the thread that starts them.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kPriority);
     const auto path = cut_into_cache(options_, folder);
     if (!path) return finish(path.error());
     auto whole = open_tile_set(*path);

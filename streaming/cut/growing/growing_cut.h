@@ -33,8 +33,8 @@ class GrowingCut : public TileSource, private RemoteTiles {
   GrowingCut& operator=(const GrowingCut&) = delete;
 
   struct State {
-    double share = 0.0;         ///< of the rows, [0, 1]
-    bool ended = false;         ///< cut, or failed
+    double share = 0.0;            ///< of the rows, [0, 1]
+    bool ended = false;            ///< cut, or failed
     std::optional<Error> error{};  ///< why the cut failed
   };
   [[nodiscard]] State state() const;

@@ -128,6 +128,34 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
   return put_rows(make_mosaic_rows(std::move(parts), *std::move(layout), info, open), *place, heights);
 }
 
+/// True if tiles need a number that means "no data": pixels may lie beside the picture.
+bool may_have_gaps(const CutOptions& options) {
+  if (options.images.size() > 1 || options.mosaic || is_mosaic(options.images.front())) return true;
+  const auto picture = measure_picture(options.images.front());
+  const auto place = picture ? find_place(options, *picture) : Result<PicturePlace>(picture.error());
+  if (!place) return true;  // open_one() says why
+  const bool whole = place->kind == PlaceKind::planet || place->kind == PlaceKind::nodes || !place->bounds;
+  return place->kind == PlaceKind::warped || !whole;
+}
+
+Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
+  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
+  if (options.format && options.format != ImageFormat::png) {
+    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
+  }
+  std::vector<fs::path> images = options.images;
+  if (is_mosaic(images.front())) {
+    const auto list = list_of(options);
+    if (!list) return list.error();
+    images.clear();
+    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+  }
+  const auto planned = options.elevation ? plan_heights(images, *options.elevation)
+                                         : plan_numbers(images, *options.numbers, may_have_gaps(options));
+  if (!planned) return planned.error();
+  return std::optional(*planned);
+}
+
 /// True for a folder or a list of rasters, and for parts in a projection.
 bool is_many(const CutOptions& options) {
   if (options.images.size() == 1 && !options.mosaic) return is_mosaic(options.images.front());
@@ -140,24 +168,24 @@ bool is_many(const CutOptions& options) {
 
 }  // namespace
 
-Result<CutInput> open_input(const CutOptions& options) {
-  std::optional<HeightPlan> heights;
-  if (options.elevation) {
-    if (options.format && options.format != ImageFormat::png)
-      return Error{"heights are written as PNG alone; leave --format out"};
-    std::vector<fs::path> images = options.images;
-    if (is_mosaic(images.front())) {
-      const auto list = list_of(options);
-      if (!list) return list.error();
-      images.clear();
-      for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
-    }
-    const auto planned = plan_heights(images, *options.elevation);
-    if (!planned) return planned.error();
-    heights = *planned;
+CodingOptions choice_of(const CutOptions& options) {
+  CodingOptions choice;
+  if (!options.composite) return choice;
+  choice.nodata = options.composite->nodata;
+  choice.composite = BandComposite{.bands = {}, .stretch = options.composite->stretch};
+  for (std::size_t c = 0; c < 3; ++c) {
+    choice.composite->bands[c] = static_cast<std::size_t>(options.composite->bands[c] - 1);
   }
-  const OpenRows open = [heights](const fs::path& image) {
-    return heights ? open_height_rows(image, heights->coding) : open_rows(image);
+  return choice;
+}
+
+Result<CutInput> open_input(const CutOptions& options) {
+  const auto planned = plan_of(options);
+  if (!planned) return planned.error();
+  const std::optional<HeightPlan>& heights = *planned;
+  const CodingOptions choice = choice_of(options);
+  const OpenRows open = [heights, choice](const fs::path& image) {
+    return heights ? open_height_rows(image, heights->coding) : open_rows(image, choice);
   };
   const bool several = !options.raster && (options.images.size() > 1 || options.mosaic);
   auto input = is_many(options) ? open_resampled(options, heights)
@@ -165,7 +193,8 @@ Result<CutInput> open_input(const CutOptions& options) {
                                 : open_one(options, open, heights);
   if (!input || !heights) return input;
   input->numbers = heights->numbers;
-  if (input->has_gaps && !input->numbers->nodata) input->numbers->nodata = kAddedNodata;
+  const bool gaps = options.numbers ? may_have_gaps(options) : input->has_gaps;
+  if (gaps && !input->numbers->nodata && !input->numbers->floats) input->numbers->nodata = kAddedNodata;
   return input;
 }
 

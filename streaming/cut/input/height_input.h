@@ -22,6 +22,12 @@ struct HeightPlan {
 [[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
                                               const CutElevation& options);
 
+/// Chooses how tiles keep the numbers of a band: whole numbers of at most 16 bits as they are, with the metadata's
+/// scale and offset; others as 32-bit floats with both applied. Numbers of 16 bits without nodata, of which
+/// `may_have_gaps` leaves places without data, become floats too. thread: any
+[[nodiscard]] Result<HeightPlan> plan_numbers(const std::vector<std::filesystem::path>& images,
+                                              const CutNumbers& options, bool may_have_gaps);
+
 /// Options for reading a picture's heights in metres as a raster. thread: any
 [[nodiscard]] RasterOptions raster_of(const HeightPlan& plan);
 

@@ -110,7 +110,8 @@ class JpegRows : public RowReader {
 
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
     // A picture of several scans is decoded here.
-    if ((row_ == 0 && !start()) || !read_scanline(rgba.data())) return row_error(name_, row_, info_.height_px, errors_.message);
+    if ((row_ == 0 && !start()) || !read_scanline(rgba.data()))
+      return row_error(name_, row_, info_.height_px, errors_.message);
     ++row_;
     return Done{};
   }

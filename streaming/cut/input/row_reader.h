@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/result.h"
+#include "streaming/numbers/coding_options.h"
 
 namespace terrella {
 
@@ -44,8 +45,9 @@ class RowReader {
 [[nodiscard]] Status check_regular(const std::filesystem::path& path);
 
 /// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. The error names the file, the fault and a
-/// cure.
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path);
+/// cure. `choice` says how a TIFF is shown; other pictures refuse a composite.
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path,
+                                                           const CodingOptions& choice = {});
 
 struct HeightCoding;
 /// Like open_rows(), for heights: rows of 32-bit floats instead of RGBA8 (streaming/cut/input/heights.h). Accepts a

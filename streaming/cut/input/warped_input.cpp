@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "geo/body.h"
+#include "streaming/cut/input/cut_input.h"
 #include "streaming/cut/input/picture_raster.h"
 #include "streaming/cut/input/rolled_rows.h"
 #include "streaming/cut/input/tile_rows.h"
@@ -78,6 +79,11 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   RasterOptions reading = heights ? raster_of(*heights) : RasterOptions{};
   reading.work_folder = options.output.parent_path();
   reading.jobs = options.jobs;
+  if (!heights) {
+    const CodingOptions choice = choice_of(options);
+    reading.nodata = choice.nodata;
+    reading.composite = choice.composite;
+  }
   auto raster = options.raster ? options.raster->open(*place.from, reading)
                                : open_picture_raster(picture.path, *place.from, reading);
   if (!raster) return raster.error();

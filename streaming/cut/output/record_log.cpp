@@ -47,10 +47,8 @@ bool read_record(std::FILE* file, Header& header, std::vector<std::byte>& bytes)
 
 }  // namespace
 
-Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bool resume, fs::path output,
-                                                               Told told) {
-  std::unique_ptr<RecordLogWriter> log(
-      new RecordLogWriter(std::move(path), std::move(output), std::move(told)));
+Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bool resume, fs::path output, Told told) {
+  std::unique_ptr<RecordLogWriter> log(new RecordLogWriter(std::move(path), std::move(output), std::move(told)));
   const fs::path part = part_of(log->path_);
   log->file_.reset(std::fopen(part.c_str(), resume ? "a+be" : "wbe"));
   if (!log->file_) return cannot_write(log->output_, errno);
