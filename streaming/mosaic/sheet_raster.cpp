@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "streaming/mosaic/area_mean.h"
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 
 namespace terrella {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_coding.h"
 #include "streaming/raster/tiff_level.h"
 #include "streaming/raster/tiff_source.h"

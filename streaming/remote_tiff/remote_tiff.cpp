@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_source.h"
 #include "streaming/remote/web_address.h"
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 
 namespace terrella {
 namespace {

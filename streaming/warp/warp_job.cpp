@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "streaming/warp/resample.h"
+#include "streaming/warp/filter/resample.h"
 
 namespace terrella {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "streaming/warp/line_plan.h"
+#include "streaming/warp/filter/line_plan.h"
 
 namespace terrella {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "streaming/warp/taps.h"
+#include "streaming/warp/filter/taps.h"
 #include "streaming/warp/warp_levels.h"
 
 namespace terrella {

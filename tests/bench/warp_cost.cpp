@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "geo/body.h"
+#include "streaming/warp/filter/resample.h"
 #include "streaming/warp/make_warp_source.h"
-#include "streaming/warp/resample.h"
 
 namespace terrella {
 namespace {

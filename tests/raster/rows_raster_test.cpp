@@ -7,7 +7,7 @@
 #include "raster_files.h"
 #include "streaming/cut/input/picture_raster.h"
 #include "streaming/cut/input/row_reader.h"
-#include "streaming/raster/block_store.h"
+#include "streaming/raster/rows/block_store.h"
 
 namespace terrella::test {
 namespace {

@@ -12,7 +12,7 @@
 #include "streaming/file_bytes.h"
 #include "streaming/other_formats.h"
 #include "streaming/raster/in_parallel.h"
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_coding.h"
 #include "streaming/raster/tiff_level.h"
 #include "streaming/tiff_open.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "streaming/warp/filter/taps.h"
 #include "streaming/warp/map/patch.h"
-#include "streaming/warp/taps.h"
 
 namespace terrella {
 

@@ -1,4 +1,4 @@
-#include "streaming/raster/block_store.h"
+#include "streaming/raster/rows/block_store.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

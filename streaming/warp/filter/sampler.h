@@ -8,10 +8,10 @@
 #include <type_traits>
 
 #include "streaming/warp/canvas.h"
-#include "streaming/warp/lanes.h"
+#include "streaming/warp/filter/lanes.h"
+#include "streaming/warp/filter/phase_table.h"
+#include "streaming/warp/filter/taps.h"
 #include "streaming/warp/map/patch.h"
-#include "streaming/warp/phase_table.h"
-#include "streaming/warp/taps.h"
 
 namespace terrella {
 

@@ -1,4 +1,4 @@
-#include "streaming/warp/taps.h"
+#include "streaming/warp/filter/taps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "streaming/warp/taps.h"
+#include "streaming/warp/filter/taps.h"
 
 namespace terrella {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "streaming/raster/block_store.h"
 #include "streaming/raster/open_raster.h"
+#include "streaming/raster/rows/block_store.h"
 
 namespace terrella {
 

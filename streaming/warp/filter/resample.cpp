@@ -1,7 +1,7 @@
-#include "streaming/warp/resample.h"
+#include "streaming/warp/filter/resample.h"
 
-#include "streaming/warp/resample_lines.h"
-#include "streaming/warp/resample_patch.h"
+#include "streaming/warp/filter/resample_lines.h"
+#include "streaming/warp/filter/resample_patch.h"
 #include "streaming/warp/tile_pixels.h"
 
 namespace terrella {

@@ -1,13 +1,13 @@
-#include "streaming/warp/resample_patch.h"
+#include "streaming/warp/filter/resample_patch.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "streaming/warp/sampler.h"
-#include "streaming/warp/taps.h"
+#include "streaming/warp/filter/sampler.h"
+#include "streaming/warp/filter/taps.h"
+#include "streaming/warp/filter/two_passes.h"
 #include "streaming/warp/tile_pixels.h"
-#include "streaming/warp/two_passes.h"
 
 namespace terrella {
 namespace {

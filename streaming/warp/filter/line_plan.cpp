@@ -1,4 +1,4 @@
-#include "streaming/warp/line_plan.h"
+#include "streaming/warp/filter/line_plan.h"
 
 #include <cmath>
 #include <cstdint>

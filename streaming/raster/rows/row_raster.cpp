@@ -1,4 +1,4 @@
-#include "streaming/raster/row_raster.h"
+#include "streaming/raster/rows/row_raster.h"
 
 #include <cstring>
 

@@ -1,9 +1,9 @@
-#include "streaming/warp/resample_lines.h"
+#include "streaming/warp/filter/resample_lines.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "streaming/warp/lanes.h"
+#include "streaming/warp/filter/lanes.h"
 #include "streaming/warp/tile_pixels.h"
 
 namespace terrella {

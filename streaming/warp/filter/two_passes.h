@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "streaming/warp/filter/sampler.h"
 #include "streaming/warp/map/patch.h"
-#include "streaming/warp/sampler.h"
 
 namespace terrella {
 

@@ -1,4 +1,4 @@
-#include "streaming/warp/two_passes.h"
+#include "streaming/warp/filter/two_passes.h"
 
 #include <array>
 
