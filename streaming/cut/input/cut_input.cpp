@@ -100,12 +100,12 @@ Result<CutInput> open_input(const CutOptions& options) {
   if (options.elevation) {
     if (options.format && options.format != ImageFormat::png)
       return Error{"heights are written as PNG alone; leave --format out"};
-    const auto planned = plan_heights(options.images, *options.elevation);
+    const auto planned = plan_heights(options.images, *options.elevation, options.jobs);
     if (!planned) return planned.error();
     heights = *planned;
   }
-  const OpenRows open = [heights](const fs::path& image) {
-    return heights ? open_height_rows(image, heights->coding) : open_rows(image);
+  const OpenRows open = [heights, jobs = options.jobs](const fs::path& image) {
+    return heights ? open_height_rows(image, heights->coding, jobs) : open_rows(image, jobs);
   };
   const bool several = options.images.size() > 1 || options.mosaic;
   auto input = several ? open_mosaic(options, open, heights.has_value()) : open_one(options, open, heights);

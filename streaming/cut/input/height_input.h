@@ -20,7 +20,7 @@ struct HeightPlan {
 /// Chooses how tiles store the heights of the pictures. Reads all pixels once if the samples are 32-bit floats and the
 /// options do not give the coding. All pictures must have the same kind of sample. thread: any
 [[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
-                                              const CutElevation& options);
+                                              const CutElevation& options, int jobs);
 
 /// Options for reading a picture's heights in metres as a raster. thread: any
 [[nodiscard]] RasterOptions raster_of(const HeightPlan& plan);

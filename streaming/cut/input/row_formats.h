@@ -24,7 +24,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
-                                                                const std::optional<HeightCoding>& heights);
+                                                                const std::optional<HeightCoding>& heights, int jobs);
 
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);

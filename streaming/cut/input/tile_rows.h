@@ -27,7 +27,7 @@ struct TileRowsInput {
                                                    const std::optional<ElevationInfo>& numbers,
                                                    const std::string& where);
 
-/// Side of the tiles of which a row is held in at most 48 MiB, for a picture of that width: 256 px, or less for wide
+/// Side of the tiles of which a row is held in at most 24 MiB, for a picture of that width: 256 px, or less for wide
 /// pictures. thread: any
 [[nodiscard]] int tile_side_for_rows(std::int64_t width_px);
 
