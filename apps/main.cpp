@@ -60,7 +60,8 @@ std::string suggestion(const std::string& typed, const std::vector<std::string>&
 }
 
 bool can_be_shown(const std::string& argument) {
-  constexpr const char* kExtensions[] = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".gpkg", ".mbtiles", ".json"};
+  constexpr const char* kExtensions[] = {".jpg",  ".jpeg", ".png",     ".tif",     ".tiff",
+                                         ".webp", ".gpkg", ".mbtiles", ".pmtiles", ".json"};
   std::error_code unknown;
   const std::filesystem::path path(argument);
   return argument.find("://") != argument.npos || std::filesystem::exists(path, unknown) ||
@@ -77,7 +78,6 @@ std::string about_unknown(const CLI::App& where, const std::string& argument) {
   }
   const auto commands = where.get_subcommands([](const CLI::App*) { return true; });
   if (commands.empty()) return "unexpected argument " + argument;
-  if (can_be_shown(argument)) return "no command given; to show it: terrella view " + argument;
   for (const CLI::App* command : commands) known.push_back(command->get_name());
   return "there is no command " + argument + suggestion(argument, known);
 }
@@ -101,9 +101,18 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   return kWrongUsage;
 }
 
-/// The program's arguments, last one first, as CLI11 takes them. `help COMMAND` becomes `COMMAND --help`.
-std::vector<std::string> reversed_arguments(int argc, char** argv) {
+/// The program's arguments, last one first, as CLI11 takes them. `help COMMAND` becomes `COMMAND --help`, and a
+/// picture, a tile set or an address in the place of the command becomes `view PICTURE`.
+std::vector<std::string> reversed_arguments(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto names_command = [&app](const std::string& word) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::ranges::any_of(commands, [&word](const CLI::App* command) { return command->get_name() == word; });
+  };
+  if (!arguments.empty() && !arguments.front().starts_with('-') && !names_command(arguments.front()) &&
+      can_be_shown(arguments.front())) {
+    arguments.insert(arguments.begin(), "view");
+  }
   if (!arguments.empty() && arguments.front() == "help") {
     arguments.erase(arguments.begin());
     arguments.emplace_back("--help");
@@ -135,7 +144,7 @@ int run_program(int argc, char** argv) {
   add_merge_command(app, exit_code);
   add_bench_command(app, exit_code);
   try {
-    app.parse(reversed_arguments(argc, argv));
+    app.parse(reversed_arguments(app, argc, argv));
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return report_parse(app, error);

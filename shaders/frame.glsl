@@ -12,6 +12,17 @@ layout(std140, binding = 0) uniform Frame {
   vec4 paper;
   // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.
   vec4 layer_look;
+  // Offsets from the eye, metres, into the axes of the horizon in scaled space (engine/render/sky/air_textures.h); the
+  // last column has the square of the polar over the equatorial radius, one over the distance of the horizon, and
+  // the eye's radius and height, metres. The last row has the place of the forward axis in the picture, pixels, and
+  // the slope of a pixel.
+  mat4 horizon_from_ecef;
+  // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
+  // over slot_px; unused.
+  vec4 relief;
+  // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
+  // body of dust; unused.
+  vec4 surface_look;
 };
 
 // Depth in the format of DepthMode. `w` is the distance in front of the eye's plane, metres.

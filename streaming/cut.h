@@ -1,14 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/numbers/stretch_rule.h"
+#include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -30,14 +36,54 @@ struct CutElevation {
   std::optional<double> nodata = {};  ///< picture value that means "no height"; NaN always does
 };
 
+/// Makes the cut keep the numbers of one band (streaming/cut/README.md, "Numbers").
+struct CutNumbers {
+  int band = 1;                       ///< counted from 1
+  std::optional<double> nodata = {};  ///< value that means "no data"; default: as stated by the picture
+};
+
+/// Makes the cut show three bands as red, green and blue, each stretched by itself (8-bit tiles).
+struct CutBands {
+  std::array<int, 3> bands{1, 2, 3};                    ///< counted from 1
+  std::array<std::optional<StretchRule>, 3> stretch{};  ///< none: 8 bits as they are, else percent:2,98
+  std::optional<double> nodata = {};                    ///< transparent where all three bands have it
+};
+
 /// One of `count` machines that cut the same picture together.
 struct CutShard {
   int index = 1;  ///< starts at 1
   int count = 1;
 };
 
+/// A picture that is no local file, such as a TIFF on a server.
+struct CutRaster {
+  PictureFile picture;  ///< name, size and bytes
+  std::string key;      ///< differs if the pixels may differ
+  /// Opens the raster. Its blocks are read as those of a local one.
+  std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
+};
+
+/// Place of an encoded tile in a file of unfinished work. The file may get the name without ".part" at any time.
+struct CutTile {
+  TileId id;
+  std::filesystem::path log;  ///< without ".part"
+  std::uint64_t offset = 0;   ///< bytes
+  std::size_t size = 0;       ///< bytes
+};
+
+/// Receives the results of a cut while it goes on. Tiles of the coarsest levels are not among them, because they are
+/// made at the end.
+struct CutWatch {
+  /// thread: a thread of the cut, one at a time
+  std::function<void(const CutTile& tile)> tile_made;
+  /// Row of the picture on its grid, as RGBA8, for every row_step-th row. thread: the cut's
+  std::function<void(std::int64_t row, std::span<const std::uint8_t> rgba)> row_read;
+  std::int64_t row_step = 1;
+};
+
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;
   int quality = 85;
@@ -45,6 +91,8 @@ struct CutOptions {
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
+  std::optional<CutNumbers> numbers = {};  ///< of `elevation`, `numbers` and `composite` at most one is set
+  std::optional<CutBands> composite = {};
   /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself
   /// (streaming/georeference). Without one the picture is the whole planet and must be 2:1.
   std::optional<GeoRect> bounds{};
@@ -60,6 +108,8 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
+  bool keep_unfinished = false;     ///< what is done stays for the next run if `progress` stops the cut
+  std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};
 };
@@ -81,6 +131,10 @@ struct CutSummary {
 /// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
 /// thread: any
 [[nodiscard]] Status check_pictures(const CutOptions& options);
+
+/// Name of the GeoPackage for an image file in the cache directory. thread: any
+[[nodiscard]] Result<std::filesystem::path> cache_path(const CutOptions& options,
+                                                       const std::filesystem::path& cache_dir);
 
 /// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
 /// change, and the place. Blocks. thread: any

@@ -7,8 +7,10 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/scene/number_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
+#include "apps/setup/open_remote_tiff.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"
 #include "base/number.h"
@@ -23,10 +25,13 @@ constexpr const char* kCutExamples =
     "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
     "  terrella cut alps.png -o tiles --bounds 5,43,17,49 --format png\n"
     "  terrella cut flight.tif -o flight.gpkg                           UTM, or any system that the file states\n"
+    "  terrella cut https://host/mosaic.tif -o mosaic.gpkg\n"
     "  terrella cut flight.png -o flight.gpkg --crs EPSG:32633 --bounds 500000,4640000,506400,4650000\n"
     "  terrella cut world.200412.3x21600x21600.??.jpg -o earth.gpkg     NASA's eight parts as one\n"
     "  terrella cut nw.png ne.png sw.png se.png --mosaic 2x2 -o tiles\n"
     "  terrella cut etopo5.png --elevation --offset -32768 -o relief.gpkg\n"
+    "  terrella cut temperature.tif -o temperature.gpkg                 numbers stay numbers\n"
+    "  terrella cut landsat.tif --bands 4,3,2 --stretch percent:2,98 -o landsat.gpkg\n"
     "  terrella cut huge.tif -o huge.gpkg --shard 3/8                   on each of 8 machines, 1/8 to 8/8, then\n"
     "  terrella cut huge.tif -o huge.gpkg --join\n"
     "After an interruption the same command resumes and writes the same bytes.";
@@ -38,6 +43,7 @@ struct CutCommand {
   bool elevation = false;
   CutElevation heights;
   PlaceWords place;
+  NumberOptions numbers;
   bool json = false;
 };
 
@@ -83,13 +89,38 @@ void print_summary(const CutCommand& command, const CutSummary& summary) {
                grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
 }
 
+bool is_web_address(const std::string& image) { return image.starts_with("http://") || image.starts_with("https://"); }
+
+/// Replaces the address of a TIFF on a server by its raster.
+Status open_address(CutCommand& command) {
+  if (std::ranges::none_of(command.images, is_web_address)) return Done{};
+  const Url url(command.images.front());
+  if (command.images.size() > 1) return Error{"an address is cut alone; download the parts of a picture first"};
+  if (command.elevation) {
+    return Error{url.redacted() + ": heights are cut from a file alone; download it first"};
+  }
+  const RemoteTiffWish wish{
+      .url = url, .direct = {.body = command.cut.body, .latitude = command.cut.latitude, .place = command.place}};
+  auto opened = open_remote_tiff(wish);
+  if (!opened) return opened.error();
+  command.cut.images = {opened->file->name()};
+  command.cut.raster = cut_raster(*std::move(opened));
+  return Done{};
+}
+
 int run(CutCommand& command) {
   command.cut.images.assign(command.images.begin(), command.images.end());
   command.cut.output = command.output;
-  if (command.elevation) command.cut.elevation = command.heights;
+  if (command.elevation) {
+    command.heights.nodata = command.numbers.nodata;
+    command.cut.elevation = command.heights;
+  } else {
+    set_numbers(command.cut, command.numbers, command.cut.images.front());
+  }
   set_place(command.cut, command.place);
   command.cut.remark = [](const std::string& remark) { print_message("terrella cut: {}\n", remark); };
   const StopSignals signals;
+  if (Status opened = open_address(command); !opened) return fail("cut", opened.error().message);
   Result<CutSummary> summary = Error{};
   {
     Progress progress("cutting " + command.cut.images.front().filename().string());
@@ -139,7 +170,16 @@ void add_input_options(CLI::App& app, CutCommand& command) {
       ->needs(elevation);
   app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
       ->needs(elevation);
-  app.add_option("--nodata", command.heights.nodata, "Set the picture's value for unknown heights")->needs(elevation);
+  app.add_option("--nodata", command.numbers.nodata,
+                 "Set the value for no data in a picture of heights or numbers that does not say it");
+  app.add_option("--band", command.numbers.band,
+                 "Keep the numbers of this band of a TIFF, counted from 1. Without it, gray TIFFs of 16 bits and more, "
+                 "and of floats, keep their numbers, unless --format asks for pictures")
+      ->check(whole_number_in(1, 65535))
+      ->excludes(elevation);
+  add_stretch_options(app, command.numbers);
+  app.get_option("--bands")->excludes(elevation)->excludes("--band");
+  app.get_option("--stretch")->needs("--bands");
 }
 
 void add_work_options(CLI::App& app, CutCommand& command) {
@@ -161,7 +201,9 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option("image", command->images, "A picture or the parts of one: JPEG, PNG, WebP, TIFF or BigTIFF")
+  sub.add_option("image", command->images,
+                 "A picture, the parts of one, a folder or list of rasters, or the address of a tiled TIFF. Pictures are "
+                 "JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")

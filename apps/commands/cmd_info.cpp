@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/commands/commands.h"
+#include "apps/commands/option_checks.h"
 #include "apps/commands/picture_report.h"
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/verify_tiles.h"
@@ -30,6 +31,7 @@ namespace fs = std::filesystem;
 struct InfoOptions {
   Url tile_set;
   PlaceWords place;
+  DescribedBand band;
   bool verify = false;
   bool json = false;
 };
@@ -39,6 +41,7 @@ constexpr const char* kInfoExamples =
     "  terrella info planet.gpkg             grid, levels, bounds, tiles, size\n"
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
+    "  terrella info dem/                    a folder of rasters as one tile set: how many, and which are left out\n"
     "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
@@ -93,7 +96,8 @@ Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSour
 }
 
 int run_picture_info(const InfoOptions& options) {
-  const Result<std::string> report = picture_report(options.tile_set.with_secrets(), options.place, options.json);
+  const Result<std::string> report =
+      picture_report(options.tile_set.with_secrets(), options.place, options.band, options.json);
   if (!report) return fail("info", report.error().message);
   print_result("{}", *report);
   return kDone;
@@ -106,6 +110,8 @@ int run_info(const InfoOptions& options) {
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   scene.place = options.place;
+  scene.numbers.band = options.band.band;
+  scene.numbers.nodata = options.band.nodata;
   const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
   if (!source) return fail("info", source.error().message);
   const std::string& path = options.tile_set.with_secrets();
@@ -113,6 +119,7 @@ int run_info(const InfoOptions& options) {
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(path);
   report.levels = count_levels(**source);
+  if (const auto* const mosaic = dynamic_cast<const MosaicTiles*>(source->get())) report.mosaic = mosaic->facts();
   if (StopSignals::came()) {
     return fail("info", options.tile_set.redacted() + ": stopped before its tiles were counted");
   }
@@ -129,7 +136,8 @@ int run_info(const InfoOptions& options) {
   }
   print_result("{}", options.json ? to_json(report) : to_text(report));
   const bool damaged = report.cache && report.cache->problems && !report.cache->problems->empty();
-  return damaged || (report.verified && report.verified->bad > 0) ? kFailed : kDone;
+  if (damaged || (report.verified && report.verified->bad > 0)) return kFailed;
+  return report.mosaic && report.mosaic->left_out > 0 ? kDoneInPart : kDone;
 }
 
 }  // namespace
@@ -139,9 +147,13 @@ void add_info_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "A folder of tiles, a GeoPackage, PMTiles, MBTiles or a picture")
+  command->add_option("TILESET", options->tile_set, "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles or a picture")
       ->required();
   add_place_options(*command, options->place);
+  command->add_option("--band", options->band.band, "Describe this band of a TIFF, counted from 1")
+      ->check(whole_number_in(1, 65535));
+  command->add_option("--nodata", options->band.nodata, "Set the value that means no data in a TIFF")
+      ->type_name("VALUE");
   command->add_flag("--verify", options->verify,
                     "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
   command->add_flag("--json", options->json, "Print the result as one JSON object");

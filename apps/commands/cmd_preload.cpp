@@ -31,6 +31,7 @@ constexpr const char* kPreloadExamples =
     "Examples:\n"
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
+    "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
@@ -64,7 +65,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
 }
 
 Result<std::shared_ptr<TileCache>> cache_of(const PreloadCommand& command, const PreloadSource& source) {
-  auto cache = open_cache("terrella preload", command.output, source.set.info, source.key, command.cache_size_mb);
+  auto cache = open_cache("terrella preload", command.output, source.cache_info, source.key, command.cache_size_mb);
   if (!cache) return cache.error();
   return *std::move(cache);
 }
@@ -98,7 +99,7 @@ Status check_room(const PreloadCommand& command, const PreloadSource& source, co
   const auto held = count_held(command, source, plan);
   if (!held) return held.error();
   const RoomNeed need = room_need(command, plan, held->settled);
-  if (surely_fits(command, need, source.set.info.grid.tile_px)) return Done{};
+  if (surely_fits(command, need, source.cache_info.grid.tile_px)) return Done{};
   if (auto no_room = find_no_room(command, plan, need, take_sample(source, plan))) return *std::move(no_room);
   return Done{};
 }
@@ -224,11 +225,16 @@ int run(PreloadCommand& command) {
     http.rate_per_host = rate > 0.0 ? std::min(rate, kSampleRate) : kSampleRate;
     http.attempts = 1;
   }
-  const auto source = open_preload_source(command.source, command.remote, http);
+  PreloadTiff tiff{.cache = {}, .cache_size_mb = command.cache_size_mb};
+  std::error_code unknown;
+  // A dry run makes no file.
+  if (!command.dry_run || std::filesystem::exists(command.output, unknown)) tiff.cache = command.output;
+  const auto source = open_preload_source(command.source, command.remote, http, tiff);
   if (!source) return fail("preload", source.error().message);
   if (!source->set.refuse_bulk.empty())
     return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
-  const auto plan = make_preload_plan(command, source->set.info);
+  auto plan = make_preload_plan(command, source->set.info);
+  if (plan && source->plan_parts) plan = source->plan_parts(**plan);
   if (!plan) return fail("preload", plan.error().message);
   if (command.release) return release(command, *source, **plan);
   return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);

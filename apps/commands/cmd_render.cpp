@@ -10,15 +10,18 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
 #include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
 #include "apps/scene/scene_options.h"
 #include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/open_rasters.h"
 #include "apps/setup/process.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/write_file.h"
+#include "apps/viewer/tools/legend_picture.h"
 #include "codecs/image.h"
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
@@ -31,6 +34,7 @@ struct RenderCommand {
   std::string output;
   double timeout_s = 600.0;
   bool json = false;
+  bool legend = false;
 };
 
 Status write_png(const std::filesystem::path& path, Viewport size, std::vector<std::uint8_t> rgba) {
@@ -142,12 +146,28 @@ std::vector<std::string> inputs_of(const SceneOptions& scene) {
   return inputs;
 }
 
+/// The layers of numbers, the highest first. Imagery has the order of add_overlays().
+std::vector<LegendItem> legend_of(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
+                                  const std::vector<std::optional<NumberFacts>>& overlays) {
+  std::vector<LegendItem> items;
+  const std::vector<LayerId> ids = globe.imagery();
+  for (std::size_t i = std::min(ids.size(), overlays.size() + 1); i-- > 0;) {
+    const auto& facts = i == 0 ? base.numbers : overlays[i - 1];
+    const auto look = globe.look(ids[i]);
+    if (!facts || !look || !look->numbers) continue;
+    const Url& named = i == 0 ? scene.tile_set : scene.overlays[i - 1].tile_set;
+    const std::string name = std::filesystem::path(named.without_query()).stem().string();
+    items.push_back({.title = legend_title(name, *facts), .unit = facts->unit, .look = *look->numbers});
+  }
+  return items;
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
   const std::vector<std::string> inputs = inputs_of(command.scene);
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
-  Result<std::shared_ptr<TileSource>> imagery = open_imagery(command.scene);
+  const Result<ImageryLayer> imagery = open_base(command.scene);
   if (!imagery) return imagery.error();
-  const Result<Body> body = scene_body(command.scene, (*imagery)->info());
+  const Result<Body> body = scene_body(command.scene, imagery->tiles->info());
   if (!body) return body.error();
   SceneOptions layers = command.scene;
   layers.body = *body;
@@ -166,10 +186,11 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
   add_sky_data(options);
   if (!command.scene.objects.empty()) add_label_font(options);
-  Result<std::unique_ptr<Globe>> globe = Globe::create(options, *imagery, *std::move(elevation));
+  Result<std::unique_ptr<Globe>> globe = create_globe(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
   set_paper_texturing(**globe, command.scene);
-  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return overlaid.error();
+  const auto overlays = add_overlays(**globe, layers);
+  if (!overlays) return overlays.error();
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();
@@ -179,6 +200,11 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
   if (const Status some = check_some_came(stats, (*globe)->missing_tiles()); !some) return some.error();
+  if (command.legend) {
+    const auto items = legend_of(**globe, command.scene, *imagery, *overlays);
+    if (const Status legend = draw_legend_over(target.framebuffer(), command.scene.size, items); !legend)
+      return legend.error();
+  }
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Status written = write_png(command.output, command.scene.size, target.read());
@@ -198,7 +224,7 @@ int run(const RenderCommand& command) {
   report(command, *rendered);
   const FrameStats& stats = rendered->stats;
   if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
-    return rendered->all_objects ? kDone : kDoneInPart;
+    return rendered->all_objects && rasters_left_out() == 0 ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered->missing.size(), kMostNamed); ++k) {
     print_message("terrella render: missing: {}\n", name_of(rendered->missing[k]));
@@ -221,6 +247,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
   sub.add_option("--timeout", command->timeout_s, "Wait at most this many seconds for tiles")
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();
+  sub.add_flag("--legend", command->legend, "Draw a colour bar with units for each raster of numbers");
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
   sub.callback([command, &exit_code] { exit_code = run(*command); });

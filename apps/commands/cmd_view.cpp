@@ -10,6 +10,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
 #include "apps/scene/scene_options.h"
 #include "apps/scene/scene_overlays.h"
@@ -18,6 +19,7 @@
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/viewer.h"
+#include "streaming/cut/growing/growing_cut.h"
 #include "streaming/remote/describe_remote.h"
 
 namespace terrella {
@@ -35,12 +37,17 @@ constexpr const char* kHelpFooter =
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
+    "  terrella view cog_of_any_size.tif                  shows at once, nothing is stored\n"
     "  terrella view moon.tif --body moon                 a picture of the whole Moon, also from 0 to 360 degrees\n"
     "  terrella view --overlay flight_in_utm.tif          a picture in any projection, over the Earth\n"
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
 
+// Dark, so that objects under the ground stand out, and bright enough to look round.
+constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
+
 struct ViewOptions {
   SceneOptions scene;
+  std::string places;  // GeoJSON for the search; empty: the Earth's cities
   bool print_camera = false;
   bool full_screen = false;
   KeptSettings kept;
@@ -75,7 +82,9 @@ LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
 }
 
 /// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
-std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const TileSetInfo& first) {
+std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
+                                 const std::vector<std::optional<NumberFacts>>& overlays) {
+  const TileSetInfo& first = base.tiles->info();
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
     rows.push_back({.kind = LayerKind::heights, .name = layer_name(scene.elevation), .bounds = {}});
@@ -88,6 +97,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
   for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
     const auto look = globe.look(ids[i]);
     rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
+    rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
     rows.back().bounds = if_a_part(first.grid.bounds);
     rows.back().finest_level = first.grid.max_level;
@@ -108,11 +118,13 @@ int view(const ViewOptions& options) {
   if (!window) return fail("view", window.error().message);
   // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
-  auto imagery = open_imagery(options.scene);
-  if (!imagery) return fail("view", imagery.error().message);
-  const auto body = scene_body(options.scene, (*imagery)->info());
-  if (!body) return fail("view", body.error().message);
+  std::vector<std::shared_ptr<GrowingCut>> cuts;
   SceneOptions layers = options.scene;
+  layers.cuts = &cuts;
+  const auto imagery = open_base(layers);
+  if (!imagery) return fail("view", imagery.error().message);
+  const auto body = scene_body(options.scene, imagery->tiles->info());
+  if (!body) return fail("view", body.error().message);
   layers.body = *body;
   auto elevation = open_elevation(layers);
   if (!elevation) return fail("view", elevation.error().message);
@@ -122,11 +134,11 @@ int view(const ViewOptions& options) {
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
-  const TileSetInfo first = (*imagery)->info();
-  auto globe = Globe::create(globe_options_with_sky, std::move(*imagery), *elevation);
+  auto globe = create_globe(globe_options_with_sky, *imagery, *elevation);
   if (!globe) return fail("view", globe.error().message);
   set_paper_texturing(**globe, options.scene);
-  if (const Status overlaid = add_overlays(**globe, layers); !overlaid) return fail("view", overlaid.error().message);
+  const auto overlays = add_overlays(**globe, layers);
+  if (!overlays) return fail("view", overlays.error().message);
   if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
   if (const Result<bool> added = add_objects(**globe, options.scene); !added)
     return fail("view", added.error().message);
@@ -140,8 +152,10 @@ int view(const ViewOptions& options) {
   tell_of_move("view", wanted, start);
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
-                                     .layers = layer_rows(**globe, options.scene, first),
+                                     .cuts = cuts,
+                                     .layers = layer_rows(**globe, options.scene, *imagery, *overlays),
                                      .heights = *elevation,
+                                     .places = options.places,
                                      .files = layers,
                                      .kept = options.kept,
                                      .first_run = options.first_run,
@@ -160,8 +174,14 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command
+      ->add_option("--places", options->places,
+                   "Search (/) in this GeoJSON file of points with a name, on any body, instead of the Earth's cities")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
+  options->scene.surface.inner_sphere_srgb = kInnerSphere_srgb;
   command->callback([options, command, &exit_code] {
     begin_as_kept(*options, *command);
     exit_code = view(*options);

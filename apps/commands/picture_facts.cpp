@@ -17,15 +17,14 @@
 namespace terrella {
 namespace {
 
-Result<PictureFacts> measure(const std::filesystem::path& picture) {
+Result<PictureFacts> measure(const std::filesystem::path& picture, const DescribedBand& band) {
   PictureFacts facts;
   const auto file = measure_picture(picture);
   if (!file) return file.error();
   facts.file = *file;
   if (const auto rows = open_rows(picture)) facts.orientation = (*rows)->info().orientation;
-  const auto tags = read_geo_tags(picture);
-  facts.is_heights = tags && *tags && ((*tags)->samples == SampleKind::int16 || (*tags)->samples == SampleKind::floats);
-  const auto raster = describe_raster(picture);
+  facts.is_numbers = band.band > 0 || holds_numbers(picture);
+  const auto raster = describe_raster(picture, band);
   if (!raster) return raster.error();
   facts.raster = *raster;
   return facts;
@@ -49,11 +48,9 @@ void try_out(PictureFacts& facts) {
   cut.images = {facts.file.path};
   cut.body = body.substr(body.empty() ? 0 : std::string_view(" --body ").size());
   set_place(cut, facts.words);
-  // A given scale avoids reading pixels to find the range of heights.
-  if (facts.is_heights) cut.elevation = CutElevation{.scale = 1.0, .offset = 0.0};
+  if (facts.is_numbers) cut.numbers = CutNumbers{};
   const std::string name = shell_word(facts.file.path.string()) + body + words_text(facts.words);
-  facts.command = facts.is_heights ? fmt::format("terrella cut {} --elevation -o HEIGHTS.gpkg", name)
-                                   : fmt::format("terrella view {}", name);
+  facts.command = fmt::format("terrella view {}", name);
   if (const Status can = check_pictures(cut); !can) facts.refused = can.error().message;
   if (auto place = find_place(cut, facts.file)) facts.place = *std::move(place);
 }
@@ -89,8 +86,8 @@ void locate(PictureFacts& facts, const CrsPlace& at) {
 
 }  // namespace
 
-Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words) {
-  auto facts = measure(picture);
+Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words, const DescribedBand& band) {
+  auto facts = measure(picture, band);
   if (!facts) return facts;
   facts->words = words;
   if (auto said = read_georeference(facts->file, words.crs.empty())) facts->said = *std::move(said);

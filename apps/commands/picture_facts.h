@@ -25,7 +25,7 @@ struct PictureFacts {
   PlaceWords words;
   std::optional<RasterFacts> raster{};  ///< of a TIFF
   int orientation = 1;                  ///< EXIF orientation by which the picture is turned; 1: not turned
-  bool is_heights = false;              ///< true for pixel types used only for heights
+  bool is_numbers = false;              ///< shown as numbers, unless options ask for something else
   std::optional<Georeference> said;
   std::optional<CrsFacts> crs;
   std::optional<Affine> transform;
@@ -38,8 +38,9 @@ struct PictureFacts {
 };
 
 /// Looks at a picture and the files beside it, with the user's words about its place. Reads no pixels, except for the
-/// values that a TIFF shows as black and white. Fails if the file is not a readable picture. thread: any
-[[nodiscard]] Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words);
+/// statistics of a TIFF's coarsest level. Fails if the file is not a readable picture. thread: any
+[[nodiscard]] Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words,
+                                           const DescribedBand& band = {});
 
 /// Smallest rectangle around the picture in its own system; `transform` is set.
 [[nodiscard]] CrsBounds own_bounds(const PictureFacts& facts);

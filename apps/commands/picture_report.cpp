@@ -89,6 +89,14 @@ std::string place_lines(const PictureFacts& facts) {
   return text;
 }
 
+std::string statistics_line(const NumberStatistics& s) {
+  if (s.known == 0) return "statistics   no pixel of the coarsest level has data\n";
+  return fmt::format(
+      "statistics   {:.9g} to {:.9g}, 2 % below {:.9g}, 98 % below {:.9g}, mean {:.9g}, sigma {:.9g} (of {} pixels of "
+      "the coarsest level; {} without data)\n",
+      s.min, s.max, s.percentile(2.0), s.percentile(98.0), s.mean, s.sigma, s.known, s.unknown);
+}
+
 std::string raster_lines(const RasterFacts& raster) {
   std::string text = fmt::format("bands        {} of {}; {}\n", raster.bands, raster.samples, raster.layout);
   std::string sizes;
@@ -99,8 +107,10 @@ std::string raster_lines(const RasterFacts& raster) {
   if (raster.has_mask) text += "mask         yes\n";
   if (raster.nodata) text += fmt::format("no data      {:.9g}\n", *raster.nodata);
   if (raster.scale != 1.0 || raster.offset != 0.0 || !raster.unit.empty()) {
-    text += fmt::format("values       number * {:.9g} + {:.9g} {}\n", raster.scale, raster.offset, raster.unit);
+    text += fmt::format("values       number * {:.9g} + {:.9g}{}{}\n", raster.scale, raster.offset,
+                        raster.unit.empty() ? "" : " ", one_line(raster.unit));
   }
+  if (raster.statistics) text += statistics_line(*raster.statistics);
   for (const std::string& note : raster.notes) text += fmt::format("note         {}\n", note);
   return text;
 }
@@ -154,6 +164,18 @@ void add_raster(Json& object, const RasterFacts& raster) {
   object["scale"] = raster.scale;
   object["offset"] = raster.offset;
   if (!raster.unit.empty()) object["unit"] = raster.unit;
+  if (!raster.quantity.empty()) object["quantity"] = raster.quantity;
+  if (raster.statistics && raster.statistics->known > 0) {
+    const NumberStatistics& s = *raster.statistics;
+    object["statistics"] = {{"min", s.min},
+                            {"max", s.max},
+                            {"mean", s.mean},
+                            {"sigma", s.sigma},
+                            {"percentile_2", s.percentile(2.0)},
+                            {"percentile_98", s.percentile(98.0)},
+                            {"pixels", s.known},
+                            {"pixels_without_data", s.unknown}};
+  }
   if (!raster.notes.empty()) object["notes"] = raster.notes;
 }
 
@@ -191,8 +213,9 @@ std::string to_json(const PictureFacts& facts) {
 
 }  // namespace
 
-Result<std::string> picture_report(const fs::path& picture, const PlaceWords& words, bool json) {
-  const auto facts = look_at(picture, words);
+Result<std::string> picture_report(const fs::path& picture, const PlaceWords& words, const DescribedBand& band,
+                                   bool json) {
+  const auto facts = look_at(picture, words, band);
   if (!facts) return facts.error();
   return json ? to_json(*facts) : to_text(*facts);
 }

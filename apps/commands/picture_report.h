@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
 
 namespace terrella {
 
@@ -12,6 +13,6 @@ namespace terrella {
 /// show the picture with the given words about its place. Reads the header and the files beside the picture, but no
 /// pixels. Fails if the file is not a readable picture. thread: any
 [[nodiscard]] Result<std::string> picture_report(const std::filesystem::path& picture, const PlaceWords& words,
-                                                 bool json);
+                                                 const DescribedBand& band, bool json);
 
 }  // namespace terrella

@@ -40,8 +40,12 @@ std::string rows_text(const TileGrid& grid) {
       grid.latitude == LatitudeKind::centric ? "planetocentric" : "planetographic");
 }
 
-std::string elevation_text(const ElevationInfo& elevation) {
+std::string elevation_text(const NumberInfo& elevation) {
   const std::string nodata = elevation.nodata ? fmt::format(", {} says that there is none", *elevation.nodata) : "";
+  if (!elevation.unit.empty() && elevation.unit != "m") {
+    return fmt::format("numbers      {} = number * {:.9g} + {:.9g}{}{}\n", one_line(elevation.unit), elevation.scale,
+                       elevation.offset, elevation.quantity.empty() ? "" : ", " + one_line(elevation.quantity), nodata);
+  }
   return fmt::format("elevation    metres = number * {:.9g} + {:.9g}{}\n", elevation.scale, elevation.offset, nodata);
 }
 
@@ -125,7 +129,11 @@ std::string to_text(const TileSetReport& report) {
                       grid.bounds.south.deg(), grid.bounds.east.deg(), grid.bounds.north.deg());
   text += fmt::format("format       {}\n", format_name(report.info.format));
   if (report.info.made_of) text += made_of_text(*report.info.made_of, report.info.square);
-  if (report.info.elevation) text += elevation_text(*report.info.elevation);
+  if (report.info.numbers) text += elevation_text(*report.info.numbers);
+  if (const auto& mosaic = report.mosaic) {
+    text += fmt::format("files        {} rasters in {} group{}, {} left out\n", mosaic->files, mosaic->sheets,
+                        mosaic->sheets == 1 ? "" : "s", mosaic->left_out);
+  }
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {
     const std::string tiles = level.tiles ? fmt::format("{} of ", *level.tiles) : "";
@@ -139,6 +147,9 @@ std::string to_json(const TileSetReport& report) {
   auto object = nlohmann::ordered_json::parse(to_tileset_json(report.info));
   if (report.info.format == ImageFormat::unknown) object["format"] = nullptr;
   object["path"] = report.path.redacted();
+  if (const auto& mosaic = report.mosaic) {
+    object["files"] = {{"shown", mosaic->files}, {"left_out", mosaic->left_out}, {"groups", mosaic->sheets}};
+  }
   if (report.size_bytes) object["size_bytes"] = *report.size_bytes;
   if (const auto& made_of = report.info.made_of) {
     object["made_of"] = {{"projection", projection_name(made_of->projection)},

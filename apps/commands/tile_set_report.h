@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "streaming/cache/cache_report.h"
+#include "streaming/mosaic/mosaic_tiles.h"
 #include "streaming/url.h"
 #include "tiles/tile_source.h"
 
@@ -37,7 +38,8 @@ struct TileSetReport {
   std::optional<std::uintmax_t> size_bytes;  ///< size of the file, or of all files in the directory
   TileSetInfo info;
   std::vector<LevelReport> levels;
-  std::optional<CacheReport> cache;  ///< set for caches only
+  std::optional<CacheReport> cache;        ///< set for caches only
+  std::optional<MosaicFacts> mosaic = {};  ///< set for many rasters as one tile set
   std::optional<VerifyReport> verified;
 };
 

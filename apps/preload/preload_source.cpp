@@ -5,11 +5,15 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/setup/open_remote_tiff.h"
 #include "apps/setup/stop_signals.h"
+#include "geo/body.h"
 #include "streaming/http/reply_queue.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/remote_pmtiles.h"
+#include "streaming/remote_tiff/range_plan.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/warp_source.h"
 
 namespace terrella {
 namespace {
@@ -17,7 +21,8 @@ namespace {
 Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   auto set = fetch_description(source, remote, http);
   if (!set) return set.error();
-  PreloadSource opened{.set = *set, .key = source_key(*set), .remote = true, .make_origin = {}};
+  PreloadSource opened{
+      .set = *set, .cache_info = set->info, .key = source_key(*set), .remote = true, .make_origin = {}};
   opened.make_origin = [limits = within_limits(http, *set), set = *set](ReplyQueue& answers) {
     return network_origin(set, limits, answers);
   };
@@ -29,21 +34,74 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   auto tiles = open_stored_tile_set(source);
   if (!tiles) return tiles.error();
   // A cache cannot store a GeoPackage's scale and offset of single height tiles.
-  if ((*tiles)->info().elevation) {
+  if ((*tiles)->info().numbers) {
     return Error{source + ": its tiles are heights, which caches do not keep; copy the tile set itself"};
   }
   const std::shared_ptr<TileSource> shared = *std::move(tiles);
   std::error_code unknown;
   const std::filesystem::path whole = std::filesystem::weakly_canonical(source, unknown);
-  PreloadSource opened{.set = {}, .key = "file:" + (unknown ? source : whole.string()), .make_origin = {}};
-  opened.set.info = shared->info();
+  PreloadSource opened{
+      .set = {}, .cache_info = {}, .key = "file:" + (unknown ? source : whole.string()), .make_origin = {}};
+  opened.set.info = opened.cache_info = shared->info();
   opened.make_origin = [shared, jobs](ReplyQueue& answers) { return disk_origin(shared, jobs, answers); };
   return opened;
 }
 
+/// The file stays open until its parts are planned.
+struct PlannedTiff {
+  std::optional<OpenedRemoteTiff> opened;
+  WarpFigure figure;
+  TileGrid grid;
+  FileAddress address;
+  std::shared_ptr<const SpanList> spans;
+};
+
+Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const TilePlan& tiles) {
+  auto spans = spans_of_tiles(*tiff.opened->raster, tiff.figure, tiff.grid, tiles, [] { return !StopSignals::came(); });
+  tiff.opened.reset();  // closes the cache, which the preload opens
+  if (!spans) return spans.error();
+  std::vector<TileId> ids;
+  for (const auto& [id, span] : *spans) ids.push_back(id);
+  tiff.spans = std::make_shared<const SpanList>(*std::move(spans));
+  return std::shared_ptr<const TilePlan>(plan_list(std::move(ids)));
+}
+
+Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, const HttpOptions& http,
+                                const PreloadTiff& asked) {
+  const RemoteTiffWish wish{.url = source,
+                            .headers = remote.headers,
+                            .http = http,
+                            .cache = asked.cache,
+                            .cache_size_mb = asked.cache_size_mb,
+                            .any_body = true};
+  auto opened = open_remote_tiff(wish);
+  if (!opened) return opened.error();
+  const auto body = opened->body.empty() ? Result<Body>(earth()) : parse_body(opened->body);
+  if (!body) return body.error();
+  const WarpOptions warp{.figure = {body->ellipsoid, opened->place.latitude, opened->place.latitude}, .body = {}};
+  const auto grid = warp_grid(opened->raster->info(), warp, source.redacted());
+  if (!grid) return grid.error();
+  PreloadSource planned{
+      .set = {}, .cache_info = range_cache_info(), .key = opened->file->cache_key(), .make_origin = {}};
+  planned.set.url = source;
+  planned.set.any_bytes = true;
+  planned.set.info.grid = *grid;
+  planned.set.info.body = opened->body;
+  const FileAddress address = opened->file->address();
+  auto tiff = std::make_shared<PlannedTiff>(
+      PlannedTiff{.opened = *std::move(opened), .figure = warp.figure, .grid = *grid, .address = address, .spans = {}});
+  planned.plan_parts = [tiff](const TilePlan& tiles) { return plan_spans(*tiff, tiles); };
+  planned.make_origin = [tiff, http](ReplyQueue& answers) {
+    return range_origin(tiff->address, http, tiff->spans, answers);
+  };
+  return planned;
+}
+
 }  // namespace
 
-Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
+Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http,
+                                          const PreloadTiff& tiff) {
+  if (is_remote(source) && leads_to_tiff(source, remote.headers, http)) return open_tiff(source, remote, http, tiff);
   return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include "base/result.h"
 #include "streaming/http/http_fetcher.h"
 #include "streaming/preload/tile_origin.h"
+#include "streaming/preload/tile_plan.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/remote/remote_tile_set.h"
 
@@ -14,15 +16,25 @@ namespace terrella {
 
 /// Source of `preload`: a remote set, or a set on disk.
 struct PreloadSource {
-  RemoteTileSet set;  ///< only `info` for a set on disk
-  std::string key;    ///< identifies the source's cache
+  RemoteTileSet set;       ///< only `info` for a set on disk
+  TileSetInfo cache_info;  ///< description of the cache
+  std::string key;         ///< identifies the source's cache
   bool remote = false;
   std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
+  /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the
+  /// plan's tiles are what the cache keeps.
+  std::function<Result<std::shared_ptr<const TilePlan>>(const TilePlan& tiles)> plan_parts = {};
+};
+
+/// What a TIFF on a server needs besides the options of other sources.
+struct PreloadTiff {
+  std::filesystem::path cache;    ///< keeps the directories; empty: none
+  std::size_t cache_size_mb = 0;  ///< 0: no limit
 };
 
 /// Opens SOURCE; fetches a remote set's description. The error names SOURCE. thread: main
 [[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
-                                                        const HttpOptions& http);
+                                                        const HttpOptions& http, const PreloadTiff& tiff);
 
 /// Fetches the description of a remote set; the headers are in `remote`. The error names the address. thread: any
 [[nodiscard]] Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote,

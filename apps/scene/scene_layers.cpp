@@ -17,6 +17,7 @@ Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set,
   layer.projection.reset();
   layer.latitude.reset();
   layer.place = {};
+  layer.numbers = {};
   layer.remote = {};
   if (layer.cache != "off") layer.cache.clear();
   auto tiles = open_imagery(layer);
@@ -29,8 +30,9 @@ Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set,
 
 Status add_image_layers(Globe& globe, const SceneOptions& options) {
   if (Status night = add_layer(globe, options, options.night, {.daylight = Daylight::night}); !night) return night;
-  return add_layer(globe, options, options.clouds.tile_set,
-                   {.opacity = options.clouds.opacity, .alpha = AlphaFrom::brightness});
+  return add_layer(
+      globe, options, options.clouds.tile_set,
+      {.opacity = options.clouds.opacity, .alpha = AlphaFrom::brightness, .height_m = options.cloud_height_m});
 }
 
 }  // namespace terrella

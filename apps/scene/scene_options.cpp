@@ -8,6 +8,7 @@
 #include "apps/commands/remote_set_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/scene/scene_overlays.h"
+#include "apps/scene/surface_options.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 #include "view/view_limits.h"
@@ -62,11 +63,6 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
       ->check(number_in(2.0, 8.0))
       ->capture_default_str();
-  command
-      .add_option("--band", options.band,
-                  "Set the width b of the pole bands for --texturing paper, as a fraction of the picture's height")
-      ->check(number_in(0.001, 0.5))
-      ->capture_default_str();
   add_choice<bool>(
       command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
       "Choose the tiles near the poles in a set made by terrella cut: the few squeezed ones, or the full grid")
@@ -83,6 +79,12 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
                   "Set the texels per pixel: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
       ->check(number_in(0.125, 8.0))
       ->capture_default_str();
+  add_choice<Sharpness>(
+      command, "--magnify", options.surface.sharpness,
+      {{"bilinear", Sharpness::bilinear}, {"bicubic", Sharpness::bicubic}, {"auto", Sharpness::automatic}},
+      "Choose the filter of imagery whose texels are larger than pixels; auto is bicubic, and "
+      "bilinear with --unlit")
+      ->default_str("auto");
   add_choice<DepthMode>(
       command, "--depth", options.depth,
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
@@ -121,53 +123,12 @@ void add_layer_options(CLI::App& command, SceneOptions& options) {
           [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
           "Add white-on-black cloud imagery above all other layers; black is clear. The opacity is 0 to 1")
       ->type_name("TILESET[:OPACITY]");
-}
-
-void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option(
-          "--elevation", options.elevation,
-          "Raise the ground by a tile set of 16-bit heights, made by terrella cut --elevation or as a GDAL gridded "
-          "coverage. A JSON source description with \"elevation\" names heights on a server")
-      ->type_name("TILESET");
-  command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
-      ->check(number_in(0.0, 100.0))
+      .add_option("--cloud-height", options.cloud_height_m,
+                  "Draw --clouds this many metres over the ground, with their shadow; at 0 they lie on the ground")
+      ->check(number_in(0.0, 1.0e6))
+      ->type_name("METRES")
       ->capture_default_str();
-}
-
-void add_translucency_options(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option("--surface-alpha", options.surface.alpha, "Set the surface's opacity: 0 is invisible, 1 is opaque")
-      ->check(number_in(0.0, 1.0))
-      ->capture_default_str();
-  add_choice<Blend>(command, "--blend", options.surface.blend,
-                    {{"normal", Blend::normal}, {"additive", Blend::additive}},
-                    "Choose how a translucent surface blends with what lies behind")
-      ->default_str("normal");
-  command
-      .add_option_function<std::string>(
-          "--inner-sphere",
-          [&options](const std::string& text) {
-            options.surface.inner_sphere_below_m = parsed_or_throw("--inner-sphere", parse_length_or_off(text));
-          },
-          "Set the depth in metres of the inner sphere under the equator. The sphere hides the far side of a "
-          "translucent "
-          "globe. The depth is for Earth and scales with other bodies")
-      ->type_name("METRES_BELOW|off")
-      ->default_str("1000000");
-  add_choice<SurfaceFromBelow>(
-      command, "--surface-from-below", options.surface.from_below,
-      {{"opaque", SurfaceFromBelow::opaque},
-       {"translucent", SurfaceFromBelow::translucent},
-       {"selective", SurfaceFromBelow::selective}},
-      "Choose how the surface looks from below; selective lets only objects with through_surface "
-      "show through")
-      ->default_str("opaque");
-  add_choice<HorizonCulling>(
-      command, "--horizon-culling", options.surface.horizon_culling,
-      {{"on", HorizonCulling::on}, {"off", HorizonCulling::off}, {"auto", HorizonCulling::automatic}},
-      "Skip what the planet hides; 'on' also skips the far half when the eye is under the ground")
-      ->default_str("auto");
 }
 
 // Parses a time and refuses years outside the almanac.
@@ -183,6 +144,9 @@ Result<UtcTime> parse_time(std::string_view text) {
 void add_sky_options(CLI::App& command, SceneOptions& options) {
   add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}},
                    "Draw stars, Sun, Moon and atmosphere")
+      ->default_str("on");
+  add_choice<bool>(command, "--glint", options.surface.glint, {{"on", true}, {"off", false}},
+                   "Draw the Sun's glint on the sea at --time")
       ->default_str("on");
   command
       .add_option_function<std::string>(
@@ -214,7 +178,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       .add_option("--cache", options.cache,
                   "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
                   "TILESET is "
-                  "cut into the cache for later runs. 'off' caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
+                  "caches nothing (default: $XDG_CACHE_HOME/terrella or "
                   "~/.cache/terrella)")
       ->type_name("FILE|off");
   command
@@ -236,12 +201,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "tileset", options.tile_set,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
-          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS or WMS, or "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
+          "TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
   add_place_options(command, options.place);
+  add_number_options(command, options.numbers, options.band);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);

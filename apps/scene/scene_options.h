@@ -2,10 +2,12 @@
 
 #include <CLI/App.hpp>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/scene/number_options.h"
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "globe/globe.h"
@@ -16,6 +18,8 @@
 #include "tiles/tile_source.h"
 
 namespace terrella {
+
+class GrowingCut;
 
 /// Value of one --overlay.
 struct OverlayOption {
@@ -32,6 +36,7 @@ struct SceneOptions {
   std::optional<Projection> projection;          ///< absent: as the tile set states
   std::optional<LatitudeKind> latitude;          ///< absent: as the tile set states
   PlaceWords place;                              ///< place of TILESET, if it is a picture
+  NumberOptions numbers;                         ///< of TILESET; of the overlays if TILESET is empty
   std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
   std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
   bool unlit = false;
@@ -42,10 +47,12 @@ struct SceneOptions {
   int polar_columns = 32;
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
-  Url elevation;              ///< tile set of heights; empty: none
-  double exaggeration = 1.0;  ///< factor for heights
-  Url night;                  ///< tile set for the night side; empty: none
-  OverlayOption clouds;       ///< top layer; brightness is alpha; empty: none
+  Url elevation;                                 ///< tile set of heights; empty: none
+  std::optional<NumberInfo> elevation_encoding;  ///< of tiles whose heights are in colours; absent: as they state
+  double exaggeration = 1.0;                     ///< factor for heights
+  Url night;                                     ///< tile set for the night side; empty: none
+  OverlayOption clouds;                          ///< top layer; brightness is alpha; empty: none
+  double cloud_height_m = 0.0;                   ///< of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none
@@ -56,6 +63,8 @@ struct SceneOptions {
   std::size_t memory_mb = 512;       ///< limit for decoded tiles, in 2^20 bytes
   bool offline = false;              ///< use the cache only
   RemoteOptions remote;              ///< options of a remote TILESET
+  /// Receives the cuts that go on in the background; null: a picture is cut before it shows.
+  std::vector<std::shared_ptr<GrowingCut>>* cuts = nullptr;
 };
 
 /// Largest side of a picture or window, pixels.

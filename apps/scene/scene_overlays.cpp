@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "apps/setup/open_imagery.h"
+#include "apps/scene/scene_numbers.h"
 #include "base/number.h"
 
 namespace terrella {
@@ -23,22 +23,26 @@ Result<OverlayOption> parse_overlay(const std::string& text) {
   return overlay;
 }
 
-Status add_overlays(Globe& globe, const SceneOptions& options) {
+Result<std::vector<std::optional<NumberFacts>>> add_overlays(Globe& globe, const SceneOptions& options) {
+  std::vector<std::optional<NumberFacts>> facts;
   for (const OverlayOption& overlay : options.overlays) {
     SceneOptions scene = options;
     scene.tile_set = overlay.tile_set;
     scene.projection = options.overlay_projection;
     scene.latitude.reset();
     scene.place = {};
+    if (!options.tile_set.empty()) scene.numbers = {};
     scene.remote = {};
     // A cache holds one source's tiles.
     if (scene.cache != "off") scene.cache.clear();
-    auto tiles = open_imagery(scene);
-    if (!tiles) return tiles.error();
-    const auto layer = globe.add_imagery(*std::move(tiles), ImageLook{.opacity = overlay.opacity});
+    auto opened = open_layer(scene);
+    if (!opened) return opened.error();
+    opened->look.opacity = overlay.opacity;
+    const auto layer = globe.add_imagery(opened->tiles, opened->look);
     if (!layer) return Error{overlay.tile_set.redacted() + ": " + layer.error().message};
+    facts.push_back(std::move(opened->numbers));
   }
-  return Done{};
+  return facts;
 }
 
 }  // namespace terrella

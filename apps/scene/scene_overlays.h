@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_options.h"
 #include "base/result.h"
 #include "globe/globe.h"
@@ -10,8 +14,8 @@ namespace terrella {
 /// the text is a number. The error names the text. thread: any
 [[nodiscard]] Result<OverlayOption> parse_overlay(const std::string& text);
 
-/// Adds the layers of --overlay in the given order, each with its own cache. The error names the overlay. Throws
-/// BrokenInstallation. thread: main
-[[nodiscard]] Status add_overlays(Globe& globe, const SceneOptions& options);
+/// Adds the layers of --overlay in the given order, each with its own cache. Returns the facts of each that has
+/// numbers. The error names the overlay. Throws BrokenInstallation. thread: main
+[[nodiscard]] Result<std::vector<std::optional<NumberFacts>>> add_overlays(Globe& globe, const SceneOptions& options);
 
 }  // namespace terrella

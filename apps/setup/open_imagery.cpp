@@ -1,7 +1,6 @@
 #include "apps/setup/open_imagery.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,22 +9,21 @@
 #include <span>
 #include <string_view>
 
-#include "apps/scene/place_options.h"
-#include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
+#include "apps/setup/open_picture.h"
+#include "apps/setup/open_rasters.h"
 #include "apps/setup/open_remote.h"
-#include "apps/setup/progress.h"
-#include "apps/setup/stop_signals.h"
 #include "apps/setup/user_folder.h"
 #include "codecs/image.h"
-#include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/figure.h"
+#include "streaming/raster/length_unit.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/tiff_open.h"
+#include "streaming/warp/web_mercator.h"
 
 namespace terrella {
 namespace {
@@ -40,90 +38,24 @@ class DescribedSource : public TileSource {
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
   [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
+  [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
+  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
+    return tiles_->value_at(place, figure);
+  }
 
  private:
   std::shared_ptr<TileSource> tiles_;
   TileSetInfo info_;
 };
 
-/// A folder inside the system's temporary folder; the destructor removes the folder with its contents.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-Result<std::unique_ptr<ScratchFolder>> make_scratch_folder() {
-  std::error_code failed;
-  std::string name = (fs::temp_directory_path(failed) / "terrella-XXXXXX").string();
-  if (failed || mkdtemp(name.data()) == nullptr) {
-    return Error{
-        fmt::format("{}: cannot make a temporary folder there; set TMPDIR to a folder that can be written", name)};
-  }
-  return std::make_unique<ScratchFolder>(name);
-}
-
-/// Keeps the scratch folder while its tiles are read. Members are destroyed last to first: tiles, then folder.
-class ScratchSource : public TileSource {
- public:
-  ScratchSource(std::unique_ptr<ScratchFolder> folder, std::unique_ptr<TileSource> tiles)
-      : folder_(std::move(folder)), tiles_(std::move(tiles)) {}
-  [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
-  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
-  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
-
- private:
-  std::unique_ptr<ScratchFolder> folder_;
-  std::unique_ptr<TileSource> tiles_;
-};
-
-/// Cuts a picture. The cut compares the given body, latitudes and place with the picture's own.
-Result<std::unique_ptr<TileSource>> cut_and_open(const fs::path& picture, const fs::path& folder,
-                                                 const SceneOptions& options, const CutProgress& told) {
-  CutOptions cut;
-  if (options.body && options.body->name != earth().name) cut.body = options.body->name;
-  cut.latitude = options.latitude;
-  set_place(cut, options.place);
-  cut.remark = [](const std::string& remark) { print_message("terrella: {}\n", remark); };
-  cut.images = {picture};
-  cut.name = picture.stem().string();
-  Progress progress("cutting " + picture.filename().string());
-  cut.progress = told ? told : [&progress](std::int64_t done, std::int64_t total) {
-    progress.show(done, total);
-    return !StopSignals::came();
-  };
-  const auto tiles = cut_into_cache(cut, folder);
-  if (!tiles) return tiles.error();
-  return open_tile_set(*tiles);
-}
-
-Result<std::unique_ptr<TileSource>> open_picture(const fs::path& picture, const SceneOptions& options,
-                                                 const CutProgress& told) {
-  if (options.cache != "off") {
-    const auto folder = picture_cache_folder(options.cache);
-    auto kept =
-        folder ? cut_and_open(picture, *folder, options, told) : Result<std::unique_ptr<TileSource>>(folder.error());
-    if (kept || (folder && can_write_into(*folder))) return kept;
-    say_without_cache(kept.error());
-  }
-  auto scratch = make_scratch_folder();
-  if (!scratch) return scratch.error();
-  auto tiles = cut_and_open(picture, (*scratch)->path(), options, told);
-  if (!tiles) return tiles.error();
-  return std::unique_ptr<TileSource>(std::make_unique<ScratchSource>(*std::move(scratch), *std::move(tiles)));
-}
-
 Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
+  if (names_mosaic(options.tile_set)) {
+    auto tiles = open_many_rasters(options, MosaicPixels::as_stored);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
   if (is_remote(options.tile_set)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
@@ -135,7 +67,15 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
                     "where it lies; leave them out",
                     path.string())};
   }
-  auto tiles = picture ? open_picture(path, options, told) : open_tile_set(path, said_geodetic);
+  const NumberOptions& numbers = options.numbers;
+  if (!picture && (numbers.bands || numbers.band > 0 || numbers.nodata)) {
+    return Error{
+        fmt::format("{}: --band, --bands and --nodata choose what is read of a TIFF, and this is a tile set; "
+                    "leave them out",
+                    path.string())};
+  }
+  if (picture) return open_picture(path, options, told);
+  auto tiles = open_tile_set(path, said_geodetic);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
@@ -148,6 +88,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.projection.reset();
   heights.latitude.reset();
   heights.place = {};
+  heights.numbers = {};
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
@@ -197,7 +138,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 }
 
 Status find_imagery(const SceneOptions& options) {
-  if (is_remote(options.tile_set)) return Done{};
+  if (is_remote(options.tile_set) || names_mosaic(options.tile_set)) return Done{};
   const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
@@ -237,28 +178,56 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
 
 Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
   auto tiles = open_any_tiles(options);
-  if (!tiles || !(*tiles)->info().elevation) return tiles;
+  if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
-      fmt::format("{0}: its tiles are heights, not pictures; name a tile set of pictures, and these beside it with "
+      fmt::format("{0}: its tiles are numbers, not pictures; name them as TILESET or with --overlay, or heights with "
                   "--elevation {0}",
                   options.tile_set.redacted())};
 }
 
-Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
-  if (options.elevation.empty()) return std::optional<ElevationSource>();
-  if (is_picture(options.elevation.with_secrets())) {
-    return Error{
-        fmt::format("{0}: a picture, not tiles of heights; `terrella cut --elevation {0} -o heights.gpkg` makes them "
-                    "of one of 16 bits "
-                    "or floats a pixel",
-                    options.elevation.redacted())};
+/// Opens tiles whose numbers are in colours, as --elevation-encoding says.
+Result<std::shared_ptr<TileSource>> open_encoded(const SceneOptions& heights, const NumberInfo& encoding) {
+  if (is_remote(heights.tile_set)) {
+    SceneOptions encoded = heights;
+    encoded.remote.numbers = encoding;
+    return open_remote(encoded);
   }
+  auto stored = open_stored_tile_set(heights.tile_set.with_secrets());
+  if (!stored) return stored.error();
+  TileSetInfo info = (*stored)->info();
+  info.numbers = encoding;
+  auto tiles =
+      as_geodetic(std::make_unique<DescribedSource>(*std::move(stored), std::move(info)), heights.tile_set.redacted());
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+/// Opens the tiles of --elevation: of a tile set, of a raster, or of many.
+Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& options) {
+  const SceneOptions heights = heights_options(options);
+  const bool many = names_mosaic(heights.tile_set);
+  if (many || is_picture(heights.tile_set.with_secrets())) {
+    auto tiles = many ? open_many_rasters(heights, MosaicPixels::heights) : open_height_raster(heights);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
+  if (options.elevation_encoding) return open_encoded(heights, *options.elevation_encoding);
   // Fails without a request: only a description states what a server's numbers mean.
   if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
-  auto tiles = open_any_tiles(heights_options(options));
+  auto tiles = open_any_tiles(heights);
+  if (tiles && is_remote(options.elevation) && !(*tiles)->info().numbers) return no_meaning(options.elevation, "wmts");
+  return tiles;
+}
+
+Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
+  if (options.elevation.empty()) return std::optional<ElevationSource>();
+  auto tiles = open_height_tiles(options);
   if (!tiles) return tiles.error();
-  if (is_remote(options.elevation) && !(*tiles)->info().elevation) return no_meaning(options.elevation, "wmts");
-  auto source = ElevationSource::open(*std::move(tiles), options.elevation.redacted());
+  const auto& numbers = (*tiles)->info().numbers;
+  if (numbers && !metres_of_unit(numbers->unit)) {
+    return Error{fmt::format("{}: {}", options.elevation.redacted(), no_length(numbers->unit))};
+  }
+  auto source = ElevationSource::open(with_level_ground(*std::move(tiles)), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));
 }

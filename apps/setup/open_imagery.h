@@ -1,30 +1,26 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "apps/scene/scene_options.h"
+#include "apps/setup/open_picture.h"
 #include "base/result.h"
 #include "tiles/elevation_source.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
 
-/// Receives the picture's rows cut so far and the total; false requests a stop.
-using CutProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
-
-/// Opens TILESET, with pictures or heights. An empty TILESET opens the included Earth. A picture is cut into the cache
-/// on first use, with a progress bar on standard error; `progress` replaces the bar. --projection and --latitude
+/// Opens TILESET, with pictures or heights. An empty TILESET opens the included Earth. open_picture() opens a picture,
+/// with `progress`. --projection and --latitude
 /// override the tile set's description. The error names the input. Throws BrokenInstallation. thread: any, one at a
 /// time
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options,
                                                                  const CutProgress& progress = {});
 
-/// Like open_any_tiles(), but refuses tiles of heights and says how to use them. thread: main
+/// Like open_any_tiles(), but refuses tiles of numbers and says how to use them. thread: main
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
 
 /// Opens the heights of --elevation; nullopt if the option is empty. The error names the input. Throws

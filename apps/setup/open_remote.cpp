@@ -11,8 +11,10 @@
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/open_remote_tiff.h"
 #include "base/hash_mix.h"
 #include "codecs/image.h"
+#include "streaming/cache/cache_report.h"
 #include "streaming/cache/tile_cache.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
@@ -53,6 +55,26 @@ Result<fs::path> cache_file(const SceneOptions& options) {
   return *folder / cache_name(options);
 }
 
+/// Opens a TIFF on a server.
+Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const HttpOptions& http) {
+  RemoteTiffWish wish{.url = options.tile_set, .headers = options.remote.headers, .http = http};
+  if (options.cache != "off") {
+    const auto file = cache_file(options);
+    if (!file) say_without_cache(file.error());
+    if (file) wish.cache = *file;
+  }
+  wish.may_replace_cache = options.cache.empty();
+  wish.cache_size_mb = options.cache_size_mb;
+  wish.offline = options.offline;
+  wish.direct = direct_options(options);
+  auto opened = open_remote_tiff(wish);
+  if (!opened) return opened.error();
+  for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);
+  auto tiles = tiles_of(*std::move(opened), wish.direct);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
 Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
   if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
   const auto file = cache_file(options);
@@ -64,6 +86,7 @@ Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
                     "--offline",
                     options.tile_set.redacted(), file->string())};
   }
+  if (version_in_key(read_cache_source(*file), options.tile_set)) return open_tiff(options, {});
   auto tiles = open_tile_set(*file);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
@@ -124,6 +147,7 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
 Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   if (options.offline) return open_offline(options);
   HttpOptions http = network_options();
+  if (leads_to_tiff(options.tile_set, options.remote.headers, http)) return open_tiff(options, http);
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;

@@ -33,7 +33,8 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       input_(window, ui_, navigator_, actions()),
       layers_(context_, options.layers, options.heights, options.files,
               {{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}}),
-      modes_(context_, actions(), [this](const Action& action) { action.run(*this); }) {
+      modes_(context_, actions(), [this](const Action& action) { action.run(*this); }),
+      cutting_(context_, std::exchange(options_.cuts, {})) {
   graticule_.is_on() = options.kept.graticule;
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
@@ -72,12 +73,21 @@ void Viewer::run() {
     if (panel_frames_ > 0) --panel_frames_;
     if ((dirty || ui_.has_waiting()) && front_panel() != nullptr) panel_frames_ = kPanelFrames;
     navigator_.set_viewport(framebuffer);
+    tell_of_finest_texels();
     navigator_.advance(Input::now());
     draw_frame(framebuffer);
     follow_panels();
     print_camera_at_rest();
   }
   keep_settings();
+}
+
+// Reports once that the zoom has reached the finest texels.
+void Viewer::tell_of_finest_texels() {
+  navigator_.set_finest_texel(globe_.finest_texel_m());
+  const bool there = navigator_.is_at_texels();
+  if (there && !was_at_texels_) messages_.say("The imagery has no finer detail. Zoom in again to go closer.");
+  was_at_texels_ = there;
 }
 
 void Viewer::handle_events() {
@@ -167,12 +177,13 @@ void Viewer::draw_panels(Viewport framebuffer) {
   ui_.end_frame();
 }
 
-PanelStatus Viewer::status(const View& view) const {
+PanelStatus Viewer::status(const View& view) {
   const Ground ground = globe_.ground();
   PanelStatus status;
   const auto cursor = input_.cursor_px();
   if (const auto place = cursor ? pick(view, ground, *cursor) : std::nullopt) {
     status.cursor = place_text(*place, pixel_step_deg(view, ground));
+    if (const std::string value = layers_.value_at(*place); !value.empty()) status.cursor += "   " + value;
     const auto elevation_m = globe_.elevation_m(place->lat, place->lon);
     if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
   }

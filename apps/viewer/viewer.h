@@ -12,6 +12,7 @@
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/bookmark_views.h"
+#include "apps/viewer/parts/cutting.h"
 #include "apps/viewer/parts/globe_frame.h"
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/parts/help.h"
@@ -29,9 +30,11 @@ namespace terrella {
 
 struct ViewerOptions {
   Camera camera;
-  bool print_camera = false;                    ///< prints a line on standard output each time the camera comes to rest
+  bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
+  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
+  std::filesystem::path places = {};            ///< GeoJSON for the search; empty: the program's cities
   SceneOptions files = {};                      ///< options for opening dropped files
   KeptSettings kept = {};                       ///< settings from the file
   bool first_run = false;                       ///< true: show a hint
@@ -68,9 +71,10 @@ class Viewer {
   [[nodiscard]] bool work() const;
   void wait_for_work();
   [[nodiscard]] std::string job() const;
+  void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
-  [[nodiscard]] PanelStatus status(const View& view) const;
+  [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_camera_at_rest();
@@ -88,17 +92,19 @@ class Viewer {
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_};
-  Search search_{context_};
+  Search search_{context_, options_.places};
   Layers layers_;
   ViewModes modes_;
   Measure measure_{context_};
+  Cutting cutting_;
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 6> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_};
+  const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
-  std::string job_text_;   ///< job() in the last frame
-  KeptSettings started_;   ///< settings at the start of the run
-  KeptSettings saved_;     ///< settings in the file
+  bool was_at_texels_ = false;
+  std::string job_text_;  ///< job() in the last frame
+  KeptSettings started_;  ///< settings at the start of the run
+  KeptSettings saved_;    ///< settings in the file
   std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };

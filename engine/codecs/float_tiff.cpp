@@ -101,7 +101,64 @@ Status check_tags(TIFF* tiff, int side_px) {
   return Done{};
 }
 
+/// A file in memory, which libtiff writes.
+struct GrowingFile {
+  std::vector<std::byte> bytes;
+  std::uint64_t at = 0;
+};
+
+tmsize_t write_memory(thandle_t handle, void* from, tmsize_t size) {
+  auto& file = *static_cast<GrowingFile*>(handle);
+  const std::uint64_t end = file.at + static_cast<std::uint64_t>(size);
+  if (file.bytes.size() < end) file.bytes.resize(end);
+  std::memcpy(file.bytes.data() + file.at, from, static_cast<std::size_t>(size));
+  file.at = end;
+  return size;
+}
+
+/// libtiff reads back what it has written of a directory.
+tmsize_t read_written(thandle_t handle, void* to, tmsize_t size) {
+  auto& file = *static_cast<GrowingFile*>(handle);
+  if (size < 0 || file.at > file.bytes.size()) return 0;
+  const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(size), file.bytes.size() - file.at);
+  std::copy_n(file.bytes.begin() + static_cast<std::ptrdiff_t>(file.at), count, static_cast<std::byte*>(to));
+  file.at += count;
+  return static_cast<tmsize_t>(count);
+}
+
+toff_t seek_written(thandle_t handle, toff_t to, int whence) {
+  auto& file = *static_cast<GrowingFile*>(handle);
+  file.at = to + (whence == SEEK_SET ? 0 : whence == SEEK_CUR ? file.at : file.bytes.size());
+  return file.at;
+}
+
+toff_t size_written(thandle_t handle) { return static_cast<GrowingFile*>(handle)->bytes.size(); }
+
 }  // namespace
+
+Result<std::vector<std::byte>> encode_float_tiff(std::span<const float> numbers, int side_px) {
+  GrowingFile file;
+  MemoryTiff tiff(TIFFClientOpen("tile", "wm", &file, read_written, write_memory, seek_written, keep_open, size_written,
+                                 nullptr, nullptr));
+  if (!tiff) return tiff_failure("out of memory");
+  const auto side = static_cast<std::uint32_t>(side_px);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, side);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, side);
+  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+  TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, side);
+  std::vector<float> copy(numbers.begin(), numbers.end());  // libtiff may change what it is given
+  const auto bytes = static_cast<tmsize_t>(copy.size() * sizeof(float));
+  if (TIFFWriteEncodedStrip(tiff.get(), 0, copy.data(), bytes) != bytes || TIFFFlush(tiff.get()) != 1) {
+    return tiff_failure("a tile of numbers cannot be encoded");
+  }
+  tiff.reset();
+  return std::move(file.bytes);
+}
 
 Result<std::vector<float>> decode_float_tiff(std::span<const std::byte> bytes, int side_px) {
   MemoryFile file{.bytes = bytes};

@@ -14,4 +14,8 @@ namespace terrella {
 /// multiple of the result. thread: any
 [[nodiscard]] Result<std::vector<float>> decode_float_tiff(std::span<const std::byte> bytes, int side_px);
 
+/// Encodes side_px × side_px floats as such a TIFF: one strip, LZW (OGC 17-066r1 allows no other compression). The same
+/// numbers give the same bytes. thread: any
+[[nodiscard]] Result<std::vector<std::byte>> encode_float_tiff(std::span<const float> numbers, int side_px);
+
 }  // namespace terrella

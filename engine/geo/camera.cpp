@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "geo/place_text.h"
 
 namespace terrella {
 namespace {
@@ -21,16 +22,17 @@ struct CameraField {
   double low, high;
   std::string_view range;  ///< the limits in words, for the error
   double initial;
+  std::optional<double> (*read)(std::string_view text);
 };
 
 constexpr double kAny = std::numeric_limits<double>::max();
 constexpr std::array<CameraField, 6> kFields = {{
-    {"LAT", -90.0, 90.0, "from -90 to 90 degrees", 0.0},
-    {"LON", -kAny, kAny, "any finite number of degrees", 0.0},
-    {"ALT", -1.0e12, 1.0e12, "from -1e12 to 1e12 metres", 0.0},
-    {"HEADING", -kAny, kAny, "any finite number of degrees", 0.0},
-    {"PITCH", -90.0, 90.0, "from -90 (straight down) to 90 degrees", -90.0},
-    {"FOV", 0.01, 170.0, "from 0.01 to 170 degrees", 40.0},
+    {"LAT", -90.0, 90.0, "from -90 to 90 degrees, such as 47.4 or 47.4N", 0.0, read_latitude_deg},
+    {"LON", -kAny, kAny, "any finite number of degrees, such as -8.5 or 8.5W", 0.0, read_longitude_deg},
+    {"ALT", -1.0e12, 1.0e12, "from -1e12 to 1e12 metres, such as 250000 or 250km", 0.0, read_length_m},
+    {"HEADING", -kAny, kAny, "any finite number of degrees", 0.0, read_number},
+    {"PITCH", -90.0, 90.0, "from -90 (straight down) to 90 degrees", -90.0, read_number},
+    {"FOV", 0.01, 170.0, "from 0.01 to 170 degrees", 40.0, read_number},
 }};
 constexpr std::size_t kRequiredFields = 3;
 
@@ -56,7 +58,7 @@ Result<Camera> parse_camera(std::string_view text) {
   std::array<double, kFields.size()> values{};
   for (std::size_t k = 0; k < kFields.size(); ++k) {
     const CameraField& field = kFields[k];
-    const std::optional<double> given = k < words.size() ? read_number(words[k]) : field.initial;
+    const std::optional<double> given = k < words.size() ? field.read(words[k]) : field.initial;
     if (!given || *given < field.low || *given > field.high) {
       return bad_camera(
           text, std::string(field.name) + " is " + in_quotes(words[k]) + ", but must be " + std::string(field.range));

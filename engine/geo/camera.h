@@ -23,7 +23,8 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. Refuses values that are not finite, |LAT| > 90,
+/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. The place may also be written as geo/place_text.h
+/// says, "30N,20E,1000km". Refuses values that are not finite, |LAT| > 90,
 /// |PITCH| > 90, FOV outside [0.01, 170] and ALT outside ±1e12. The error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
 

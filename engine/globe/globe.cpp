@@ -3,9 +3,11 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "globe/globe_impl.h"
 
@@ -19,6 +21,12 @@ using Clock = std::chrono::steady_clock;
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
 // Longest wait for a tile before checking for due retries.
 constexpr std::chrono::milliseconds kLook{100};
+
+// Bodies of dust without air or ice.
+bool is_dusty(const Body& body) {
+  constexpr std::array<std::string_view, 5> kDusty{"moon", "mercury", "phobos", "deimos", "ceres"};
+  return std::ranges::find(kDusty, body.name) != kDusty.end();
+}
 
 bool has_context() { return glGetString(GL_VERSION) != nullptr; }
 
@@ -109,8 +117,11 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
     impl->sky_on = options.sky;
     if (options.time && options.body.name == "earth") sky.night_lights = options.night_lights;
   }
+  const PatchLight light{.relief = !options.unlit,
+                         .bicubic = options.surface.sharpness != Sharpness::bilinear && !options.unlit};
   Result<std::unique_ptr<GlobeRenderer>> renderer = GlobeRenderer::create(
-      {.texturing = options.texturing, .depth = options.depth}, options.body.ellipsoid, options.sky ? &sky : nullptr);
+      {.texturing = options.texturing, .depth = options.depth, .regolith = is_dusty(options.body), .light = light},
+      options.body.ellipsoid, options.sky ? &sky : nullptr);
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
   if (elevation) impl->heights = std::make_unique<HeightLayer>(*elevation, impl->options, impl->bell);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <future>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
@@ -120,6 +121,12 @@ struct GlobePick {
   std::optional<PickedObject> object{};  ///< kind and index in the layer's lists
 };
 
+/// A value of a number layer at a place.
+struct LayerValue {
+  double value = 0.0;  ///< in the unit of the layer's numbers, after scale and offset; NaN: no data
+  int level = 0;       ///< of the tile that it was read from
+};
+
 /// Budget of a globe; the fields are those of GlobeOptions.
 struct GlobeBudget {
   std::size_t gpu_bytes;
@@ -177,6 +184,9 @@ class Globe {
   /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
   /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
   [[nodiscard]] std::vector<std::string> attributions() const;
+  /// Returns the side of the finest texels of the image layers that the last frame showed, in metres along the
+  /// equator; none if it showed no imagery.
+  [[nodiscard]] std::optional<double> finest_texel_m() const;
   /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< true if the globe has elevation
@@ -223,6 +233,13 @@ class Globe {
 
   /// Returns what a pixel of the mono picture shows (geo/coordinates.h).
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
+  /// Returns the value at a place of a layer of numbers, from the nearest texel of the finest loaded tile; none if no
+  /// tile is loaded there. Exact for numbers that a float holds exactly, if `level` is the source's finest. Waits for
+  /// the GPU. Fails if `imagery` is not a layer of numbers.
+  [[nodiscard]] Result<std::optional<LayerValue>> value_at(LayerId imagery, const Geodetic& place) const;
+  /// Asks the layer's source for the value that it stores at a place (TileSource::value_at()), on another thread. The
+  /// answer does not depend on what is drawn. The future's destructor waits for the answer, which takes milliseconds.
+  [[nodiscard]] std::future<Result<double, TileFailure>> stored_value(LayerId imagery, const Geodetic& place) const;
   /// Returns the pixel position of a place at its height; nothing if the place is outside the picture, behind the eye
   /// or hidden by the ground.
   [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;

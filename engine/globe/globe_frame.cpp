@@ -111,6 +111,8 @@ FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
                    .surface = options.surface,
                    .sky = sky(),
                    .lit = !options.unlit,
+                   .earth = options.body.name == "earth",
+                   .timed = options.time.has_value(),
                    .sun = sun(),
                    .frame = frame,
                    .ground_m = ground().height_m(camera.eye.lat, camera.eye.lon),

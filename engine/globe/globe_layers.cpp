@@ -22,6 +22,19 @@ Status check_grid(const TileGrid& grid) {
   return Done{};
 }
 
+/// A layer of numbers needs a stretch and a colour map, a layer of pictures has none.
+Status check_numbers(const std::string& call, bool has_numbers, const ImageLook& look) {
+  if (has_numbers && !look.numbers) {
+    return Error{call + ": the tiles are numbers; give their stretch and colour map (ImageLook::numbers)"};
+  }
+  if (!has_numbers && look.numbers) {
+    return Error{call + ": the tiles are pictures, which have no stretch; leave ImageLook::numbers empty"};
+  }
+  if (!look.numbers) return Done{};
+  const Status good = check_look(*look.numbers);
+  return good ? good : Error{call + ": " + good.error().message};
+}
+
 }  // namespace
 
 Error no_layer(const char* call, const char* kind, LayerId id) {
@@ -56,6 +69,8 @@ Result<LayerId> Globe::add_imagery(std::shared_ptr<TileSource> source, const Ima
   if (!source) return Error{"Globe::add_imagery: there is no source; open one first (open_tile_set())"};
   if (Status good = check_grid(source->info().grid); !good) return good.error();
   if (Status good = check_opacity("Globe::add_imagery", look.opacity); !good) return good.error();
+  const bool has_numbers = source->info().numbers.has_value();
+  if (Status good = check_numbers("Globe::add_imagery", has_numbers, look); !good) return good.error();
   auto& images = impl_->images;
   const LayerId id = impl_->next_id();
   const std::size_t share = impl_->options.gpu_bytes / (images.size() + 1);
@@ -70,6 +85,7 @@ Status Globe::set_look(LayerId imagery, const ImageLook& look) {
   ImageLayer* layer = impl_->image(imagery);
   if (layer == nullptr) return no_layer("Globe::set_look", "image layer", imagery);
   if (Status good = check_opacity("Globe::set_look", look.opacity); !good) return good;
+  if (Status good = check_numbers("Globe::set_look", layer->has_numbers(), look); !good) return good;
   layer->set_look(look);
   impl_->changed = true;
   return Done{};
@@ -143,7 +159,20 @@ std::vector<std::string> Globe::attributions() const {
   return texts;
 }
 
-// Relief raises the vertices of patches and adds slopes, so all patches are discarded.
+std::optional<double> Globe::finest_texel_m() const {
+  std::optional<double> finest;
+  if (!impl_->may_call("Globe::finest_texel_m")) return finest;
+  const double degree_m = options().body.ellipsoid.a_m() * Angle::degrees(1.0).rad();
+  for (const ImageLayer* layer : impl_->stack) {
+    if (!layer->is_on_screen()) continue;
+    const TileGrid& grid = layer->grid();
+    const double texel_m = tile_span_deg(grid, grid.max_level) / grid.tile_px * degree_m;
+    finest = std::min(finest.value_or(texel_m), texel_m);
+  }
+  return finest;
+}
+
+// Relief raises the vertices of patches, so all patches are discarded.
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   const auto call = impl_->may_draw("Globe::set_elevation");
   if (!call) return call.error();
@@ -151,6 +180,7 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (elevation.has_value() != has_relief()) {
     if (Status made = impl_->renderer->set_relief(elevation.has_value()); !made) return made;
   }
+  impl_->renderer->forget_slopes();
   impl_->heights.reset();
   if (elevation) impl_->heights = std::make_unique<HeightLayer>(*elevation, impl_->options, impl_->bell);
   for (const auto& layer : impl_->images) layer->discard_patches();

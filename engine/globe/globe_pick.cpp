@@ -45,6 +45,26 @@ GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   return found;
 }
 
+Result<std::optional<LayerValue>> Globe::value_at(LayerId imagery, const Geodetic& place) const {
+  const auto call = impl_->may_draw("Globe::value_at");
+  if (!call) return call.error();
+  const ImageLayer* layer = impl_->image(imagery);
+  if (layer == nullptr || !layer->has_numbers()) return no_layer("Globe::value_at", "layer of numbers", imagery);
+  return layer->value_at(place);
+}
+
+std::future<Result<double, TileFailure>> Globe::stored_value(LayerId imagery, const Geodetic& place) const {
+  const ImageLayer* layer = impl_->may_call("Globe::stored_value") ? impl_->image(imagery) : nullptr;
+  if (layer == nullptr) {
+    std::promise<Result<double, TileFailure>> none;
+    none.set_value(TileFailure{MissingKind::absent, "the globe has no such image layer"});
+    return none.get_future();
+  }
+  return std::async(std::launch::async, [source = layer->source(), place, figure = impl_->options.body.ellipsoid] {
+    return source->value_at(place, figure);
+  });
+}
+
 std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
   if (!impl_->may_call("Globe::project")) return std::nullopt;
   const View eye = view(viewport);

@@ -1,18 +1,29 @@
 #include "globe/image_layer.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "geo/longitudes.h"
 
 namespace terrella {
 namespace {
 
 constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
+/// Priority of drawn tiles that have a better edition: after all tiles that are not there.
+constexpr double kRenewal = -1e9;
 
 // The other texturing methods exist for comparison, so they draw the full grid, as every tool does.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
   const bool polar_program = options.texturing == Texturing::exact || options.texturing == Texturing::automatic;
   grid.reduced = grid.reduced && options.squeezed_rows && polar_program;
   return grid;
+}
+
+SlotLayout layout_of(const GlobeOptions& options, const TileGrid& grid, const TileSource* source) {
+  SlotLayout layout{.tile_px = grid.tile_px, .gutter_px = options.gutter_px};
+  if (source != nullptr && source->info().numbers) layout.numbers = number_slots(*source->info().numbers);
+  return layout;
 }
 
 }  // namespace
@@ -28,15 +39,17 @@ ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<Tile
       roots_(root_tiles(grid_)),
       look_(look),
       attribution_(source ? source->info().attribution : ""),
-      tiles_(grid_, {grid_.tile_px, setup.options.gutter_px}, kMips, gpu_bytes) {
+      tiles_(grid_, layout_of(setup.options, grid_, source.get()), kMips, gpu_bytes),
+      source_(std::move(source)) {
   discard_patches();
-  if (!source) return;
+  if (!source_) return;
+  if (const auto& slots = tiles_.layout().numbers) gpu_.numbers.emplace(*source_->info().numbers, *slots);
   LoaderOptions loading{
       .workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
   // Tiles waiting for slots hold at most as many bytes as all slots.
   loading.max_finished_bytes =
       std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
-  stream_.emplace(TileLoader(std::move(source), loading), tiles_.residency(), id, setup.options.retry_after);
+  stream_.emplace(TileLoader(source_, loading), tiles_.residency(), id, setup.options.retry_after);
 }
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {
@@ -50,9 +63,11 @@ std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {
   return plain;
 }
 
+// Other colours of the same numbers need no other tiles.
 void ImageLayer::set_look(const ImageLook& look) {
+  const std::optional<NumberLook> colored = std::exchange(look_.numbers, look.numbers);
+  if (look_ != look) restore_detail();
   look_ = look;
-  restore_detail();
 }
 
 void ImageLayer::discard_patches() {
@@ -66,11 +81,14 @@ bool ImageLayer::is_drawn(bool has_night) const {
 }
 
 bool ImageLayer::is_opaque(bool has_night) const {
-  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && !has_transparency_ && !is_special(has_night);
+  // A base layer of numbers shows the plain colour where it has none.
+  const bool covers = has_numbers() || !has_transparency_;
+  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(has_night);
 }
 
 bool ImageLayer::is_special(bool has_night) const {
-  return look_.alpha == AlphaFrom::brightness || (has_night && look_.daylight != Daylight::both);
+  return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
+         (has_night && look_.daylight != Daylight::both);
 }
 
 // Slot 0 and the slots of root tiles are never evicted. A tenth of the others stays free for tiles in flight.
@@ -91,6 +109,7 @@ void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
   std::swap(patches_, plan.patches);
   std::swap(coverage_, plan.coverage);
   detail_ = plan.detail;
+  frame_ = frame;
   coverage_.uses.note(frame, tiles_.residency());
 }
 
@@ -109,6 +128,7 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
     const TileTexels& texels = *loaded->tile;
     has_transparency_ = has_transparency_ || !texels.opaque;
     if (tiles_.upload(loaded->id, texels.mips, frame)) {
+      tiles_.residency().entry(loaded->id).edition = loaded->edition;
       bytes += tiles_.slot_bytes();
       allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
     }
@@ -125,7 +145,16 @@ void ImageLayer::ask() {
     if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
   }
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
+  edition_ = source_->edition();
+  if (edition_ > 0) add_outdated(requests);
   stream_->request(requests);
+}
+
+void ImageLayer::add_outdated(std::vector<TileRequest>& requests) {
+  for (const auto& [id, entry] : tiles_.residency().entries()) {
+    if (entry.state != TileState::resident || entry.last_drawn < frame_ || entry.edition >= edition_) continue;
+    if (entry.edition < source_->edition_of(id)) requests.push_back({id, kRenewal});
+  }
 }
 
 void ImageLayer::end_frame(std::uint64_t frame) {
@@ -138,6 +167,7 @@ void ImageLayer::stop_asking() {
 }
 
 LayerFrame ImageLayer::frame(bool is_base, bool has_night) {
+  if (gpu_.numbers) gpu_.numbers->set(*look_.numbers);
   tiles_.set_empty(is_base ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
@@ -147,7 +177,30 @@ LayerFrame ImageLayer::frame(bool is_base, bool has_night) {
           .opacity = is_base ? 1.0 : look_.opacity,
           .daylight = has_night ? look_.daylight : Daylight::both,
           .alpha = look_.alpha,
+          .height_m = is_base ? 0.0 : look_.height_m,
           .special = is_special(has_night)};
+}
+
+std::optional<LayerValue> ImageLayer::value_at(const Geodetic& place) const {
+  const double row_deg = row_latitude_deg(grid_, ellipsoid_, Ellipsoid::normal(place.lat, place.lon));
+  const double lon_deg = -180.0 + std::fmod(degrees_east(place.lon.deg(), -180.0), 360.0);
+  for (int level = grid_.max_level; level >= grid_.min_level; --level) {
+    const TileXY at = tile_xy(grid_, level, row_deg, lon_deg);
+    const TileId full{.level = level,
+                      .x = static_cast<std::int64_t>(std::floor(at.x)),
+                      .y = std::min(static_cast<std::int64_t>(std::floor(at.y)), rows(grid_, level) - 1)};
+    const TileId id = reduced_tile(grid_, full);
+    const TileResidency::Entry* entry = tiles_.residency().find(id);
+    if (entry == nullptr || entry->state != TileState::resident) continue;
+    const auto texel = [this](double part) {
+      return std::clamp(static_cast<int>(part * grid_.tile_px), 0, grid_.tile_px - 1);
+    };
+    const double number = tiles_.number_at(id, texel(std::ldexp(at.x, -id.squeeze) - static_cast<double>(id.x)),
+                                           texel(at.y - static_cast<double>(id.y)));
+    const NumberInfo& info = gpu_.numbers->info();
+    return LayerValue{.value = number * info.scale + info.offset, .level = level};
+  }
+  return std::nullopt;
 }
 
 // Patches of a root tile that has finally failed can never be covered, so nothing waits for them.

@@ -56,6 +56,11 @@ class ImageLayer {
   /// True if the last frame drew some of its tiles in view.
   [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
+  [[nodiscard]] bool has_numbers() const { return gpu_.numbers.has_value(); }
+  /// Where its tiles come from; null: plain.
+  [[nodiscard]] const std::shared_ptr<TileSource>& source() const { return source_; }
+  /// See Globe::value_at(); only for a layer of numbers.
+  [[nodiscard]] std::optional<LayerValue> value_at(const Geodetic& place) const;
 
   [[nodiscard]] PatchTree& tree() { return *tree_; }
   [[nodiscard]] std::vector<SelectedPatch>& patches() { return patches_; }
@@ -79,10 +84,12 @@ class ImageLayer {
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
   [[nodiscard]] bool settled();
   [[nodiscard]] LoaderCounts loading() const { return stream_ ? stream_->counts() : LoaderCounts{}; }
-  /// See TileStream::has_news().
-  [[nodiscard]] bool has_news() const { return stream_ && stream_->has_news(); }
+  /// See TileStream::has_news(). Also true if the source has a new edition.
+  [[nodiscard]] bool has_news() const { return stream_ && (stream_->has_news() || source_->edition() != edition_); }
 
  private:
+  void add_outdated(std::vector<TileRequest>& requests);
+
   LayerId id_;
   Ellipsoid ellipsoid_;
   int segments_;
@@ -94,7 +101,10 @@ class ImageLayer {
   std::string attribution_;
   std::unique_ptr<PatchTree> tree_;
   TileTextures tiles_;
+  std::shared_ptr<TileSource> source_;            ///< null: plain
   std::optional<TileStream<TileTexels>> stream_;  ///< none: plain
+  std::uint64_t edition_ = 0;                     ///< of the source, at the last request
+  std::uint64_t frame_ = 0;                       ///< number of the last frame
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;

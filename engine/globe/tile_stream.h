@@ -49,6 +49,7 @@ class TileStream {
       std::vector<Loaded<Decoded>> next = loader_.poll(1);
       if (next.empty()) return std::nullopt;
       if (next.front().tile) return std::move(next.front());
+      if (keep_earlier(next.front())) continue;
       const TileFailure& failure = next.front().tile.error();
       const bool for_now = failure.kind == MissingKind::failed;
       residency_.set_missing(next.front().id, for_now ? std::optional(Clock::now() + retry_after_) : std::nullopt);
@@ -65,6 +66,14 @@ class TileStream {
   [[nodiscard]] LoaderCounts counts() const { return loader_.counts(); }
 
  private:
+  /// True if an earlier edition of a failed tile is there. It stays.
+  bool keep_earlier(const Loaded<Decoded>& failed) {
+    TileResidency::Entry* entry = residency_.find(failed.id);
+    if (entry == nullptr || entry->state != TileState::resident) return false;
+    entry->edition = failed.edition;
+    return true;
+  }
+
   Loader<Decoded> loader_;
   TileResidency& residency_;
   LayerId layer_;

@@ -2,186 +2,191 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "objects/degree_name.h"
+#include "objects/graticule_tracer.h"
 #include "view/surface_pin.h"
 
 namespace terrella {
 namespace {
 
-constexpr double kSpacings_deg[] = {30.0, 15.0, 10.0, 5.0,  2.0,   1.0,   0.5,  0.2,
-                                    0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
-constexpr double kLeastSpacing_px = 90.0;
-constexpr int kLinesEachWay = 28;  // lines to each side of the picture's centre; more would run together
-constexpr int kHalvings = 20;      // bisections of a chord that the horizon cuts
+constexpr double kSpacings_deg[] = {90.0, 30.0, 15.0, 10.0, 5.0,  2.0,   1.0,   0.5,
+                                    0.2,  0.1,  0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+constexpr double kWidest_deg = 30.0;       // widest spacing at the picture's centre
+constexpr double kLeastSpacing_px = 90.0;  // between lines at the picture's centre
+// Lines of the centre's spacing, and wider ones, fade between these distances of their neighbours.
+constexpr double kFaint_px = 10.0, kFull_px = 24.0;
+// Lines in front of the centre that are finer than there appear between these distances of their neighbours.
+constexpr double kFineFaint_px = 90.0, kFineFull_px = 130.0;
+constexpr double kMostSteps = 400.0;  // chords of half a line
+constexpr long kMostLines = 90;       // lines of a level
+constexpr int kLooks = 12;            // looks along a side of the picture that find the ground in it
 // On a whole globe, only meridians this near to the picture's centre are labelled.
 constexpr double kNamedMeridians_deg = 50.0;
-constexpr double kBeyond = 0.25;  // lines continue past the picture's edges by this fraction of its size
+constexpr float kNamedStrength = 0.5F;  // fainter lines have no label
 
 double spacing_for(double pixels_per_degree) {
-  double best = kSpacings_deg[0];
+  double best = kWidest_deg;
   for (const double spacing : kSpacings_deg) {
-    if (spacing * pixels_per_degree >= kLeastSpacing_px) best = spacing;
+    if (spacing <= kWidest_deg && spacing * pixels_per_degree >= kLeastSpacing_px) best = spacing;
   }
   return best;
+}
+
+bool divides(double fine, double wide) { return std::abs(std::remainder(wide, fine)) < 1e-6 * fine; }
+
+/// Spacings of which each is a multiple of the next, with `centre` among them; the widest first. So a line of a wide
+/// spacing is a line of each finer spacing too.
+std::vector<double> levels_with(double centre) {
+  std::vector<double> levels{centre};
+  for (auto wide = std::rbegin(kSpacings_deg); wide != std::rend(kSpacings_deg); ++wide) {
+    if (*wide > levels.front() && divides(levels.front(), *wide)) levels.insert(levels.begin(), *wide);
+  }
+  for (const double fine : kSpacings_deg) {
+    if (fine < levels.back() && divides(fine, levels.back())) levels.push_back(fine);
+  }
+  return levels;
 }
 
 /// Length of chords between two crossings. Wide spacings occur with whole globes and at poles, where lines are most
 /// curved.
 double chord_deg(double spacing_deg) { return spacing_deg / (spacing_deg >= 5.0 ? 24.0 : 8.0); }
 
-/// The part of the planet near the picture's centre, and the spacing of lines in it.
-struct Region {
-  double lat_deg, lon_deg;
-  double parallels_deg, meridians_deg;
-  double reach_deg;  ///< visible great-circle distance from the centre
-};
-
-Region region_of(const View& view, const Ellipsoid& ellipsoid) {
-  const Geodetic eye = ellipsoid.to_geodetic(view.eye);
-  const Grab centre = grab(view, ellipsoid, {0.5 * view.viewport.width_px, 0.5 * view.viewport.height_px});
-  const Geodetic place = ellipsoid.to_geodetic(centre.point);
-  const double distance_m = centre.on_surface ? glm::distance(centre.point.xyz_m, view.eye.xyz_m) : eye.height_m;
-  const double pixels_per_degree =
-      view.pixels_per_radian() / std::max(distance_m, 0.1) * ellipsoid.a_m() * Angle::degrees(1.0).rad();
-  const double horizon_deg =
-      Angle::radians(std::acos(ellipsoid.b_m() / (ellipsoid.b_m() + std::max(eye.height_m, 1.0)))).deg();
-  Region region{place.lat.deg(), place.lon.deg(), spacing_for(pixels_per_degree), 0.0, 2.0 * horizon_deg};
-  const double narrowing = std::max(std::cos(place.lat.rad()), 1e-9);
-  region.meridians_deg = spacing_for(pixels_per_degree * narrowing);
-  region.reach_deg = std::min(region.reach_deg, kLinesEachWay * region.parallels_deg);
-  return region;
-}
-
-/// Traces one curve on the ellipsoid into the visible pieces of its picture.
-class Tracer {
- public:
-  Tracer(const View& view, const Ellipsoid& ellipsoid) : view_(view), ellipsoid_(ellipsoid) {}
-
-  using Curve = std::function<Geodetic(double)>;
-
-  [[nodiscard]] std::vector<std::vector<glm::dvec2>> trace(const Curve& curve, double from, double to,
-                                                           double step) const {
-    std::vector<std::vector<glm::dvec2>> pieces;
-    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / step)));
-    std::optional<glm::dvec2> last;
-    for (int i = 0; i <= count; ++i) {
-      const double at = from + (to - from) * i / count;
-      const auto px = picture(curve(at));
-      const double before = from + (to - from) * (i - 1) / count;
-      if (px && !last) {
-        pieces.emplace_back();
-        if (i > 0) pieces.back().push_back(edge(curve, at, before));
-      }
-      if (px) pieces.back().push_back(*px);
-      if (!px && last) pieces.back().push_back(edge(curve, before, at));
-      last = px;
-    }
-    std::erase_if(pieces, [](const auto& piece) { return piece.size() < 2; });
-    return pieces;
-  }
-
- private:
-  /// Returns the position of a place in the picture; nothing behind the horizon or far outside.
-  [[nodiscard]] std::optional<glm::dvec2> picture(const Geodetic& place) const {
-    const EcefDir normal = Ellipsoid::normal(place.lat, place.lon);
-    const Ecef p = ellipsoid_.position(normal);
-    if (glm::dot(view_.eye.xyz_m - p.xyz_m, normal.xyz) <= 0.0) return {};
-    const auto px = project(view_, p);
-    if (!px) return {};
-    const glm::dvec2 size(view_.viewport.width_px, view_.viewport.height_px);
-    const glm::dvec2 part = *px / size;
-    const bool near = part.x > -kBeyond && part.x < 1.0 + kBeyond && part.y > -kBeyond && part.y < 1.0 + kBeyond;
-    return near ? px : std::nullopt;
-  }
-
-  /// Finds the last visible point between a visible and a hidden one.
-  [[nodiscard]] glm::dvec2 edge(const Curve& curve, double seen, double unseen) const {
-    glm::dvec2 best = *picture(curve(seen));
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (seen + unseen);
-      const auto px = picture(curve(middle));
-      (px ? seen : unseen) = middle;
-      if (px) best = *px;
-    }
-    return best;
-  }
-
-  const View& view_;
-  const Ellipsoid& ellipsoid_;
-};
-
 class Builder {
  public:
   Builder(const View& view, const Ellipsoid& ellipsoid, LabelSize label)
-      : view_(view), tracer_(view, ellipsoid), region_(region_of(view, ellipsoid)), label_(label) {}
+      : view_(view), tracer_(view, ellipsoid), label_(label) {
+    const Geodetic eye = ellipsoid.to_geodetic(view.eye);
+    const Grab middle = grab(view, ellipsoid, {0.5 * view.viewport.width_px, 0.5 * view.viewport.height_px});
+    const double distance_m = middle.on_surface ? glm::distance(middle.point.xyz_m, view.eye.xyz_m) : eye.height_m;
+    const double pixels = tracer_.pixels_per_degree(distance_m);
+    centre_ = ellipsoid.to_geodetic(middle.point);
+    under_lat_deg_ = eye.lat.deg();
+    under_lon_deg_ = eye.lon.deg();
+    find_ground_in_view(ellipsoid);
+    out_.parallels_deg = spacing_for(pixels);
+    out_.meridians_deg = spacing_for(pixels * std::max(std::cos(centre_.lat.rad()), 1e-9));
+  }
 
   Graticule build() {
-    out_.parallels_deg = region_.parallels_deg;
-    out_.meridians_deg = region_.meridians_deg;
-    add_parallels();
-    add_meridians();
+    double wider = 0.0;
+    for (const double spacing : levels_with(out_.parallels_deg)) {
+      if (!add_parallels(traced(spacing, out_.parallels_deg, false), wider)) break;
+      wider = spacing;
+    }
+    wider = 0.0;
+    for (const double spacing : levels_with(out_.meridians_deg)) {
+      if (!add_meridians(traced(spacing, out_.meridians_deg, true), wider)) break;
+      wider = spacing;
+    }
     return std::move(out_);
   }
 
  private:
-  [[nodiscard]] double south() const { return std::max(region_.lat_deg - region_.reach_deg, -90.0); }
-  [[nodiscard]] double north() const { return std::min(region_.lat_deg + region_.reach_deg, 90.0); }
+  [[nodiscard]] static TracedSpacing traced(double spacing_deg, double centre_deg, bool narrows) {
+    const bool finer = spacing_deg < centre_deg;
+    return {spacing_deg, narrows, finer ? kFineFaint_px : kFaint_px, finer ? kFineFull_px : kFull_px};
+  }
+  [[nodiscard]] double reach_deg(const TracedSpacing& spacing) const {
+    return tracer_.reach_deg(spacing.faint_px / spacing.spacing_deg);
+  }
+  [[nodiscard]] double south(double reach) const { return std::max({under_lat_deg_ - reach, south_deg_, -90.0}); }
+  [[nodiscard]] double north(double reach) const { return std::min({under_lat_deg_ + reach, north_deg_, 90.0}); }
 
-  /// Visible longitudes to each side of the centre; all if a pole is visible.
-  [[nodiscard]] double reach_lon_deg() const {
-    const double farthest = std::max(std::abs(south()), std::abs(north()));
-    if (farthest >= 90.0 || region_.reach_deg >= 90.0) return 180.0;
-    const double sine =
-        std::sin(Angle::degrees(region_.reach_deg).rad()) / std::cos(Angle::degrees(region_.lat_deg).rad());
-    return sine >= 1.0 ? 180.0 : Angle::radians(std::asin(sine)).deg();
+  /// Finds bounds of the ground in the picture and somewhat around it.
+  void find_ground_in_view(const Ellipsoid& ellipsoid) {
+    south_deg_ = 90.0, north_deg_ = -90.0, west_deg_ = HUGE_VAL, east_deg_ = -HUGE_VAL;
+    const glm::dvec2 size(view_.viewport.width_px, view_.viewport.height_px);
+    for (int j = 0; j <= kLooks; ++j) {
+      for (int i = 0; i <= kLooks; ++i) {
+        const Geodetic place = ellipsoid.to_geodetic(
+            grab(view_, ellipsoid, (1.5 * glm::dvec2(i, j) / double(kLooks) - 0.25) * size).point);
+        const double lon = under_lon_deg_ + std::remainder(place.lon.deg() - under_lon_deg_, 360.0);
+        south_deg_ = std::min(south_deg_, place.lat.deg()), north_deg_ = std::max(north_deg_, place.lat.deg());
+        west_deg_ = std::min(west_deg_, lon), east_deg_ = std::max(east_deg_, lon);
+      }
+    }
+    const double lat_margin = (north_deg_ - south_deg_) / kLooks, lon_margin = (east_deg_ - west_deg_) / kLooks;
+    south_deg_ -= lat_margin, north_deg_ += lat_margin, west_deg_ -= lon_margin, east_deg_ += lon_margin;
+    for (const double pole : {-90.0, 90.0}) {
+      const Ecef at = ellipsoid.to_ecef({.lat = Angle::degrees(pole), .lon = {}});
+      if ((view_.eye.xyz_m.z - at.xyz_m.z) * pole <= 0.0) continue;  // behind the horizon
+      const auto px = project(view_, at);
+      if (!px || glm::any(glm::greaterThan(glm::abs(*px - 0.5 * size), 0.75 * size))) continue;
+      (pole < 0.0 ? south_deg_ : north_deg_) = pole;
+      west_deg_ = under_lon_deg_ - 180.0, east_deg_ = under_lon_deg_ + 180.0;
+    }
   }
 
-  void add_parallels() {
-    const double spacing = region_.parallels_deg;
-    const double reach = std::min(reach_lon_deg(), kLinesEachWay * region_.meridians_deg);
-    const long last = std::lround(std::floor(north() / spacing + 1e-9));
-    for (long i = std::lround(std::ceil(south() / spacing - 1e-9)); i <= last; ++i) {
-      const double lat = double(i) * spacing;
+  /// West and east end of the longitudes within `reach` of the place under the eye, as far as the picture shows them.
+  [[nodiscard]] std::pair<double, double> longitudes(double reach) const {
+    double lons = 180.0;
+    if (std::max(std::abs(under_lat_deg_ - reach), std::abs(under_lat_deg_ + reach)) < 90.0) {
+      const double sine = std::sin(Angle::degrees(reach).rad()) / std::cos(Angle::degrees(under_lat_deg_).rad());
+      if (sine < 1.0) lons = Angle::radians(std::asin(sine)).deg();
+    }
+    return {std::max(under_lon_deg_ - lons, west_deg_), std::min(under_lon_deg_ + lons, east_deg_)};
+  }
+
+  /// Numbers of the lines of a spacing from `low` to `high`, without those of `wider`.
+  [[nodiscard]] static std::vector<long> numbers(double low, double high, double spacing, double wider) {
+    std::vector<long> out;
+    const long first = std::lround(std::ceil(low / spacing - 1e-9));
+    long last = std::min(std::lround(std::floor(high / spacing + 1e-9)), first + kMostLines);
+    // 180° east and 180° west of the middle are one meridian.
+    if (double(last - first + 1) * spacing > 360.0 + 1e-9) --last;
+    for (long i = first; i <= last; ++i) {
+      if (wider == 0.0 || !divides(wider, double(i) * spacing)) out.push_back(i);
+    }
+    return out;
+  }
+
+  /// False if the ground has no room for lines of this spacing.
+  bool add_parallels(const TracedSpacing& spacing, double wider) {
+    const double reach = reach_deg(spacing);
+    if (reach <= 0.0) return false;
+    const auto [west, east] = longitudes(reach);
+    for (const long i : numbers(south(reach), north(reach), spacing.spacing_deg, wider)) {
+      const double lat = double(i) * spacing.spacing_deg;
       if (std::abs(lat) > 90.0 - 1e-9) continue;
+      const double step = chord_deg(std::min(spacing.spacing_deg, out_.meridians_deg));
       const auto pieces =
           tracer_.trace([&](double lon) { return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)}; },
-                        region_.lon_deg - reach, region_.lon_deg + reach, chord_deg(region_.meridians_deg));
+                        spacing, west, east, std::max(step, (east - west) / kMostSteps));
       add_lines(pieces, i == 0);
-      label_parallel(pieces, degree_name(lat, spacing, "N", "S"));
+      label_parallel(pieces, degree_name(lat, std::min(spacing.spacing_deg, out_.parallels_deg), "N", "S"));
     }
+    return true;
   }
 
-  void add_meridians() {
-    const double spacing = region_.meridians_deg;
-    const double reach = std::min(reach_lon_deg(), kLinesEachWay * spacing);
-    // Meridians meet at the pole: only every quarter continues to the pole.
-    const double stop = 90.0 - std::min(region_.parallels_deg, 10.0);
-    long first = std::lround(std::ceil((region_.lon_deg - reach) / spacing - 1e-9));
-    const long last = std::lround(std::floor((region_.lon_deg + reach) / spacing + 1e-9));
-    // 180° east and 180° west of the centre are one meridian.
-    if (double(last - first + 1) * spacing > 360.0 + 1e-9) ++first;
-    for (long i = first; i <= last; ++i) {
-      const double lon = std::remainder(double(i) * spacing, 360.0);
-      const bool quarter = std::abs(std::remainder(lon, 90.0)) < 1e-9;
-      const double low = quarter ? south() : std::max(south(), -stop);
-      const double high = quarter ? north() : std::min(north(), stop);
-      if (low >= high) continue;
-      const auto pieces =
-          tracer_.trace([&](double lat) { return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)}; },
-                        low, high, chord_deg(region_.parallels_deg));
+  bool add_meridians(const TracedSpacing& spacing, double wider) {
+    const double reach = reach_deg(spacing);
+    if (reach <= 0.0) return false;
+    const auto [west, east] = longitudes(reach);
+    if (south(reach) >= north(reach)) return true;
+    for (const long i : numbers(west, east, spacing.spacing_deg, wider)) {
+      const double lon = std::remainder(double(i) * spacing.spacing_deg, 360.0);
+      const double step = chord_deg(std::min(spacing.spacing_deg, out_.parallels_deg));
+      const auto pieces = tracer_.trace(
+          [&](double lat) { return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)}; }, spacing,
+          south(reach), north(reach), std::max(step, (north(reach) - south(reach)) / kMostSteps));
       add_lines(pieces, std::abs(lon) < 1e-9 || std::abs(std::abs(lon) - 180.0) < 1e-9);
       // Near the limb the labels would stand too close to be read.
-      const bool faces_eye = std::abs(std::remainder(lon - region_.lon_deg, 360.0)) < kNamedMeridians_deg;
-      if (faces_eye) label_meridian(pieces, lon, degree_name(lon, spacing, "E", "W"));
+      const bool faces_eye = std::abs(std::remainder(lon - centre_.lon.deg(), 360.0)) < kNamedMeridians_deg;
+      if (faces_eye)
+        label_meridian(pieces, spacing, lon,
+                       degree_name(lon, std::min(spacing.spacing_deg, out_.meridians_deg), "E", "W"));
     }
+    return true;
   }
 
-  void add_lines(const std::vector<std::vector<glm::dvec2>>& pieces, bool principal) {
-    for (const auto& piece : pieces) out_.lines.push_back({piece, principal});
+  void add_lines(const std::vector<TracedPiece>& pieces, bool principal) {
+    for (const TracedPiece& piece : pieces) out_.lines.push_back({piece.points_px, principal, piece.strength});
   }
 
   [[nodiscard]] bool inside(glm::dvec2 px) const {
@@ -190,9 +195,10 @@ class Builder {
   }
 
   /// Finds the crossing of a line with x = value (axis 0) or y = value (axis 1).
-  [[nodiscard]] std::optional<glm::dvec2> crossing(const std::vector<std::vector<glm::dvec2>>& pieces, int axis,
+  [[nodiscard]] std::optional<glm::dvec2> crossing(const std::vector<TracedPiece>& pieces, int axis,
                                                    double value) const {
-    for (const auto& piece : pieces) {
+    for (const auto& [piece, strength] : pieces) {
+      if (strength < kNamedStrength) continue;
       for (std::size_t i = 1; i < piece.size(); ++i) {
         const double a = piece[i - 1][axis] - value;
         const double b = piece[i][axis] - value;
@@ -206,33 +212,34 @@ class Builder {
     return {};
   }
 
-  void label_parallel(const std::vector<std::vector<glm::dvec2>>& pieces, const std::string& text) {
+  void label_parallel(const std::vector<TracedPiece>& pieces, const std::string& text) {
     if (const auto edge = crossing(pieces, 0, 0.0)) {
       put({text, *edge + glm::dvec2(0.5 * label_.character_px, -2.0), {0.0, 1.0}});
       return;
     }
     std::optional<glm::dvec2> leftmost;
-    for (const auto& piece : pieces) {
+    for (const auto& [piece, strength] : pieces) {
       for (const glm::dvec2 px : piece) {
-        if (inside(px) && (!leftmost || px.x < leftmost->x)) leftmost = px;
+        if (strength >= kNamedStrength && inside(px) && (!leftmost || px.x < leftmost->x)) leftmost = px;
       }
     }
     if (leftmost) put({text, *leftmost - glm::dvec2(0.6 * label_.character_px, 0.0), {1.0, 0.5}});
   }
 
-  void label_meridian(const std::vector<std::vector<glm::dvec2>>& pieces, double lon_deg, const std::string& text) {
+  void label_meridian(const std::vector<TracedPiece>& pieces, const TracedSpacing& spacing, double lon_deg,
+                      const std::string& text) {
     if (const auto edge = crossing(pieces, 1, view_.viewport.height_px - label_.foot_px)) {
       put({text, *edge + glm::dvec2(0.4 * label_.character_px, -0.4 * label_.line_px), {0.0, 1.0}});
       return;
     }
     const double lat_deg =
-        std::clamp(region_.parallels_deg * std::round(region_.lat_deg / region_.parallels_deg), -60.0, 60.0);
+        std::clamp(out_.parallels_deg * std::round(centre_.lat.deg() / out_.parallels_deg), -60.0, 60.0);
     const auto step =
         tracer_.trace([&](double lat) { return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon_deg)}; },
-                      lat_deg, lat_deg + 0.01 * region_.parallels_deg, region_.parallels_deg);
-    if (!step.empty() && inside(step.front().front())) {
-      put({text, step.front().front() + glm::dvec2(0.4 * label_.character_px, -2.0), {0.0, 1.0}});
-    }
+                      spacing, lat_deg, lat_deg + 0.01 * out_.parallels_deg, out_.parallels_deg);
+    if (step.empty() || step.front().strength < kNamedStrength) return;
+    const glm::dvec2 at = step.front().points_px.front();
+    if (inside(at)) put({text, at + glm::dvec2(0.4 * label_.character_px, -2.0), {0.0, 1.0}});
   }
 
   /// Keeps a label if it lies in the picture and covers no earlier label.
@@ -253,8 +260,10 @@ class Builder {
   };
 
   const View& view_;
-  Tracer tracer_;
-  Region region_;
+  GraticuleTracer tracer_;
+  Geodetic centre_;                                                             ///< place at the picture's centre
+  double south_deg_ = 0.0, north_deg_ = 0.0, west_deg_ = 0.0, east_deg_ = 0.0;  ///< of the ground in the picture
+  double under_lat_deg_ = 0.0, under_lon_deg_ = 0.0;                            ///< place under the eye
   LabelSize label_;
   Graticule out_;
   std::vector<Box> taken_;

@@ -13,6 +13,7 @@ namespace terrella {
 struct GraticuleLine {
   std::vector<glm::dvec2> points_px;  ///< at least 2; chords are within half a pixel of the curve
   bool principal = false;             ///< true for the equator, prime meridian and antimeridian
+  float strength = 1.0F;              ///< (0, 1]: opacity. Lines fade out with distance, where they would run together
 };
 
 /// The name of a line: UTF-8, as "30° N". Its box is placed so that the point `anchor` of the box (0 left or top, 1
@@ -24,8 +25,8 @@ struct GraticuleLabel {
 };
 
 struct Graticule {
-  double parallels_deg = 0.0;  ///< distance between parallels
-  double meridians_deg = 0.0;  ///< distance between meridians, wider towards the poles
+  double parallels_deg = 0.0;  ///< distance between parallels at the picture's centre
+  double meridians_deg = 0.0;  ///< distance between meridians there, wider towards the poles
   std::vector<GraticuleLine> lines;
   std::vector<GraticuleLabel> labels;
 };
@@ -37,10 +38,11 @@ struct LabelSize {
   double foot_px = 0.0;  ///< margin at the picture's lower edge, for other text
 };
 
-/// Returns the visible lines of equal latitude and longitude in a picture, 30° to 0.001° apart, depending on zoom.
-/// Lines behind the horizon are left out. Parallels are labelled at the left edge or at the limb. Meridians are
-/// labelled at the lower edge, or, if they do not reach it, along the parallel next to the picture's centre. At most
-/// about 120 lines. thread: any
+/// Returns the visible lines of equal latitude and longitude in a picture, 90° to 0.001° apart. The spacing follows the
+/// distance of the ground: in a tilted view the foreground has finer lines, and only every fifth or so goes on towards
+/// the horizon. Lines behind the horizon are left out. Parallels are labelled at the left edge or at the limb.
+/// Meridians are labelled at the lower edge, or, if they do not reach it, along the parallel next to the picture's
+/// centre. Labels do not cover each other. thread: any
 [[nodiscard]] Graticule make_graticule(const View& view, const Ellipsoid& ellipsoid, LabelSize label = {});
 
 /// The look of a graticule that is an object layer.

@@ -46,9 +46,12 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
 }
 
 Status GlobeRenderer::set_relief(bool on) {
-  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options_, on);
+  RenderOptions options = options_;
+  options.light.relief = on && options.light.relief;
+  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options, on);
   if (!made) return made.error();
   patches_ = std::move(*made);
+  slopes_.reset();
   return Done{};
 }
 
@@ -68,9 +71,11 @@ Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (const auto upper = pass.upper(); !upper.empty()) {
-    const bool special = std::ranges::any_of(upper, &LayerFrame::special);
-    if (Status s = patches_->prepare_upper(special); !s) return s;
+  patches_->set_air(air_of(pass));
+  patches_->set_light(light_of(pass.input));
+  for (const LayerFrame& layer : pass.input.layers) {
+    const bool numbers = layer.gpu->numbers.has_value();
+    if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
   }
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;
@@ -106,7 +111,15 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuf
   return counts;
 }
 
+// The air before ground and limb. An eye under the ground sees none.
+const AirTextures* GlobeRenderer::air_of(const Pass& pass) const {
+  if (!pass.input.sky || !sky_ || under_ground(pass) || pass.input.naive_translucency) return nullptr;
+  return sky_->fit_air(pass.eye.view, *pass.input.sky);
+}
+
 void GlobeRenderer::draw_picture(const Pass& pass) {
+  air_ = air_of(pass);
+  static_cast<void>(patches_->set_air(air_));  // prepare() has built the programs
   upload_frame(pass);
   begin_picture(pass);
   if (pass.input.naive_translucency) {
@@ -124,10 +137,14 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
     draw_inner_sphere(pass);
     draw_far_side_curtain(pass);
   }
-  draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  // An underground object may stand out over the limb. Under an opaque surface it is drawn after sky and limb; under a
+  // translucent surface it is marked, so that no air is painted over it.
+  const bool opaque = surface_look(pass) == SurfaceFromBelow::opaque;
+  if (!opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, kSurfaceBit);
   draw_surface(pass);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
+  if (opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
@@ -171,7 +188,8 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
   if (glm::length(pass.eye.view.eye.xyz_m) <= radius_m) return;
-  pass.counts.draw_calls += inner_sphere_->draw(radius_m, picture_state(pass.eye));
+  pass.counts.draw_calls +=
+      inner_sphere_->draw(radius_m, pass.input.surface.inner_sphere_srgb, picture_state(pass.eye));
 }
 
 // A line of sight reaches the far side of the globe beyond its point that is nearest to the centre. The inner sphere
@@ -182,7 +200,8 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
   const double radius_m = inner_radius_m(pass.input);
   const double lowest_m = pass.input.relief != nullptr ? std::min(0.0, pass.input.relief->range_m().min_m) : 0.0;
   const std::vector<glm::vec3> curtain = far_side_curtain(pass.eye.view, e, radius_m, lowest_m);
-  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, picture_state(pass.eye));
+  const glm::vec3& color_srgb = pass.input.surface.inner_sphere_srgb;
+  pass.counts.draw_calls += inner_sphere_->draw_curtain(curtain, color_srgb, picture_state(pass.eye));
 }
 
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
@@ -194,7 +213,7 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
     const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
     mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
-              : limb_->draw(view.viewport, picture, state);
+              : limb_->draw(view, picture, pass.input.lit ? LimbLook::lit : LimbLook::imagery, air_, state);
     ++pass.counts.draw_calls;
   };
   const int rows_apart = pass.eye.interlaced ? 2 : 1;

@@ -20,6 +20,7 @@
 #include "render/surface/night_lights.h"
 #include "render/surface/outline_pass.h"
 #include "render/surface/patch_pass.h"
+#include "render/surface/slope_textures.h"
 #include "render/surface/tile_textures.h"
 #include "surface/layers.h"
 #include "surface/plan/patch_selection.h"
@@ -44,6 +45,7 @@ struct LayerFrame {
   double opacity = 1.0;
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
+  double height_m = 0.0;  ///< ImageLook::height_m
   /// The layer needs special programs: it shows on one side of the terminator, or takes alpha from brightness.
   bool special = false;
 };
@@ -60,6 +62,8 @@ struct FrameInput {
   SurfaceLook surface;
   std::optional<SkyInput> sky;  ///< none: a black background
   bool lit = true;
+  bool earth = false;             ///< has seas
+  bool timed = false;             ///< the Sun is where a time puts it; false: over the viewer's shoulder
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< direction to the Sun: unit vector, ECEF axes
   std::uint64_t frame = 0;
   double ground_m = 0.0;     ///< height of the ground under the eye
@@ -86,6 +90,8 @@ class GlobeRenderer {
   /// Makes the programs for patches with or without relief. Call it before the first frame. The caller discards the
   /// vertices of all layers.
   Status set_relief(bool on);
+  /// Forgets the slopes on the GPU, because other heights will be drawn.
+  void forget_slopes() { slopes_.reset(); }
   /// True if the current context is the one with this renderer's objects. Tests names that contexts do not share.
   [[nodiscard]] bool is_of_current_context() const { return patches_->is_of_current_context(); }
 
@@ -121,12 +127,17 @@ class GlobeRenderer {
     FrameCounts& counts;
     [[nodiscard]] const LayerFrame& base() const { return input.layers.front(); }
     [[nodiscard]] std::span<const LayerFrame> upper() const { return std::span(input.layers).subspan(1); }
+    [[nodiscard]] LayerRole role_of(const LayerFrame& layer) const {
+      if (&layer == &base()) return LayerRole::base;
+      return layer.special ? LayerRole::special : LayerRole::upper;
+    }
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   // globe_renderer.cpp: the order of the passes.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
+  [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
   void begin_picture(const Pass& pass) const;
   void draw_picture(const Pass& pass);
@@ -146,7 +157,8 @@ class GlobeRenderer {
 
   // globe_surface.cpp: the image layers.
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
-  void upload_layers(const FrameInput& input) const;
+  void upload_layers(const FrameInput& input);
+  [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
@@ -155,6 +167,8 @@ class GlobeRenderer {
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
   void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
+  void draw_over_ground(const Pass& pass, const LayerFrame& layer, DrawState state) const;
+  [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
   // globe_sight.cpp: what an eye can see.
@@ -171,11 +185,13 @@ class GlobeRenderer {
   RenderOptions options_;
   Ellipsoid ellipsoid_;
   std::unique_ptr<PatchPass> patches_;
+  std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief
   std::unique_ptr<LimbPass> limb_;
   std::unique_ptr<OutlinePass> outline_;
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;
+  const AirTextures* air_ = nullptr;  ///< of the eye whose picture is drawn; null: none
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;

@@ -29,7 +29,8 @@ double GlobeRenderer::inner_radius_m(const FrameInput& input) const {
 bool GlobeRenderer::has_inner_sphere(const Pass& pass) const {
   if (inner_radius_m(pass.input) <= 0.0) return false;
   if (under_ground(pass)) return true;
-  return pass.input.surface.alpha < 1.0 && objects_ && objects_->has(ObjectPart::underground);
+  const bool coloured = pass.input.surface.inner_sphere_srgb != glm::vec3(0.0F);
+  return pass.input.surface.alpha < 1.0 && (coloured || (objects_ && objects_->has(ObjectPart::underground)));
 }
 
 // Radius of a sphere that hides objects, so that they need not be drawn: the inner sphere, or the largest sphere under
@@ -77,7 +78,8 @@ bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
 // If nothing covers the limb, the limb is drawn after the picture is copied, which saves a copy.
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
   if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0)) return false;
-  return !objects_ || !(under_ground(pass) || objects_->has(ObjectPart::above_ground));
+  if (!objects_) return true;
+  return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));
 }
 
 // Distance of the near plane: a tenth of the way to the nearest thing that is drawn, less if the picture is very wide.

@@ -1,5 +1,7 @@
 #include "render/globe_renderer.h"
 
+#include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "render/frame_camera.h"
@@ -9,16 +11,26 @@
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 namespace terrella {
+namespace {
+
+// In a lit picture, pixels beside the limb are integrated whole, so that ice there shows no dashes. A picture of the
+// imagery alone keeps to the plain footprint, which measurements compare.
+constexpr double kLitFootprint_texels = 3.0;
+
+}  // namespace
 
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
   return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
 }
 
 // An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
-void GlobeRenderer::upload_layers(const FrameInput& input) const {
+void GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
   patches_->set_paper_band(input.paper_band);
+  patches_->set_plain_footprint(input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
+  const bool shaded = input.relief != nullptr && input.lit;
+  if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
@@ -26,9 +38,10 @@ void GlobeRenderer::upload_layers(const FrameInput& input) const {
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr);
+      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr ? &input.relief->grid() : nullptr);
     }
     patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
+    if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
 }
 
@@ -63,7 +76,29 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
   draw_base(pass, state);
   state.depth = kSameDepth;
   state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
-  for (const LayerFrame& layer : pass.upper()) draw_upper(pass, layer, state);
+  for (const LayerFrame& layer : pass.upper()) {
+    is_over_ground(pass, layer) ? draw_over_ground(pass, layer, state) : draw_upper(pass, layer, state);
+  }
+}
+
+// An unlit layer lies on the ground: its pixels are compared with others.
+bool GlobeRenderer::is_over_ground(const Pass& pass, const LayerFrame& layer) const {
+  return layer.height_m > 0.0 && pass.input.lit && ellipsoid_.to_geodetic(pass.eye.view.eye).height_m > layer.height_m;
+}
+
+// First the shadow, on the ground, then the layer itself where nothing is nearer. The layer writes no depth.
+void GlobeRenderer::draw_over_ground(const Pass& pass, const LayerFrame& layer, DrawState state) const {
+  if (layer.patches->empty()) return;
+  const auto draw_at = [&](double height) {
+    const auto value = static_cast<float>(height);
+    glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look), sizeof(float), &value);
+    draw_upper(pass, layer, state);
+  };
+  draw_at(-layer.height_m / ellipsoid_.a_m());
+  state.depth = depth(DepthTest::nearer_or_equal);
+  state.depth->write = false;
+  if (state.stencil) state.stencil->write_mask = 0;  // beyond the limb air lies before the layer
+  draw_at(layer.height_m);
 }
 
 // First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
@@ -87,13 +122,15 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
-  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, state, pass.counts);
+  if (light_of(pass.input).relief) slopes_->bind(*base.gpu);
+  patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, LayerRole::base, state, pass.counts);
 }
 
 void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
-  patches_->draw_upper(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, layer.special, state, pass.counts);
+  if (light_of(pass.input).relief) slopes_->bind(*layer.gpu);
+  patches_->draw(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, pass.role_of(layer), state, pass.counts);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
@@ -120,6 +157,13 @@ void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) c
                                layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
 }
 
+PatchLight GlobeRenderer::light_of(const FrameInput& input) {
+  const Sharpness sharpness = input.surface.sharpness;
+  return {.relief = input.relief != nullptr && input.lit,
+          .bicubic = sharpness == Sharpness::bicubic || (sharpness == Sharpness::automatic && input.lit),
+          .glint = input.lit && input.timed && input.sky && input.earth && input.surface.glint};
+}
+
 void GlobeRenderer::upload_frame(const Pass& pass) {
   const View& view = pass.eye.view;
   const Ellipsoid& e = ellipsoid_;
@@ -128,6 +172,22 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block = frame_of_camera(view, near_m(pass), far_m);
   block.sun_ecef = glm::vec4(glm::vec3(pass.input.sun), pass.input.lit ? 1.0F : 0.0F);
   block.paper = glm::vec4(pass.input.paper_a, pass.input.paper_band, 0.0, 0.0);
+  if (air_ != nullptr) {
+    block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
+    const double r = air_->eye_radius(), horizon_m = e.a_m() * std::sqrt((r - 1.0) * (r + 1.0));
+    block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, r * e.a_m(), (r - 1.0) * e.a_m());
+    const double focal_px = view.pixels_per_radian();
+    block.horizon_from_ecef[0].w =
+        static_cast<float>(pass.eye.left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px);
+    block.horizon_from_ecef[1].w = static_cast<float>(0.5 * view.viewport.height_px);
+    block.horizon_from_ecef[2].w = static_cast<float>(1.0 / focal_px);
+  }
+  if (light_of(pass.input).relief) {
+    block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
+                             slopes_->slot_share(), 0.0);
+  }
+  constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
+  block.surface_look = glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight, 0.0F, 0.0F);
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

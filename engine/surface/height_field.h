@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <unordered_map>
 #include <vector>
 
@@ -45,6 +46,12 @@ class HeightField {
   [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
   /// The same by the row latitude of grid(), degrees.
   [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg) const;
+  /// Slopes at the pixel middles of a tile and of `border_px` around it: rise per metre towards east and north.
+  /// Row-major from the north-west, (tile_px + 2 · border_px)². A slope is the difference over four pixels, of fourth
+  /// order. Pixels beyond the tile are those of the field there. A tile that is not loaded, or finer than the grid's
+  /// finest level, takes its slopes from its nearest loaded ancestor by a cubic B-spline, so that they bend evenly. 0
+  /// if there is none.
+  [[nodiscard]] std::vector<glm::vec2> slopes(const TileId& id, int border_px) const;
 
   /// No height in the box lies outside, rounding (1 part in 10^12) aside; the pixels that bound it may lie a block
   /// (kBlock_px) beyond the box. East < west crosses ±180°.
@@ -87,6 +94,13 @@ class HeightField {
   [[nodiscard]] double pixel(const Held& own, std::int64_t x, std::int64_t y) const;
   [[nodiscard]] double pixel_round_planet(const Held& own, std::int64_t x, std::int64_t y) const;
   [[nodiscard]] double pixel_in_tiles(const Held& own, std::int64_t x, std::int64_t y) const;
+
+  /// A rectangle of pixels of a tile, and around it.
+  struct PixelRect {
+    std::int64_t x0, y0, width, height;
+  };
+  [[nodiscard]] std::vector<glm::vec2> slopes_within(const TileId& id, const PixelRect& rect) const;
+  [[nodiscard]] std::vector<glm::vec2> finer_slopes(const TileId& id, const TileId& loaded, int border_px) const;
 
   [[nodiscard]] GroundRange range_of_rows(const GeoRect& rows, double exaggeration) const;
   void widen_by_box(const RowBox& box, Extrema& extrema) const;

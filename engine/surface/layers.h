@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "tiles/tile_grid.h"
+#include "view/number_look.h"
 
 namespace terrella {
 
@@ -31,6 +33,11 @@ struct ImageLook {
   int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
+  /// Height of an upper layer over the ellipsoid, metres, [0, 1e6], such as that of clouds. The layer moves against the
+  /// ground and throws a shadow on it. An eye below this height sees the layer on the ground, and no shadow.
+  double height_m = 0.0;
+  /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.
+  std::optional<NumberLook> numbers = {};
   bool operator==(const ImageLook&) const = default;
 };
 

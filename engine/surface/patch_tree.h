@@ -59,7 +59,6 @@ struct PatchRelief {
   double middle_m = 0.0;       ///< its heights lie within half_m of this
   double half_m = 0.0;
   std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
-  std::vector<glm::vec2> slopes;  ///< of the ground there: rise a metre towards east and north
   double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
   std::uint64_t made = 0;         ///< counts up as heights_m changes
   std::uint64_t bounds_seen = 0, mesh_seen = 0;

@@ -87,6 +87,18 @@ bool Relief::changed_since(const PatchTree& tree, const PatchNode& node, std::ui
   return false;
 }
 
+bool Relief::changed_since(const TileId& id, std::uint64_t since) const {
+  if (since < changes_forgotten_) return true;
+  const Change tile = change_of(ancestor(id, std::max(0, id.level - grid().max_level)));
+  const double half_deg = 0.5 * (tile.east - tile.west), middle_deg = 0.5 * (tile.west + tile.east);
+  return std::any_of(changes_.begin() + static_cast<std::ptrdiff_t>(since - changes_forgotten_), changes_.end(),
+                     [&](const Change& change) {
+                       const double apart_deg = wrapped_deg(0.5 * (change.west + change.east) - middle_deg);
+                       return tile.north >= change.south && tile.south <= change.north &&
+                              std::abs(apart_deg) <= half_deg + 0.5 * (change.east - change.west);
+                     });
+}
+
 // New nodes are up to date (TreeGrowth), so the roots tell of all nodes.
 void Relief::refresh_bounds(PatchTree& tree) const {
   if (tree.root(CubeFace::pos_x).relief.bounds_seen == changes_seen()) return;
@@ -131,33 +143,17 @@ bool Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) const {
 
 void Relief::measure_vertices(const PatchTree& tree, PatchNode& node) const {
   const int n = tree.segments();
-  const double step_rad = 0.5 * std::numbers::pi / (std::ldexp(1.0, node.id.level) * n);
   PatchRelief& relief = node.relief;
   relief.heights_m.clear();
-  relief.slopes.clear();
   const auto side = static_cast<std::size_t>(n) + 1;
   relief.heights_m.reserve(side * side);
-  relief.slopes.reserve(side * side);
   HeightField::Cursor ground(field_);
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       const Geodetic at = Ellipsoid::lat_lon(patch_point(node.id, i, j, n, tree.mapping()));
       relief.heights_m.push_back(exaggeration_ * ground.height_at_row_m(field_.row_deg(at.lat), at.lon.deg()));
-      relief.slopes.push_back(slope(ground, at.lat, at.lon, step_rad));
     }
   }
-}
-
-// Rise over two steps around the point, east and north.
-glm::vec2 Relief::slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const {
-  const auto height = [&](double row_deg, Angle at_lon) { return ground.height_at_row_m(row_deg, at_lon.deg()); };
-  const double row_deg = field_.row_deg(lat);
-  const double north_deg = field_.row_deg(Angle::radians(std::min(lat.rad() + step_rad, 0.5 * std::numbers::pi)));
-  const double south_deg = field_.row_deg(Angle::radians(std::max(lat.rad() - step_rad, -0.5 * std::numbers::pi)));
-  const Angle turn = Angle::radians(std::min(step_rad / std::max(1e-6, std::cos(lat.rad())), 1.0));
-  const double run_m = 2.0 * step_rad * ellipsoid_.a_m();
-  return glm::vec2(exaggeration_ * (height(row_deg, lon + turn) - height(row_deg, lon - turn)) / run_m,
-                   exaggeration_ * (height(north_deg, lon) - height(south_deg, lon)) / run_m);
 }
 
 // A mesh strays furthest in the middle of its quads.

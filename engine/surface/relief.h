@@ -60,8 +60,10 @@ class Relief : public GroundHeights {
   [[nodiscard]] bool is_stale(const PatchTree& tree, const PatchNode& node) const {
     return node.relief.heights_m.empty() || changed_since(tree, node, node.relief.mesh_seen);
   }
-  /// Makes the meshes of nodes whose heights have changed: the heights of their vertices, the slopes there and the
-  /// error between them. Returns how many it made.
+  /// True if heights of the tile, or beside it, may have changed since changes_seen() was `since`.
+  [[nodiscard]] bool changed_since(const TileId& id, std::uint64_t since) const;
+  /// Makes the meshes of nodes whose heights have changed: the heights of their vertices, and the error between them.
+  /// Returns how many it made.
   int make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const;
 
   /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
@@ -80,7 +82,6 @@ class Relief : public GroundHeights {
   bool refresh_mesh(const PatchTree& tree, PatchNode& node) const;
   void measure_vertices(const PatchTree& tree, PatchNode& node) const;
   void measure_error(const PatchTree& tree, PatchNode& node) const;
-  [[nodiscard]] glm::vec2 slope(HeightField::Cursor& ground, Angle lat, Angle lon, double step_rad) const;
   void want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted);
   void stamp(TileResidency::Entry& entry) const;
   void keep_to_budget();

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "geo/longitudes.h"
 #include "tiles/height_decoder.h"
 
 namespace terrella {
 namespace {
+
+/// Units that mean metres; a set without a unit is taken for metres.
+constexpr std::array<std::string_view, 5> kMetres = {"", "m", "metre", "meter", "metres"};
 
 /// Number of tiles of the coarsest level that are tried to find an existing one.
 constexpr std::int64_t kMaxLookedAt = 64;
@@ -33,11 +38,15 @@ bool holds(const GeoRect& outer, const GeoRect& inner, double slack_deg) {
 Result<ElevationSource> ElevationSource::open(std::shared_ptr<TileSource> tiles, const std::string& name,
                                               const GeoRect& covered) {
   const TileSetInfo& info = tiles->info();
-  if (!info.elevation) {
+  if (!info.numbers) {
     return Error{
         fmt::format("{}: its tiles are pictures, not heights; `terrella cut --elevation` makes tiles of heights of a "
                     "picture of 16 bits or floats, gdal_translate -of GPKG of a raster of Int16 or Float32",
                     name)};
+  }
+  if (std::ranges::find(kMetres, info.numbers->unit) == kMetres.end()) {
+    return Error{fmt::format("{}: its numbers are in \"{}\", heights must be in metres (gdal_calc.py converts them)",
+                             name, info.numbers->unit)};
   }
   const double pixel_deg = tile_span_deg(info.grid, info.grid.max_level) / info.grid.tile_px;
   if (!holds(info.grid.bounds, covered, 0.5 * pixel_deg)) {
@@ -74,7 +83,7 @@ Result<HeightTile, TileFailure> ElevationSource::read(const TileId& id) const {
 
 Result<HeightTile, TileFailure> ElevationSource::decode(const TileId& id, const EncodedTile& tile) const {
   const TileSetInfo& info = tiles_->info();
-  return decode_heights(id, tile, *info.elevation, info.grid.tile_px);
+  return decode_heights(id, tile, *info.numbers, info.grid.tile_px);
 }
 
 }  // namespace terrella

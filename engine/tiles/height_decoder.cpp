@@ -21,7 +21,7 @@ TileFailure broken(const std::string& why) { return {MissingKind::broken, why}; 
 
 /// The nodata of float tiles may be written with more digits than a float holds. A value beyond the range of floats
 /// means nothing.
-std::optional<double> nodata_of(const ElevationInfo& info) {
+std::optional<double> nodata_of(const NumberInfo& info) {
   if (!info.floats || !info.nodata) return info.nodata;
   if (std::abs(*info.nodata) > static_cast<double>(std::numeric_limits<float>::max())) return {};
   return static_cast<double>(static_cast<float>(*info.nodata));
@@ -43,6 +43,24 @@ Result<Numbers, TileFailure> from_png(const EncodedTile& encoded, int side_px, b
     return is_signed ? static_cast<float>(static_cast<std::int16_t>(bits)) : static_cast<float>(bits);
   };
   std::ranges::transform(gray->values, std::back_inserter(numbers.values), number);
+  return numbers;
+}
+
+Result<Numbers, TileFailure> from_colours(const EncodedTile& encoded, int side_px) {
+  if (sniff_format(encoded.bytes) == ImageFormat::jpeg) {
+    return broken("a JPEG picture, whose colours are not exact; heights in colours are PNG or lossless WebP");
+  }
+  DecodeLimits limits;
+  limits.max_side_px = std::max(side_px, 1024);
+  const Result<Image> image = decode_image(encoded.bytes, limits);
+  if (!image) return broken(image.error().message);
+  Numbers numbers{image->width_px, image->height_px, std::vector<float>(image->rgba.size() / 4)};
+  for (std::size_t i = 0; i < numbers.values.size(); ++i) {
+    const std::uint8_t* pixel = image->rgba.data() + 4 * i;
+    // 24 bits are as many as a float has.
+    numbers.values[i] = pixel[3] == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                      : static_cast<float>(pixel[0] * 65536 + pixel[1] * 256 + pixel[2]);
+  }
   return numbers;
 }
 
@@ -77,8 +95,9 @@ Result<HeightTile, TileFailure> to_heights(HeightTile tile, const Numbers& numbe
 
 }  // namespace
 
-Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const ElevationInfo& info, int side_px) {
+Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const NumberInfo& info, int side_px) {
   auto numbers = tile.make_numbers ? tile.make_numbers()
+                 : info.rgb        ? from_colours(tile, side_px)
                  : info.floats     ? from_tiff(tile, side_px)
                                    : from_png(tile, side_px, info.is_signed);
   if (!numbers) return numbers;
@@ -95,7 +114,7 @@ Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const Eleva
   return numbers;
 }
 
-Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile, const ElevationInfo& info,
+Result<HeightTile, TileFailure> decode_heights(const TileId& id, const EncodedTile& tile, const NumberInfo& info,
                                                int side_px) {
   const auto numbers = decode_numbers(tile, info, side_px);
   if (!numbers) return numbers.error();

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "tiles/number_texels.h"
 #include "tiles/tile_scheduler.h"
 
 namespace terrella {
@@ -35,11 +36,13 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
 template class Loader<TileTexels>;
 
 TileLoader::TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options)
-    : Loader(start_scheduler<TileTexels>(
-          source, options.workers, options.max_finished_bytes, options.bell,
-          [tile_px = source->info().grid.tile_px, options](const TileId&, const EncodedTile& tile) {
-            return texels_of(tile, tile_px, options);
-          })) {
+    : Loader(start_scheduler<TileTexels>(source, options.workers, options.max_finished_bytes, options.bell,
+                                         [tile_px = source->info().grid.tile_px, numbers = source->info().numbers,
+                                          options](const TileId&, const EncodedTile& tile) {
+                                           return numbers ? make_number_texels(tile, *numbers, tile_px, options.gutter,
+                                                                               options.mips)
+                                                          : texels_of(tile, tile_px, options);
+                                         })) {
   assert(options.mips >= 1 && options.mips <= kMaxMips && options.gutter >= 0);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -25,6 +26,7 @@ template <class Decoded>
 struct Loaded {
   TileId id;
   Result<Decoded, TileFailure> tile;
+  std::uint64_t edition = 0;  ///< TileSource::edition() before the tile was read
 };
 
 struct LoaderOptions {
@@ -79,7 +81,7 @@ class Loader {
 };
 extern template class Loader<TileTexels>;
 
-/// Loads imagery: texels ready for upload, premultiplied. thread: main
+/// Loads imagery: texels ready for upload, premultiplied; of a set of numbers, number_texels.h. thread: main
 class TileLoader : public Loader<TileTexels> {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});

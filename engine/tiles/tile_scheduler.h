@@ -67,6 +67,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   struct Arrived {
     TileId id;
     Encoded encoded;
+    std::uint64_t edition = 0;
   };
 
   // thread: main
@@ -101,7 +102,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   }
 
   // thread: a thread of the source
-  void arrive(const TileId& id, Encoded encoded);
+  void arrive(Arrived tile);
 
   const std::shared_ptr<TileSource> source_;
   const Decode decode_;

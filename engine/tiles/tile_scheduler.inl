@@ -135,21 +135,22 @@ void TileScheduler<Decoded>::work() {
 template <class Decoded>
 void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish) {
   lock.unlock();
+  const std::uint64_t edition = source_->edition();
   Encoded encoded = read(wish.id);
   const bool is_remote = !encoded && encoded.error().kind == MissingKind::remote;
   lock.lock();
-  if (!is_remote || remote_ == nullptr) return decode(lock, {wish.id, std::move(encoded)});
+  if (!is_remote || remote_ == nullptr) return decode(lock, {wish.id, std::move(encoded), edition});
   running_.erase(wish.id);
   if (stopping_) return;
   fetching_.insert(wish.id);
   lock.unlock();
   // The answer may come after this loader is gone.
   try {
-    remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id](Encoded answer) {
-      if (const auto self = loader.lock()) self->arrive(id, std::move(answer));
+    remote_->fetch(wish.id, wish.priority, [loader = this->weak_from_this(), id = wish.id, edition](Encoded answer) {
+      if (const auto self = loader.lock()) self->arrive({id, std::move(answer), edition});
     });
   } catch (...) {
-    arrive(wish.id, caught());
+    arrive({wish.id, caught(), edition});
   }
   lock.lock();
 }
@@ -166,7 +167,7 @@ typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const Tile
 template <class Decoded>
 void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Arrived& tile) {
   lock.unlock();
-  Finished finished{tile.id, decoded(tile)};
+  Finished finished{tile.id, decoded(tile), tile.edition};
   lock.lock();
   running_.erase(tile.id);
   ++read_;
@@ -191,11 +192,11 @@ Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile
 // ---- thread: a thread of the source
 
 template <class Decoded>
-void TileScheduler<Decoded>::arrive(const TileId& id, Encoded encoded) {
+void TileScheduler<Decoded>::arrive(Arrived tile) {
   {
     const std::lock_guard lock(mutex_);
-    if (fetching_.erase(id) == 0) return;
-    arrived_.push_back({id, std::move(encoded)});
+    if (fetching_.erase(tile.id) == 0) return;
+    arrived_.push_back(std::move(tile));
   }
   work_changed_.notify_one();
 }

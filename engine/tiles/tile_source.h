@@ -16,15 +16,39 @@
 
 namespace terrella {
 
-/// The meaning of the numbers in tiles of heights.
-struct ElevationInfo {
-  double scale = 1.0;                 ///< metres = number · scale + offset; not 0
-  double offset = 0.0;                ///< metres
-  std::optional<double> nodata = {};  ///< number that means "no height"; for integer tiles in [0, 65535]
+/// A range of whole numbers.
+struct WholeRange {
+  int least = 0;
+  int most = 0;  ///< ≥ least
+  bool operator==(const WholeRange&) const = default;
+};
+
+/// The meaning of the numbers in tiles: heights, temperatures, any quantity with one number per pixel.
+struct NumberInfo {
+  double scale = 1.0;                 ///< value = number · scale + offset, in `unit`; not 0
+  double offset = 0.0;                ///< in `unit`
+  std::optional<double> nodata = {};  ///< number that means "no data"; for integer tiles in [0, 65535]
   bool floats = false;                ///< true: tiles are TIFFs of 32-bit floats; false: gray PNGs of 16 bits
   bool is_signed = false;             ///< the 16 bits of a PNG are a two's complement number, as GDAL's Int16
-  bool operator==(const ElevationInfo&) const = default;
+  /// true: tiles are lossless pictures of 8-bit colours, number = R · 65536 + G · 256 + B, clear pixels have no data:
+  /// terrain-RGB and Terrarium
+  bool rgb = false;
+  /// Set: all numbers at full resolution are whole and lie in this range, `nodata` included. Such numbers take half the
+  /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
+  std::optional<WholeRange> whole = {};
+  std::string unit = {};      ///< of values, for a person: "m", "°C"; empty: unknown, heights in metres
+  std::string quantity = {};  ///< for a person: "height", "temperature"; empty: unknown
+  bool operator==(const NumberInfo&) const = default;
 };
+
+/// The meaning of the same numbers once they are decoded: floats, NaN for "no data". thread: any
+[[nodiscard]] inline NumberInfo decoded(NumberInfo info) {
+  info.nodata.reset();
+  info.is_signed = false;
+  info.rgb = false;
+  info.floats = true;
+  return info;
+}
 
 /// The square of a coordinate reference system that a `projected` grid covers.
 struct CrsSquare {
@@ -42,7 +66,7 @@ struct TileSetInfo {
   std::string body;  ///< preset name or "A,F"; empty: unknown
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
-  std::optional<ElevationInfo> elevation = {};  ///< set: the tiles are heights; none: pictures
+  std::optional<NumberInfo> numbers = {};  ///< set: the tiles are numbers; none: pictures
   /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
   std::optional<CrsSquare> square = {};  ///< of a `projected` grid: this set's, or that of `made_of`
@@ -66,12 +90,12 @@ struct TileFailure {
 /// The bytes of one tile as stored, or a function that makes its picture.
 struct EncodedTile {
   std::vector<std::byte> bytes;
-  /// For heights: decoded · scale + offset is the number in the terms of the set (ElevationInfo).
+  /// For numbers: decoded · scale + offset is the number in the terms of the set (NumberInfo).
   double number_scale = 1.0;
   double number_offset = 0.0;
   /// For a tile that is made of others: makes its picture, and `bytes` is empty. Takes milliseconds. thread: worker
   std::function<Result<Image, TileFailure>()> make_picture = {};
-  /// The same for heights: makes the numbers as decoded from a tile, tile_px a side. thread: worker
+  /// The same for a set of numbers: makes the numbers as decoded from a tile, tile_px a side. thread: worker
   std::function<Result<Numbers, TileFailure>()> make_numbers = {};
 };
 
@@ -97,6 +121,18 @@ class TileSource {
   /// Returns the object that fetches tiles for which read() returns `remote`; null for a source whose tiles are all
   /// local. Lives as long as the source.
   [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }
+  /// Returns the value of the finest pixel at a place on the body `figure`, as the source stores it: not resampled,
+  /// scale and offset applied (NumberInfo). `blank`: that pixel has no data; `absent`: the source has no numbers there;
+  /// `remote`: only the network has them. Decodes a tile, milliseconds. thread: worker
+  [[nodiscard]] virtual Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure);
+  /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
+  /// changed since they were read, and shows the earlier ones meanwhile. thread: any
+  [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
+  /// Count of the last change of a tile that could be read before. thread: any
+  [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
+    static_cast<void>(id);
+    return edition();
+  }
   /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "tiles/texel_border.h"
+
 namespace terrella {
 namespace {
 
@@ -52,33 +54,8 @@ WeighedSums weighed_by_alpha(const Image& tile) {
   return weighed;
 }
 
-void fill_side(std::uint8_t* first, const std::uint8_t* texel, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(first + i * kChannels, texel, kChannels);
-}
-
-/// Writes rows of `side` texels, made by write_row(row, target), into a square with a border of clamped texels.
-template <class WriteRow>
-std::vector<std::uint8_t> with_border(std::size_t side, std::size_t border, const WriteRow& write_row) {
-  const std::size_t row_bytes = (side + 2 * border) * kChannels;
-  std::vector<std::uint8_t> texels(row_bytes * (side + 2 * border));
-  for (std::size_t row = 0; row < side; ++row) {
-    std::uint8_t* line = texels.data() + (row + border) * row_bytes;
-    std::uint8_t* inner = line + border * kChannels;
-    write_row(row, inner);
-    fill_side(line, inner, border);
-    fill_side(inner + side * kChannels, inner + (side - 1) * kChannels, border);
-  }
-  std::uint8_t* first = texels.data() + border * row_bytes;
-  std::uint8_t* last = first + (side - 1) * row_bytes;
-  for (std::size_t i = 0; i < border; ++i) {
-    std::memcpy(texels.data() + i * row_bytes, first, row_bytes);
-    std::memcpy(last + (i + 1) * row_bytes, last, row_bytes);
-  }
-  return texels;
-}
-
 std::vector<std::uint8_t> finest_mip(const Image& tile, std::size_t side, std::size_t border) {
-  return with_border(side, border, [&](std::size_t row, std::uint8_t* target) {
+  return with_border<kChannels>(side, border, [&](std::size_t row, std::uint8_t* target) {
     std::memcpy(target, tile.rgba.data() + row * side * kChannels, side * kChannels);
   });
 }
@@ -86,7 +63,7 @@ std::vector<std::uint8_t> finest_mip(const Image& tile, std::size_t side, std::s
 std::vector<std::uint8_t> mean_mip(const Sums& sums, std::size_t side, std::size_t border, int mip) {
   const int shift = 2 * mip;
   const std::uint32_t half = 1U << (shift - 1);
-  return with_border(side, border, [&](std::size_t row, std::uint8_t* target) {
+  return with_border<kChannels>(side, border, [&](std::size_t row, std::uint8_t* target) {
     const std::uint16_t* from = sums.data() + row * side * kChannels;
     for (std::size_t i = 0; i < side * kChannels; ++i) target[i] = static_cast<std::uint8_t>((from[i] + half) >> shift);
   });
@@ -94,7 +71,7 @@ std::vector<std::uint8_t> mean_mip(const Sums& sums, std::size_t side, std::size
 
 std::vector<std::uint8_t> mean_mip(const WeighedSums& sums, std::size_t side, std::size_t border, int mip) {
   const int shift = 2 * mip;
-  return with_border(side, border, [&](std::size_t row, std::uint8_t* target) {
+  return with_border<kChannels>(side, border, [&](std::size_t row, std::uint8_t* target) {
     const std::uint32_t* from = sums.data() + row * side * kChannels;
     for (std::size_t i = 0; i < side * kChannels; i += kChannels) {
       const std::uint32_t alpha = from[i + 3];

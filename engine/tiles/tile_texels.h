@@ -12,11 +12,12 @@ namespace terrella {
 inline constexpr int kMaxMips = 5;
 
 /// A tile in the layout of a texture array: mip levels, each with a border that repeats its edge texels. Mip k has
-/// (tile_px >> k) + 2 · (gutter >> k) texels per side, RGBA8, rows from the top, no padding.
+/// (tile_px >> k) + 2 · (gutter >> k) texels per side, RGBA8 or numbers (number_texels.h), rows from the top, no
+/// padding.
 struct TileTexels {
   int tile_px = 0;
   int gutter = 0;                               ///< texels of border on each side of mip 0
-  bool opaque = true;                           ///< true if every texel's alpha is 255
+  bool opaque = true;                           ///< true if every texel's alpha is 255, or has data
   std::vector<std::vector<std::uint8_t>> mips;  ///< finest first
 };
 

@@ -119,11 +119,11 @@ void Navigator::wheel(glm::dvec2 at_px, double steps, Seconds now) {
   const double factor = std::pow(kWheelFactor, std::clamp(steps, -20.0, 20.0));
   if (Drag* drag = std::get_if<Drag>(&motion_)) {
     const double base = base_m({drag->held, true});
-    set_height(base + nearer_m(camera_.eye.height_m - base, factor));
+    set_height(base + zoomed_m(camera_.eye.height_m - base, factor, now));
     drag->start = camera_;
     pin_drag(*drag);
   } else if (!std::holds_alternative<Turn>(motion_)) {
-    zoom_by(factor, at_px);
+    zoom_by(factor, at_px, now);
   }
 }
 
@@ -163,9 +163,9 @@ void Navigator::key(NavigationKey key, Seconds now) {
     case NavigationKey::pan_down:
       return pan_by({0.0, -pan_px});
     case NavigationKey::zoom_in:
-      return zoom_by(kKeyFactor, {});
+      return zoom_by(kKeyFactor, {}, now);
     case NavigationKey::zoom_out:
-      return zoom_by(1.0 / kKeyFactor, {});
+      return zoom_by(1.0 / kKeyFactor, {}, now);
     case NavigationKey::north_up:
       motion_ = TurnNorth{grab_at(centre_px()), camera_.heading};
       return;
@@ -229,7 +229,7 @@ void Navigator::set_height(double height_m) {
   camera_.eye.height_m = clamped_m;
 }
 
-void Navigator::zoom_by(double factor, std::optional<glm::dvec2> at_px) {
+void Navigator::zoom_by(double factor, std::optional<glm::dvec2> at_px, Seconds now) {
   const Zoom* running = std::get_if<Zoom>(&motion_);
   const double from_m = running != nullptr ? running->base_m + running->target_m : camera_.eye.height_m;
   const glm::dvec2 px = at_px.value_or(centre_px());
@@ -240,7 +240,7 @@ void Navigator::zoom_by(double factor, std::optional<glm::dvec2> at_px) {
                  heading_rule(camera_, body(), held.point),
                  px,
                  base,
-                 nearer_m(from_m - base, factor)};
+                 zoomed_m(from_m - base, factor, now)};
 }
 
 void Navigator::pan_by(glm::dvec2 by_px) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "view/navigation.h"
 #include "view/view_limits.h"
@@ -18,6 +19,10 @@ constexpr Seconds kNorthTime(0.6);
 constexpr double kPanRest_px = 0.05;
 constexpr double kZoomRest = 1e-4;  // a zoom ends this close to its target, as a fraction of the height
 constexpr double kNorthEnough_deg = 0.01;
+
+constexpr double kMostTexel_px = 8.0;  // the wheel stops where a texel covers more
+constexpr double kAtStop = 1e-3;       // a height this near to the stop is at the stop, as a fraction
+constexpr Seconds kSecondPush(0.4);    // after such a pause the wheel goes on beyond the stop
 
 double decay(Seconds passed, Seconds time) { return std::exp(-passed / time); }
 
@@ -40,6 +45,18 @@ double Navigator::base_m(const Grab& held) const {
 double Navigator::nearer_m(double over_m, double factor) const {
   const HeightRange range = height_range(body());
   return deepest_m_ && over_m < 0.0 ? -range.clamp(-over_m * factor) : range.clamp(over_m * factor);
+}
+
+// Height over the ground after a step of the wheel or a key, with the stop at the finest texels.
+double Navigator::zoomed_m(double over_m, double factor, Seconds now) {
+  const double wanted_m = nearer_m(over_m, factor);
+  const Seconds pause = now - std::exchange(last_zoom_, now);
+  const double pixels_per_radian = 0.5 * viewport_.height_px / std::tan(0.5 * camera_.fov_y.rad());
+  const double stop_m = texel_m_.value_or(0.0) * pixels_per_radian / kMostTexel_px;
+  const bool crosses = over_m >= stop_m * (1.0 - kAtStop) && wanted_m < stop_m;
+  const bool stands = over_m <= stop_m * (1.0 + kAtStop);
+  at_texels_ = crosses && !(stands && pause > kSecondPush);
+  return at_texels_ ? stop_m : wanted_m;
 }
 
 void Navigator::stay_over_ground() {

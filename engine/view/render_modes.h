@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
@@ -37,6 +38,13 @@ enum class HorizonCulling {
   off,  ///< draws all patches in the view frustum
 };
 
+/// Filter of imagery whose texels are larger than pixels.
+enum class Sharpness {
+  automatic,  ///< bicubic; in an unlit picture, which is compared with others, bilinear
+  bilinear,   ///< one look-up, with edges between texels
+  bicubic,    ///< Catmull-Rom's filter: a tenth less error than bilinear, and no edges
+};
+
 /// The look of the surface. It can change from frame to frame.
 struct SurfaceLook {
   double alpha = 1.0;  ///< A, [0, 1]; 1: opaque, drawn in one pass
@@ -47,6 +55,14 @@ struct SurfaceLook {
   std::optional<double> inner_sphere_below_m = 1.0e6;
   SurfaceFromBelow from_below = SurfaceFromBelow::opaque;
   HorizonCulling horizon_culling = HorizonCulling::automatic;
+  /// Colour of the inner sphere, sRGB, [0, 1]. Black is paper 2's, the background's. Another colour is shaded softly,
+  /// so that the sphere looks round, and shows through a translucent surface also if nothing lies below.
+  glm::vec3 inner_sphere_srgb{0.0F};
+  /// Shades relief by light from the north-west at 45°, as maps do, instead of by the Sun. No effect without heights.
+  bool hillshade = false;
+  Sharpness sharpness = Sharpness::automatic;
+  /// The Sun's glint on the Earth's seas, where the base layer is as blue as water. Only with a sky and a time.
+  bool glint = true;
   bool operator==(const SurfaceLook&) const = default;
 };
 

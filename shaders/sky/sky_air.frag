@@ -5,6 +5,6 @@ layout(location = 0, index = 0) out vec4 color_srgb;
 layout(location = 0, index = 1) out vec4 transmitted_srgb;
 
 void main() {
-  color_srgb = vec4(light_srgb, 0.0);
+  color_srgb = vec4(light_srgb + dither(), 0.0);
   transmitted_srgb = vec4(through_srgb, 1.0);
 }

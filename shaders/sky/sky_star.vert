@@ -9,7 +9,7 @@ flat out float inverse_variance;
 flat out float point_px;
 
 // Light of a star of magnitude 0, in fully lit pixels, and the blur of a point by an eye or a lens, in pixels.
-const float kZeroMagnitude_px = 4.0;
+const float kZeroMagnitude_px = 12.0;
 const float kSpread_px = 0.6;
 
 void main() {

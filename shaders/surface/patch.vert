@@ -8,7 +8,20 @@ layout(location = 5) in vec4 patch_frame;
 layout(location = 6) in vec4 patch_row;
 layout(location = 7) in uvec4 patch_window;
 #if defined(RELIEF)
-layout(location = 8) in vec2 slope;  // slope of the ground: rise per metre towards east and north
+layout(location = 8) in vec2 height_offset_deg;  // as offset_deg, in the rows of the heights' grid
+layout(location = 9) in vec4 slope_center_and_scale;
+layout(location = 10) in uvec4 patch_slope_window;
+out vec2 slope_point;
+out vec3 light_enu;  // direction of the light on relief: east, north, up
+flat out uvec4 slope_window;
+const vec3 kFromNorthWest = vec3(-0.5, 0.5, 0.70710678);
+#endif
+
+#if defined(SPECIAL_LAYER)
+out float shadow_of_layer;
+#endif
+#if defined(GLINT)
+out vec3 glint;      // slope of the water that mirrors the Sun, east and north; light of a mirror as rough as the sea
 #endif
 
 invariant gl_Position;
@@ -19,6 +32,52 @@ flat out uvec4 window;
 flat out vec4 center_and_scale;
 flat out vec4 frame;
 flat out vec4 row;
+#if defined(AIR)
+layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
+layout(binding = 8) uniform sampler2D ground_light;
+out vec3 air_through;                                     // with NEAR_GROUND, the part that is lost per metre
+out vec3 air_light;
+
+#if defined(RELIEF)
+const float kAirScale_m = 7000.0;   // of gas and dust together
+
+// Ground over the ellipsoid has less air before it: that of the mean density between its height and the eye's.
+void thin_out(vec3 way) {
+  float eye = horizon_from_ecef[3].z;
+  vec3 place = way + vec3(0.0, 0.0, eye);
+  float eye_height = horizon_from_ecef[3].w, scale = kAirScale_m;
+  float above = max(0.0, length(place) - eye + eye_height) / scale, over = eye_height / scale;
+  over = abs(over - above) < 1e-3 ? above + 1e-3 : over;
+  float part = (exp(-above) - exp(-over)) / (over - above) * over / (1.0 - exp(-over));
+  vec3 thinner = pow(clamp(air_through, 0.0, 1.0), vec3(part));
+  air_light *= (1.0 - thinner) / max(1.0 - air_through, vec3(1e-4));
+  air_through = thinner;
+}
+#endif
+
+void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
+  mat3 to_horizon = mat3(horizon_from_ecef);
+  vec3 way = to_horizon * position_from_eye;
+  float away = max(length(way), 1e-3);
+  vec3 ray = way / away;
+  vec3 up = normalize(to_horizon * (normal_ecef * vec3(1.0, 1.0, horizon_from_ecef[3].x)));
+  float over = -dot(ray, up), down = clamp(over, 0.0, 1.0);
+  vec2 size = vec2(textureSize(ground_through, 0));
+  vec2 at = vec2(atan(abs(ray.y), ray.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down)));
+  at = (at * (size - 1.0) + 0.5) / size;
+  air_through = textureLod(ground_through, at, 0.0).rgb;
+  air_light = textureLod(ground_light, at, 0.0).rgb;
+#if defined(RELIEF)
+  thin_out(way);
+#endif
+#if defined(NEAR_GROUND)
+  // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
+  float metres = over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away;
+  air_through = (1.0 - air_through) / metres;
+  air_light /= metres;
+#endif
+}
+#endif
 
 // Soft light from the sun's side. The night side keeps a quarter.
 float light_of(vec3 normal_ecef) {
@@ -29,28 +88,71 @@ float light_of(vec3 normal_ecef) {
   return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
 }
 
+#if defined(REGOLITH)
+// Dust shines towards the Sun. surface_look.y is the light of the night side.
+float dust_light(vec3 normal_ecef, vec3 eye_ecef) {
+  float day = regolith_light(normal_ecef, sun_ecef.xyz, eye_ecef);
+  return mix(1.0, mix(surface_look.y, 1.0, day), sun_ecef.w);
+}
+#endif
+
+// East, north and up.
+vec3 in_enu(vec3 normal, vec3 v) {
+  vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
+  return vec3(dot(east, v), dot(cross(normal, east), v), dot(normal, v));
+}
+
+#if defined(GLINT)
+// C. Cox, W. Munk, "Measurement of the roughness of the sea surface", 1954, without the share of the slopes, which is
+// the fragment's; the mirror's light by Schlick's formula for water.
+vec3 sea_glint(vec3 normal, vec3 eye) {
+  vec3 half_way = normalize(eye + sun_ecef.xyz), middle = in_enu(normal, half_way);
+  float up = max(middle.z, 0.05), seen = max(dot(eye, normal), 0.05);
+  float mirror = 0.02 + 0.98 * pow(1.0 - max(dot(eye, half_way), 0.0), 5.0);
+  float day = smoothstep(0.0, 0.1, dot(normal, sun_ecef.xyz));
+  return vec3(middle.xy / up, day * mirror / (4.0 * seen * pow(up, 4.0)));
+}
+#endif
+
 void main() {
   // The high parts are subtracted first. Near the eye their difference is exact (Sterbenz), so the shared vertices of
   // two patches are equal.
   precise vec3 position_from_eye = (position_high_ecef - eye_high_ecef.xyz) + (position_low_ecef - eye_low_ecef.xyz);
+  vec3 center = vec3(patch_frame.xy * patch_frame.z, patch_frame.w);
+  vec3 m = center + direction;
+  vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
+#if defined(SPECIAL_LAYER)
+  position_from_eye += max(surface_look.x, 0.0) * normal;
+#endif
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;
   gl_Position = vec4(position_view.xy * clip_scale.xy, vertex_depth(w), w);
   window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
   row_direction = direction;
-  vec3 center = vec3(patch_frame.xy * patch_frame.z, patch_frame.w);
-  vec3 m = center + direction;
-  vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
-  light = light_of(normal);
-#if defined(RELIEF)
-  vec3 east = normalize(vec3(-normal.y, normal.x + 1e-12, 0.0));
-  vec3 ground = normalize(normal - slope.x * east - slope.y * cross(normal, east));
-  // Slopes towards the sun are brighter than level ground in the same light, slopes away from it darker.
-#if defined(NIGHT_LIGHTS)
-  light += dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz);
-#else
-  light *= clamp(1.0 + 1.3 * sun_ecef.w * (dot(ground, sun_ecef.xyz) - dot(normal, sun_ecef.xyz)), 0.3, 1.6);
+#if defined(SPECIAL_LAYER)
+  // The shadow of a layer over the ground: what lies towards the Sun. surface_look.x is then its height in radii, less
+  // than 0.
+  vec3 sun_enu = in_enu(normal, sun_ecef.xyz);
+  shadow_of_layer = 0.5 * sun_ecef.w * smoothstep(0.0, 0.2, sun_enu.z);
+  vec2 towards_sun = -min(surface_look.x, 0.0) * sun_enu.xy / max(sun_enu.z, 0.15);
+  towards_sun.x /= max(length(normal.xy), 0.01);
+  window_point += degrees(towards_sun) * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
 #endif
+#if defined(AIR)
+  look_through_air(position_from_eye, normal);
+#endif
+#if defined(REGOLITH)
+  light = dust_light(normal, -normalize(position_from_eye));
+#else
+  light = light_of(normal);
+#endif
+#if defined(GLINT)
+  glint = sea_glint(normal, -normalize(position_from_eye));
+#endif
+#if defined(RELIEF)
+  light_enu = relief.y > 0.0 ? kFromNorthWest : in_enu(normal, sun_ecef.xyz);
+  slope_point = slope_center_and_scale.xy + height_offset_deg * vec2(slope_center_and_scale.z, -slope_center_and_scale.w);
+  slope_window = patch_slope_window;
 #endif
   window = patch_window;
   center_and_scale = patch_center_and_scale;

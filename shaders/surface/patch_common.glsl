@@ -1,5 +1,4 @@
 // Look-ups shared by all texturing methods of patches.
-layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
 layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
 in vec2 window_point;
@@ -47,8 +46,6 @@ Cell cell_at(vec2 p) {
 #define IMAGERY(texel) (texel).rgb
 #endif
 
-Imagery tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
-
 // Geodetic normal, of any length.
 vec3 ground_normal() {
   return (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
@@ -70,15 +67,38 @@ vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
 }
 #endif
 
-vec3 lit(vec3 imagery_srgb, float alpha) {
-#if defined(NIGHT_LIGHTS)
-  return by_day_and_night(imagery_srgb, alpha);
+#if defined(GLINT) && !defined(UPPER_LAYER)
+in vec3 glint;
+
+// Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. The sea is where the imagery is clearly more
+// blue than red and no less than green. White ground of a full Sun has the light 1.
+vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
+  float light = glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029;
+  if (light < 1e-4) return color_srgb;
+  vec3 c = imagery_srgb + 0.02;
+  light *= smoothstep(1.2, 1.7, c.b / c.r) * smoothstep(0.85, 1.05, c.b / c.g);
+  return pow(pow(color_srgb, vec3(2.2)) + min(light, 1.5) * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));
+}
 #else
-  return imagery_srgb * light;
+#define with_glint(color_srgb, imagery_srgb) (color_srgb)
+#endif
+
+vec3 lit(vec3 imagery_srgb, float alpha) {
+#if defined(RELIEF)
+  vec3 shaded_srgb = imagery_srgb * relief_light();
+#else
+  vec3 shaded_srgb = imagery_srgb;
+#endif
+#if defined(NIGHT_LIGHTS)
+  return with_glint(by_day_and_night(shaded_srgb, alpha), imagery_srgb);
+#else
+  return with_glint(shaded_srgb * light, imagery_srgb);
 #endif
 }
 
 #if defined(SPECIAL_LAYER)
+in float shadow_of_layer;   // by day
+
 // Shown fraction of a layer by day or night. Civil twilight: the Sun's centre from 6 degrees under the horizon up to it
 // (engine/surface/daylight.h).
 float part_shown() {
@@ -100,13 +120,15 @@ void finish(Imagery imagery_srgb) {
 #if defined(SPECIAL_LAYER)
   if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
   share *= part_shown();
-  if (layer_look.x < 0.0) {
-    color_srgb = vec4(imagery_srgb.rgb, alpha) * share;
-  } else {
-    color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
+  if (surface_look.x < 0.0) {                    // the layer's shadow on the ground
+    color_srgb = vec4(0.0, 0.0, 0.0, alpha * share * shadow_of_layer);
+    WRITE_DEPTH(1.0);
+    return;
   }
+  vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
 #else
-  color_srgb = vec4(lit(imagery_srgb.rgb, alpha), alpha) * share;
+  vec3 color = lit(imagery_srgb.rgb, alpha);
 #endif
+  color_srgb = vec4(through_air(color, alpha), alpha) * share;
   WRITE_DEPTH(1.0);
 }

@@ -8,10 +8,10 @@ void main() {
   float reach = sqrt(max(dot(a_texels, a_texels), dot(b_texels, b_texels))) * texels.y;
   int n = int(clamp(ceil(0.8 * reach), 3.0, 16.0));
   float step = 1.0 / float(n);
-  Imagery sum = Imagery(0.0);
+  Texels sum = Texels(0.0);
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
     sum += tap(cell, p + (s * step - 0.5) * a + (fract(s * 0.6180339887) - 0.5) * b);
   }
-  finish(sum * step);
+  finish(seen(sum * step));
 }

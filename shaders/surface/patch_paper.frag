@@ -1,7 +1,6 @@
 // `paper`: formulas (5) and (6) of paper 1 inside the bands v < b and v > 1 - b; elsewhere interpolated coordinates.
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
 // cartographic systems", 2023.
-layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
 
 // Returns the level of detail of a texture query on the whole picture at its finest level.
 float query_level(WindowPoint w, Cell cell) {
@@ -24,5 +23,5 @@ void main() {
     level = min(most, max(0.0, level - 1.0) / max(paper.x * v_hat, 1e-6));  // (6)
   }
   level = clamp(level - row.y, 0.0, texels.z - 1.0);
-  finish(IMAGERY(textureLod(tiles_mipmapped, slot_point(cell, w.p), level)));
+  finish(seen(mip_tap(cell, w.p, level)));
 }

@@ -1,6 +1,5 @@
 // Pole bands, and with `exact` every patch: exact coordinates per fragment. Near a pole the pixel's footprint is long
 // in longitude. Up to 16 taps, each with its own cell, integrate it.
-layout(binding = 3) uniform sampler2DArray tiles_precise;
 
 // A lattice of n places in the pixel, evenly spaced along each side and without an offset: place i is (i, i times this
 // modulo n). From n = 7 on, this number and n have no common divisor.
@@ -14,12 +13,12 @@ void main() {
   int n = int(clamp(ceil(0.9 * reach), 7.0, 16.0));
   float step = 1.0 / float(n);
   int stride = stride_of[n];
-  Imagery sum = Imagery(0.0);
+  Texels sum = Texels(0.0);
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
     float t = float((i * stride) % n) + 0.5;
     vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (t * step - 0.5) * w.dy, vec2(0.0), high);
-    sum += IMAGERY(textureLod(tiles_precise, slot_point(cell_at(p), p), 0.0));
+    sum += precise_tap(cell_at(p), p);
   }
-  finish(sum * step);
+  finish(seen(sum * step));
 }

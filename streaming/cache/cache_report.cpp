@@ -134,6 +134,13 @@ bool is_cache(const fs::path& path) {
   return has && *has;
 }
 
+std::string read_cache_source(const fs::path& path) {
+  if (!is_cache(path)) return {};
+  Questions questions(path);
+  std::string source = questions.text("SELECT value FROM terrella_cache WHERE key = 'source'");
+  return questions.error() ? std::string() : source;
+}
+
 Result<CacheReport> read_cache_report(const fs::path& path, std::int64_t now_unix_s) {
   if (std::optional<Error> fault = find_fault(path)) return *fault;
   Questions questions(path);

@@ -29,6 +29,9 @@ struct CacheReport {
 /// True if the file declares itself a cache.
 [[nodiscard]] bool is_cache(const std::filesystem::path& path);
 
+/// The source key of a cache; empty if the file is none or cannot be read. thread: any
+[[nodiscard]] std::string read_cache_source(const std::filesystem::path& path);
+
 /// Counts the content of a cache, which may be in use. Writes nothing. The error contains the path.
 [[nodiscard]] Result<CacheReport> read_cache_report(const std::filesystem::path& path, std::int64_t now_unix_s);
 

@@ -70,6 +70,11 @@ WriteStatus write_all(SqliteWriter& database, const TileSetInfo& info, const std
   for (const char* sql : kSideTables) {
     if (WriteStatus done = database.run(sql); !done) return done;
   }
+  // Byte ranges of a file are no tiles that another program could show.
+  if (source_key.starts_with(kRangesKey)) {
+    const WriteStatus done = database.run("UPDATE gpkg_contents SET data_type = 'terrella:ranges'");
+    if (!done) return done;
+  }
   return database.run({"INSERT INTO terrella_cache VALUES ('version', ?1), ('source', ?2)",
                        {std::to_string(kCacheVersion), source_key}});
 }

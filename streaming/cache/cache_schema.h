@@ -16,6 +16,8 @@ inline constexpr const char* kCacheTable = "terrella_cache";  ///< key, value: '
 inline constexpr const char* kCacheTilesTable = "terrella_cache_tiles";
 /// Places without a tile, and the reason.
 inline constexpr const char* kCacheMissingTable = "terrella_cache_absences";
+/// Beginning of the source key of a cache of byte ranges (streaming/remote_tiff/range_cache.h).
+inline constexpr const char* kRangesKey = "{\"ranges\":";
 inline constexpr int kCacheVersion = 1;
 inline constexpr std::int64_t kCachePageBytes = 4096;
 

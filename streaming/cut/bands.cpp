@@ -112,8 +112,26 @@ RowRange rows_of_band(const BandWork& work, std::int64_t band) {
   return {std::max(px.y0, top) - px.y0, std::min(px.y1, top + work.layout.band_rows) - px.y0};
 }
 
+/// Tells of the tiles of a finished band.
+Status tell_tiles(const BandWork& work, const fs::path& path) {
+  if (!work.tile_made) return Done{};
+  auto log = RecordLogReader::open(path);
+  if (!log) return log.error();
+  while (true) {
+    const auto record = log->next();
+    if (!record) return record.error();
+    if (!*record) return Done{};
+    work.tile_made({(*record)->id, path, (*record)->offset, (*record)->bytes.size()});
+  }
+}
+
 Status make_band(const BandWork& work, RowReader& reader, std::int64_t band, StripPool& strips, const fs::path& files) {
-  auto tiles = RecordLogWriter::open(files.string() + ".tiles", true, work.output);
+  const fs::path path = files.string() + ".tiles";
+  RecordLogWriter::Told told;
+  if (work.tile_made) {
+    told = [&](const TileId& id, std::uint64_t offset, std::size_t size) { work.tile_made({id, path, offset, size}); };
+  }
+  auto tiles = RecordLogWriter::open(path, true, work.output, std::move(told));
   if (!tiles) return tiles.error();
   auto kept = RecordLogWriter::open(files.string() + ".rows", false, work.output);
   if (!kept) return kept.error();
@@ -216,7 +234,10 @@ Status make_bands(const BandWork& work, RowReader& reader, std::int64_t begin, s
   std::int64_t position = 0;
   for (std::int64_t band = begin; band < end; ++band) {
     const fs::path files = folder / band_name(band);
-    if (is_made(files)) continue;
+    if (is_made(files)) {
+      if (Status known = tell_tiles(work, files.string() + ".tiles"); !known) return known;
+      continue;
+    }
     const RowRange rows = rows_of_band(work, band);
     if (Status skipped = reader.skip_rows(rows.from - position); !skipped) return skipped;
     if (Status made = make_band(work, reader, band, strips, files); !made) return made;

@@ -44,6 +44,7 @@ struct BandWork {
   std::filesystem::path output;  ///< included in errors
   /// Called with the rows done and the total rows. Returns false to stop.
   std::function<bool(std::int64_t done, std::int64_t total)> progress;
+  std::function<void(const CutTile& tile)> tile_made = {};  ///< see CutWatch; may be empty
 };
 
 /// Makes the missing bands among [begin, end), counted from layout.first. The reader must be at the first row of the

@@ -11,6 +11,7 @@
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/input/cut_input.h"
+#include "streaming/cut/input/watched_rows.h"
 #include "streaming/cut/output/shards.h"
 #include "streaming/cut/output/tile_writer.h"
 #include "streaming/cut/output/work_folder.h"
@@ -29,7 +30,7 @@ int encoder_count(int jobs) {
 /// True if tiles are JPEG where they are opaque, and PNG at the picture's outline.
 bool has_png_outline(const CutOptions& options, const CutInput& input) {
   const PictureInfo& picture = input.rows->info();
-  return !options.format && !input.elevation && (!picture.has_alpha || picture.opaque_inside);
+  return !options.format && !input.numbers && (!picture.has_alpha || picture.opaque_inside);
 }
 
 bool is_planet(const CutPlan& plan) {
@@ -38,14 +39,19 @@ bool is_planet(const CutPlan& plan) {
 }
 
 PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
-  if (input.elevation) return PixelKind::height;
+  if (input.numbers) return input.numbers->floats ? PixelKind::number : PixelKind::height;
   if (input.rows->info().has_alpha) return PixelKind::alpha;
   return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
-  if (!input.elevation || !input.elevation->nodata) return {};
-  return static_cast<std::uint16_t>(*input.elevation->nodata);
+  if (!input.numbers || input.numbers->floats || !input.numbers->nodata) return {};
+  return static_cast<std::uint16_t>(*input.numbers->nodata);
+}
+
+std::optional<float> float_nodata_of(const CutInput& input) {
+  if (!input.numbers || !input.numbers->floats || !input.numbers->nodata) return {};
+  return static_cast<float>(*input.numbers->nodata);
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
@@ -55,7 +61,7 @@ TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutIn
           .body = options.body,
           .grid = plan.grid,
           .format = options.format.value_or(needs_png ? ImageFormat::png : ImageFormat::jpeg),
-          .elevation = input.elevation};
+          .numbers = input.numbers};
 }
 
 /// One call of cut() with its pictures opened and its output checked.
@@ -75,15 +81,19 @@ struct Job {
             .nodata = nodata_of(input),
             .coding = {.format = info.format,
                        .quality = options.quality,
-                       .heights = input.elevation.has_value(),
-                       .png_outline = has_png_outline(options, input)},
+                       .heights = input.numbers.has_value(),
+                       .floats = input.numbers && input.numbers->floats,
+                       .png_outline = has_png_outline(options, input),
+                       .nodata = float_nodata_of(input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,
-            .progress = options.progress};
+            .progress = options.progress,
+            .tile_made = options.watch ? options.watch->tile_made : std::function<void(const CutTile&)>()};
   }
 };
 
-Result<CutSummary> join(const Job& job, const std::vector<fs::path>& bands, const WorkFolder& folder) {
+Result<CutSummary> join(const Job& job, const BandWork& work, const std::vector<fs::path>& bands,
+                        const WorkFolder& folder) {
   auto writer = make_tile_writer(
       {.output = job.claim.output,
        .part = folder / "output",
@@ -92,20 +102,28 @@ Result<CutSummary> join(const Job& job, const std::vector<fs::path>& bands, cons
        .mark = job.claim.mark,
        .may_replace = [&claim = job.claim](const fs::path& there) { return may_replace(claim, there); }});
   if (!writer) return writer.error();
-  const auto counts = join_bands(job.work(), bands, **writer);
+  const auto counts = join_bands(work, bands, **writer);
   if (!counts) return counts.error();
   if (Status named = (*writer)->finish(); !named) return named.error();
   return CutSummary{.grid = job.plan.grid, .tiles = counts->tiles, .bytes = counts->bytes};
 }
 
 Result<CutSummary> cut_whole(const Job& job) {
-  const auto folder = WorkFolder::beside(job.claim.output, job.key);
+  auto folder = WorkFolder::beside(job.claim.output, job.key);
   if (!folder) return folder.error();
-  const BandWork work = job.work();
+  BandWork work = job.work();
+  // Kept until an error of another kind: a full disk must not stay full.
+  if (job.options.keep_unfinished && work.progress) {
+    work.progress = [&, told = std::move(work.progress)](std::int64_t done, std::int64_t total) {
+      const bool goes_on = told(done, total);
+      if (!goes_on) folder->keep();
+      return goes_on;
+    };
+  }
   if (Status made = make_bands(work, *job.input.rows, 0, work.layout.count, *folder); !made) return made.error();
   std::vector<fs::path> bands;
   for (std::int64_t band = 0; band < work.layout.count; ++band) bands.push_back(*folder / band_name(band));
-  return join(job, bands, *folder);
+  return join(job, work, bands, *folder);
 }
 
 Result<CutSummary> cut_shard(const Job& job) {
@@ -124,7 +142,7 @@ Result<CutSummary> join_shards(const Job& job) {
   if (!shards) return shards.error();
   const auto folder = WorkFolder::beside(job.claim.output, job.key);
   if (!folder) return folder.error();
-  auto summary = join(job, shards->bands, *folder);
+  auto summary = join(job, job.work(), shards->bands, *folder);
   if (!summary) return summary;
   for (const fs::path& done : shards->folders) {
     std::error_code ignored;
@@ -169,6 +187,7 @@ Result<Job> prepare(const CutOptions& options) {
   if (!key) return key.error();
   if (options.remark) std::ranges::for_each(input->remarks, options.remark);
   input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
+  if (options.watch) input->rows = watched_rows(std::move(input->rows), options);
   TileSetInfo info = describe(options, *plan, *input);
   return Job{options, *std::move(claim), *std::move(input), *plan, std::move(info), *key};
 }
@@ -196,11 +215,17 @@ Result<CutSummary> cut(const CutOptions& asked) {
   }
 }
 
-Status check_pictures(const CutOptions& options) {
+Result<PlannedCut> plan_pictures(const CutOptions& options) {
   const auto input = open_input(options);
   if (!input) return input.error();
   const auto plan = plan_input(options, *input);
   if (!plan) return plan.error();
+  return PlannedCut{.info = describe(options, *plan, *input), .plan = *plan};
+}
+
+Status check_pictures(const CutOptions& options) {
+  const auto planned = plan_pictures(options);
+  if (!planned) return planned.error();
   return Done{};
 }
 

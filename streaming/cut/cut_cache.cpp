@@ -33,12 +33,18 @@ Result<std::string> cache_name(const CutOptions& options) {
 
 }  // namespace
 
-Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
+Result<fs::path> cache_path(const CutOptions& options, const fs::path& cache_dir) {
   if (options.images.size() != 1) return Error{"one picture is cut into the cache at a time"};
   const auto name = cache_name(options);
   if (!name) return name.error();
+  return cache_dir / *name;
+}
+
+Result<fs::path> cut_into_cache(const CutOptions& options, const fs::path& cache_dir) {
+  const auto path = cache_path(options, cache_dir);
+  if (!path) return path.error();
   CutOptions into = options;
-  into.output = cache_dir / *name;
+  into.output = *path;
   into.remark = {};
   std::error_code failed;
   // A file with this name is always complete.

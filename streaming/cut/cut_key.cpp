@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/hash_mix.h"
+#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 namespace {
@@ -24,7 +25,34 @@ std::string elevation_text(const std::optional<CutElevation>& elevation) {
                      number_text(elevation->nodata));
 }
 
+/// Nothing for pictures and heights, so that their keys stay as they were.
+std::string numbers_text(const CutOptions& options) {
+  std::string text;
+  if (const auto& numbers = options.numbers) {
+    text = fmt::format("|numbers {},{}", numbers->band, number_text(numbers->nodata));
+  }
+  if (const auto& composite = options.composite) {
+    text = "|bands " + number_text(composite->nodata);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& stretch = composite->stretch[c];
+      text += fmt::format(",{} {}", composite->bands[c], stretch ? stretch_text(*stretch) : "-");
+    }
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> images_of(const CutOptions& options) {
+  std::vector<std::filesystem::path> images;
+  for (const auto& image : options.images) {
+    images.push_back(image);
+    const auto list = is_mosaic(image) ? read_mosaic_list(image) : Result<MosaicList>(Error{});
+    if (!list) continue;
+    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+  }
+  return images;
+}
 
 std::string options_text(const CutOptions& options, std::string place) {
   const MosaicGrid mosaic = options.mosaic.value_or(MosaicGrid{0, 0});
@@ -33,12 +61,14 @@ std::string options_text(const CutOptions& options, std::string place) {
   return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}x{}|{}", kKeyVersion, options.tile_px, options.quality,
                      options.format ? static_cast<int>(*options.format) : -1, place,
                      static_cast<int>(options.projection), options.name, options.attribution, options.body,
-                     mosaic.columns, mosaic.rows, elevation_text(options.elevation));
+                     mosaic.columns, mosaic.rows, elevation_text(options.elevation)) +
+         numbers_text(options);
 }
 
 Result<std::string> cut_key(const CutOptions& options, const std::string& place) {
   std::string key = options_text(options, place);
-  for (const auto& image : options.images) {
+  if (options.raster) return key + fmt::format("\n{}", options.raster->key);
+  for (const auto& image : images_of(options)) {
     struct stat found {};
     if (stat(image.c_str(), &found) != 0) {
       if (errno == ENOENT) return Error{fmt::format("{}: no such file", image.string())};

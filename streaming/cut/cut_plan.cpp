@@ -58,7 +58,8 @@ Result<CutPlan> with_grid(CutPlan plan, const CutOptions& options) {
   plan.grid.root_span_deg = std::ldexp(plan.pixel_deg * options.tile_px, *level);
   plan.grid.projection = options.projection;
   plan.grid.latitude = options.latitude.value_or(LatitudeKind::graphic);
-  plan.grid.reduced = plan.wraps && !options.elevation && begins_at_planet(plan.grid) && has_reduced_rows(plan);
+  plan.grid.reduced =
+      plan.wraps && !options.elevation && !options.numbers && begins_at_planet(plan.grid) && has_reduced_rows(plan);
   return plan;
 }
 

@@ -37,6 +37,17 @@ struct CutPiece {
 /// with pixels that are not square or not aligned with their own grid, options out of range. Reads no file. thread: any
 [[nodiscard]] Result<CutPlan> plan_cut(const PictureInfo& picture, const CutOptions& options);
 
+/// A cut before its first pixel is read.
+struct PlannedCut {
+  TileSetInfo info;  ///< of the result
+  CutPlan plan;
+};
+/// Opens the pictures and plans their cut; fails as cut() would. Blocks. thread: any
+[[nodiscard]] Result<PlannedCut> plan_pictures(const CutOptions& options);
+
+/// The grid of a picture's own pixels; nothing if the picture would be resampled. Reads its head. thread: any
+[[nodiscard]] Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options);
+
 /// The whole picture, or its two parts on either side of ±180°. thread: any
 [[nodiscard]] std::vector<CutPiece> pieces_of(const CutPlan& plan);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "streaming/cut/halve.h"
 #include "streaming/cut/input/heights.h"
@@ -142,6 +143,8 @@ void Pyramid::to_pixels(std::span<const float> row, std::uint8_t* out) const {
       return unpremultiply(row, out);
     case PixelKind::height:
       return floats_to_heights(row, part_.nodata, out);
+    case PixelKind::number:
+      return floats_to_numbers(row, out);
   }
 }
 
@@ -216,10 +219,17 @@ void Pyramid::mix_edge(const Level& from, const T* even, const T* odd, const std
   for (std::size_t c = 0; c < 4; ++c) out[c] = sum[c] / covered;
 }
 
-/// Pixels beside a region repeat its edge; where pictures have transparency, they are transparent.
+/// Makes a pixel transparent or unknown, if the kind of pixels has that.
+void Pyramid::clear(std::uint8_t* pixel) const {
+  if (part_.pixels == PixelKind::alpha) pixel[3] = 0;
+  if (part_.pixels == PixelKind::height) clear_height(part_.nodata, pixel);
+  if (part_.pixels == PixelKind::number) put_number(std::numeric_limits<float>::quiet_NaN(), pixel);
+}
+
+/// Pixels beside a region repeat its edge; where pictures have transparency or unknown pixels, they are that.
 void Pyramid::put_beside(const std::uint8_t* edge, std::uint8_t* to) const {
   std::memcpy(to, edge, 4);
-  if (part_.pixels == PixelKind::alpha) to[3] = 0;
+  clear(to);
 }
 
 /// Rows beyond a pole repeat the last row, because filters reach there.
@@ -227,8 +237,8 @@ void Pyramid::fill_row(Level& level, std::int64_t in_strip, const std::uint8_t* 
   std::uint8_t* row = level.strip->row(in_strip);
   const std::size_t stride = level.shape.stride_bytes();
   std::memcpy(row, edge, stride);
-  if (part_.pixels != PixelKind::alpha || beyond_pole) return;
-  for (std::size_t i = 3; i < stride; i += 4) row[i] = 0;
+  if (part_.pixels == PixelKind::opaque || beyond_pole) return;
+  for (std::size_t i = 0; i < stride; i += 4) clear(row + i);
 }
 
 void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
@@ -241,8 +251,7 @@ void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
   for (std::int64_t x = level.lead_px + width; x < end; ++x) {
     if (!plan_.wraps) {
       const std::uint8_t* last = first + (width - 1) * 4;
-      put_beside(last, row + x * 4);
-      if (goes_on) row[x * 4 + 3] = last[3];
+      goes_on ? static_cast<void>(std::memcpy(row + x * 4, last, 4)) : put_beside(last, row + x * 4);
       continue;
     }
     const WrappedColumn& beyond = level.beyond[static_cast<std::size_t>(x - width)];
@@ -250,6 +259,10 @@ void Pyramid::pad_row(const Level& level, std::uint8_t* row) const {
     const std::uint8_t* b = row + (beyond.column + 1) % width * 4;
     if (part_.pixels == PixelKind::height) {
       mix_heights(a, b, beyond.share, part_.nodata, row + x * 4);
+      continue;
+    }
+    if (part_.pixels == PixelKind::number) {
+      mix_numbers(a, b, beyond.share, row + x * 4);
       continue;
     }
     for (int c = 0; c < 4; ++c) {

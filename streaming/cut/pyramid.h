@@ -20,6 +20,7 @@ enum class PixelKind {
   /// Pixels as read: a 32-bit float, NaN for no height. Pixels of a finished row: 16 bits
   /// (streaming/cut/input/heights.h).
   height,
+  number,  ///< a 32-bit float, NaN for no data, as read and in finished rows
 };
 
 /// Levels and rows that one Pyramid makes.
@@ -93,6 +94,7 @@ class Pyramid {
   void coarse_row_done(Level& level);
   void close_strip_row(Level& level);
   void put_beside(const std::uint8_t* edge, std::uint8_t* to) const;
+  void clear(std::uint8_t* pixel) const;
   void fill_row(Level& level, std::int64_t in_strip, const std::uint8_t* edge, bool beyond_pole) const;
   void pad_row(const Level& level, std::uint8_t* row) const;
   template <class T>

@@ -21,7 +21,7 @@ std::string with_ending(const PictureFile& picture, const char* ending) {
 
 /// GDAL options for resampling, and for places without pixels.
 std::string pixel_options(const PictureFile& picture) {
-  const auto tags = read_geo_tags(picture.path);
+  const auto tags = read_geo_tags(picture);
   if (!tags || !*tags) return "-r bilinear -dstalpha";
   if ((*tags)->has_palette) return "-r near";
   switch ((*tags)->samples) {

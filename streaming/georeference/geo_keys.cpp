@@ -229,9 +229,7 @@ Result<GeoKeys> interpret(GTIF* keys) {
   return said;
 }
 
-}  // namespace
-
-Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
+Result<GeoKeys> read_anew(const GeoTags& tags) {
   if (tags.key_directory.empty()) return GeoKeys{};
   const auto& directory = tags.key_directory;
   if (directory.size() < 4 || directory.size() < 4 + 4 * std::size_t{directory[3]} || directory[0] != 1) {
@@ -257,6 +255,24 @@ Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
   const ProjContext context = make_proj_context();
   GTIFAttachPROJContext(keys.get(), context.get());
   return interpret(keys.get());
+}
+
+}  // namespace
+
+Result<GeoKeys> read_geo_keys(const GeoTags& tags) {
+  // Thousands of files of one mosaic have the same keys, and PROJ takes a millisecond for them.
+  struct Last {
+    GeoTags tags;
+    Result<GeoKeys> keys = GeoKeys{};
+  };
+  thread_local Last last;
+  const bool known = tags.key_directory == last.tags.key_directory && tags.key_numbers == last.tags.key_numbers &&
+                     tags.key_text == last.tags.key_text;
+  if (!known) {
+    last.keys = read_anew(tags);
+    last.tags = tags;
+  }
+  return last.keys;
 }
 
 }  // namespace terrella

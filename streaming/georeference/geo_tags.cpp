@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "streaming/file_bytes.h"
+#include "streaming/raster/tiff_reader.h"
 #include "streaming/tiff_open.h"
 
 namespace terrella {
@@ -66,6 +67,14 @@ void read_pixels(TIFF* tiff, GeoTags& tags) {
   if (format == SAMPLEFORMAT_UINT && bits == 16) tags.samples = SampleKind::uint16;
 }
 
+Result<GeoTags> tags_of(TIFF* tiff) {
+  GeoTags tags;
+  read_pixels(tiff, tags);
+  tags.has_rpc = TIFFFindField(tiff, kRpc, TIFF_ANY) != nullptr;
+  if (Status read = read_all(tiff, tags); !read) return read.error();
+  return tags;
+}
+
 }  // namespace
 
 Result<std::optional<GeoTags>> read_geo_tags(const std::filesystem::path& picture) {
@@ -75,11 +84,22 @@ Result<std::optional<GeoTags>> read_geo_tags(const std::filesystem::path& pictur
   std::string message;
   const TiffHandle tiff = open_tiff(picture.string(), message);
   if (!tiff) return Error{fmt::format("it is not a TIFF that can be read: {}", message)};
-  GeoTags tags;
-  read_pixels(tiff.get(), tags);
-  tags.has_rpc = TIFFFindField(tiff.get(), kRpc, TIFF_ANY) != nullptr;
-  if (Status read = read_all(tiff.get(), tags); !read) return read.error();
-  return std::optional(std::move(tags));
+  auto tags = tags_of(tiff.get());
+  if (!tags) return tags.error();
+  return std::optional(*std::move(tags));
+}
+
+Result<GeoTags> read_geo_tags(const std::shared_ptr<const ByteFile>& bytes) {
+  const auto reader = TiffReader::open(bytes);
+  if (!reader) return reader.error();
+  return tags_of((*reader)->get());
+}
+
+Result<std::optional<GeoTags>> read_geo_tags(const PictureFile& picture) {
+  if (!picture.bytes) return read_geo_tags(picture.path);
+  auto tags = read_geo_tags(picture.bytes);
+  if (!tags) return tags.error();
+  return std::optional(*std::move(tags));
 }
 
 }  // namespace terrella

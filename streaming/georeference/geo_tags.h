@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/georeference/georeference.h"
+#include "streaming/raster/byte_file.h"
 
 namespace terrella {
 
@@ -35,5 +38,9 @@ struct GeoTags {
 /// Reads the tags of the first picture in the file; none if the file is no TIFF. The error names a tag of a wrong type,
 /// but not the file. thread: any
 [[nodiscard]] Result<std::optional<GeoTags>> read_geo_tags(const std::filesystem::path& picture);
+/// The same from the bytes of a TIFF.
+[[nodiscard]] Result<GeoTags> read_geo_tags(const std::shared_ptr<const ByteFile>& bytes);
+/// Reads the tags of a picture from its file or its bytes.
+[[nodiscard]] Result<std::optional<GeoTags>> read_geo_tags(const PictureFile& picture);
 
 }  // namespace terrella

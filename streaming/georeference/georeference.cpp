@@ -55,7 +55,7 @@ Result<std::optional<Affine>> tag_transform(const GeoTags& tags, const PictureFi
 
 /// Without `with_crs`, damaged keys count as none.
 Result<std::optional<Georeference>> from_tags(const PictureFile& picture, bool with_crs) {
-  const auto tags = read_geo_tags(picture.path);
+  const auto tags = read_geo_tags(picture);
   if (!tags) return Error{tags.error().message};
   if (!*tags) return std::optional<Georeference>{};
   auto keys = read_geo_keys(**tags);
@@ -111,7 +111,8 @@ Error contradiction(const PictureFile& picture, const std::string& why) {
 Result<std::optional<Georeference>> read_georeference(const PictureFile& picture, bool with_crs) {
   auto tags = from_tags(picture, with_crs);
   if (!tags) return cannot_believe(picture, tags.error().message);
-  const auto claims = read_side_files(picture.path);
+  const auto claims =
+      picture.bytes ? Result<std::vector<SideClaim>>(std::vector<SideClaim>()) : read_side_files(picture.path);
   if (!claims) return Error{fmt::format("{}: {}", picture.path.string(), claims.error().message)};
   Georeference said = tags->value_or(Georeference{});
   for (const SideClaim& claim : *claims) {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "base/result.h"
 #include "streaming/georeference/affine.h"
+#include "streaming/raster/byte_file.h"
 
 namespace terrella {
 
@@ -15,6 +17,8 @@ struct PictureFile {
   std::filesystem::path path;
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
+  /// Bytes of a TIFF that is no local file: `path` then is its name, and no files beside it count.
+  std::shared_ptr<const ByteFile> bytes = {};
 };
 
 /// Statements of a picture and the files beside it about its place, neither judged nor transformed.

@@ -9,8 +9,7 @@
 namespace terrella {
 namespace {
 
-constexpr std::uint64_t kBlockBytes = 16384;
-constexpr std::size_t kMaxBlocks = (16UL << 20) / kBlockBytes;
+constexpr std::uint64_t kKeptBytes = 16UL << 20;
 constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 }  // namespace
@@ -24,56 +23,115 @@ bool FileVersion::differs_from(const HttpReply& reply) const {
 std::string FileVersion::strong_etag() const { return etag.starts_with("W/") ? std::string() : etag; }
 
 RangeReader::RangeReader(Url url, std::vector<std::string> headers, const HttpOptions& options,
-                         std::function<bool()> go_on)
-    : url_(std::move(url)), headers_(std::move(headers)), go_on_(std::move(go_on)), fetcher_(options, replies_) {}
+                         std::function<bool()> go_on, std::uint64_t block_bytes)
+    : url_(std::move(url)),
+      headers_(std::move(headers)),
+      go_on_(std::move(go_on)),
+      block_bytes_(block_bytes),
+      fetcher_(options, replies_) {}
 
 FileVersion RangeReader::version() const {
   const std::lock_guard lock(mutex_);
   return version_;
 }
 
+HttpReply RangeReader::latest_answer() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+void RangeReader::use_store(std::shared_ptr<RangeStore> store, const FileVersion& version, bool offline) {
+  const std::lock_guard lock(mutex_);
+  store_ = std::move(store);
+  version_ = version;
+  has_version_ = true;
+  offline_ = offline;
+  if (!store_) return;
+  for (const auto& [number, block] : blocks_) {
+    store_->keep({.offset = number * block_bytes_, .length = block_bytes_}, block.bytes);
+  }
+}
+
 Result<std::vector<std::byte>> RangeReader::read(const ByteRange& range) {
   assert(range.length <= kMaxReadBytes);
-  std::vector<std::byte> bytes;
-  if (range.length == 0) return bytes;
-  const std::lock_guard lock(mutex_);
-  const std::uint64_t first = range.offset / kBlockBytes, last = (range.offset + range.length - 1) / kBlockBytes;
+  if (auto known = held(range)) return *std::move(known);
+  const std::lock_guard one(network_);
+  Lock lock(mutex_);
+  const std::uint64_t first = range.offset / block_bytes_, last = (range.offset + range.length - 1) / block_bytes_;
   for (std::uint64_t begin = first; begin <= last; ++begin) {
-    if (blocks_.contains(begin)) continue;
+    if (find_block(begin)) continue;
     std::uint64_t end = begin;
-    while (end < last && !blocks_.contains(end + 1)) ++end;
-    if (Status fetched = fetch_blocks(begin, end); !fetched) return fetched.error();
+    while (end < last && !find_block(end + 1)) ++end;
+    if (Status fetched = fetch_blocks(lock, begin, end); !fetched) return fetched.error();
     begin = end;
   }
+  std::vector<std::byte> bytes = put_together(range);
+  drop_old();
+  return bytes;
+}
+
+std::optional<std::vector<std::byte>> RangeReader::held(const ByteRange& range) {
+  if (range.length == 0) return std::vector<std::byte>();
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t first = range.offset / block_bytes_, last = (range.offset + range.length - 1) / block_bytes_;
   for (std::uint64_t number = first; number <= last; ++number) {
+    if (!find_block(number)) return std::nullopt;
+  }
+  return put_together(range);
+}
+
+/// True if the block is in memory, maybe from the store.
+bool RangeReader::find_block(std::uint64_t number) {
+  if (blocks_.contains(number)) return true;
+  if (!store_) return false;
+  auto stored = store_->find({.offset = number * block_bytes_, .length = block_bytes_});
+  if (!stored) return false;
+  blocks_[number] = {.bytes = *std::move(stored), .last_use = ++uses_};
+  return true;
+}
+
+std::vector<std::byte> RangeReader::put_together(const ByteRange& range) {
+  std::vector<std::byte> bytes;
+  for (std::uint64_t number = range.offset / block_bytes_; number * block_bytes_ < range.offset + range.length;
+       ++number) {
     Block& block = blocks_.at(number);
     block.last_use = ++uses_;
-    const std::uint64_t start = number * kBlockBytes;
+    const std::uint64_t start = number * block_bytes_;
     const std::uint64_t from = std::max(range.offset, start) - start;
     const std::uint64_t to = std::min<std::uint64_t>(range.offset + range.length - start, block.bytes.size());
     if (from >= to) break;
     bytes.insert(bytes.end(), block.bytes.begin() + static_cast<std::ptrdiff_t>(from),
                  block.bytes.begin() + static_cast<std::ptrdiff_t>(to));
   }
-  drop_old();
   return bytes;
 }
 
-Status RangeReader::fetch_blocks(std::uint64_t first, std::uint64_t last) {
-  const ByteRange range{.offset = first * kBlockBytes, .length = (last - first + 1) * kBlockBytes};
+/// Gives up the lock while it waits.
+Status RangeReader::fetch_blocks(Lock& lock, std::uint64_t first, std::uint64_t last) {
+  const ByteRange range{.offset = first * block_bytes_, .length = (last - first + 1) * block_bytes_};
   const bool beyond = version_.file_bytes && range.offset >= *version_.file_bytes;
   std::vector<std::byte> body;
   if (!beyond) {
-    Result<HttpReply> reply = ask(range);
+    if (offline_) {
+      return Error{fmt::format("{}: its bytes from {} on are not in the cache; open it once without --offline",
+                               url_.redacted(), range.offset)};
+    }
+    const FileVersion version = version_;
+    lock.unlock();
+    Result<HttpReply> reply = ask(range, version);
+    lock.lock();
     if (!reply) return reply.error();
     if (Status accepted = accept(*reply); !accepted) return accepted;
     body = std::move(reply->body);
+    latest_ = std::move(*reply);
   }
   for (std::uint64_t number = first; number <= last; ++number) {
-    const auto from = std::min<std::size_t>((number - first) * kBlockBytes, body.size());
-    const auto to = std::min<std::size_t>(from + kBlockBytes, body.size());
+    const auto from = std::min<std::size_t>((number - first) * block_bytes_, body.size());
+    const auto to = std::min<std::size_t>(from + block_bytes_, body.size());
     const auto begin = body.begin() + static_cast<std::ptrdiff_t>(from);
-    blocks_[number].bytes.assign(begin, body.begin() + static_cast<std::ptrdiff_t>(to));
+    std::vector<std::byte>& bytes = blocks_[number].bytes;
+    bytes.assign(begin, body.begin() + static_cast<std::ptrdiff_t>(to));
+    if (store_ && !beyond) store_->keep({.offset = number * block_bytes_, .length = block_bytes_}, bytes);
   }
   return Done{};
 }
@@ -90,12 +148,12 @@ Status RangeReader::accept(const HttpReply& reply) {
   return Done{};
 }
 
-Result<HttpReply> RangeReader::ask(const ByteRange& range) {
+Result<HttpReply> RangeReader::ask(const ByteRange& range, const FileVersion& version) {
   HttpRequest request;
   request.url = url_;
   request.headers = headers_;
   request.range = range;
-  request.if_match = version_.strong_etag();
+  request.if_match = version.strong_etag();
   fetcher_.submit(std::move(request));
   std::vector<HttpReply> replies;
   while (replies.empty()) {
@@ -110,7 +168,7 @@ Result<HttpReply> RangeReader::ask(const ByteRange& range) {
 }
 
 void RangeReader::drop_old() {
-  while (blocks_.size() > kMaxBlocks) {
+  while (blocks_.size() > kKeptBytes / block_bytes_) {
     blocks_.erase(std::ranges::min_element(blocks_, {}, [](const auto& entry) { return entry.second.last_use; }));
   }
 }

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <tiffio.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "streaming/file_bytes.h"
 #include "streaming/raster/open_raster.h"
 #include "streaming/raster/tiff_coding.h"
+#include "streaming/raster/tiff_stretch.h"
 #include "streaming/tiff_open.h"
 
 namespace terrella {
@@ -41,6 +44,23 @@ std::string layout_title(const TiffPicture& picture) {
                      compression_title(picture.compression));
 }
 
+/// Sums up the numbers of a band; nothing for a picture that has none.
+Result<std::optional<NumberStatistics>> statistics_in(const TiffPyramid& pyramid, const DescribedBand& wanted) {
+  CodingOptions options{.nodata = wanted.nodata};
+  if (wanted.band > 0) options.band = static_cast<std::size_t>(wanted.band - 1);
+  const TiffColour colour = pyramid.whole().part.picture.samples.colour;
+  if (!options.band && (colour == TiffColour::rgb || colour == TiffColour::palette)) {
+    return std::optional<NumberStatistics>();
+  }
+  auto coding = numbers_of(pyramid, options);
+  if (!coding) return coding.error();
+  const double scale = std::exchange(coding->scale, 1.0);
+  const double offset = std::exchange(coding->offset, 0.0);
+  auto numbers = sample_band(pyramid.levels.front(), *coding);
+  if (!numbers) return numbers.error();
+  return std::optional(statistics_of(*std::move(numbers), scale, offset));
+}
+
 /// Says how a picture of numbers is shown.
 Result<std::vector<std::string>> stretch_notes(const TiffPyramid& pyramid) {
   const auto colours = colours_of(pyramid, {});
@@ -57,7 +77,16 @@ Result<std::vector<std::string>> stretch_notes(const TiffPyramid& pyramid) {
 
 }  // namespace
 
-Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path) {
+bool holds_numbers(const std::filesystem::path& path) {
+  const auto head = read_head(path, 8);
+  if (!head || !begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return false;
+  const auto pyramid = read_pyramid(path);
+  if (!pyramid) return false;
+  const TiffSamples& samples = pyramid->whole().part.picture.samples;
+  return samples.colour == TiffColour::gray && samples.type != SampleType::uint8;
+}
+
+Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path, const DescribedBand& wanted) {
   const auto head = read_head(path, 8);
   if (!head) return Error{head.error().message};
   if (!begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) {
@@ -66,6 +95,7 @@ Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& 
   const auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();
   const TiffPicture& picture = pyramid->whole().part.picture;
+  const BandMetadata band = pyramid->metadata.band(static_cast<std::size_t>(std::max(wanted.band, 1) - 1));
   RasterFacts facts{.width_px = picture.width_px,
                     .height_px = picture.height_px,
                     .bands = static_cast<int>(picture.samples.per_pixel),
@@ -74,14 +104,18 @@ Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& 
                     .overviews = {},
                     .has_mask = pyramid->whole().mask.has_value(),
                     .nodata = pyramid->metadata.nodata,
-                    .scale = pyramid->metadata.scale,
-                    .offset = pyramid->metadata.offset,
-                    .unit = pyramid->metadata.unit,
+                    .scale = band.scale,
+                    .offset = band.offset,
+                    .unit = band.unit,
+                    .quantity = band.description,
                     .notes = {}};
   for (std::size_t i = pyramid->levels.size() - 1; i-- > 0;) {
     const TiffPicture& overview = pyramid->levels[i].part.picture;
     facts.overviews.emplace_back(overview.width_px, overview.height_px);
   }
+  auto statistics = statistics_in(*pyramid, wanted);
+  if (!statistics) return statistics.error();
+  facts.statistics = *std::move(statistics);
   auto notes = stretch_notes(*pyramid);
   if (!notes) return notes.error();
   facts.notes = *std::move(notes);

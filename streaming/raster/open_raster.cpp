@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "streaming/raster/row_raster.h"
 #include "streaming/raster/tiff_coding.h"
 #include "streaming/raster/tiff_level.h"
+#include "streaming/raster/tiff_source.h"
 
 namespace terrella {
 namespace {
@@ -64,7 +68,20 @@ Result<Numbers, TileFailure> heights_of(TiffParts& parts, const TileId& block) {
   return stored_numbers(*part.store, block.x, block.y);
 }
 
-class TiffRaster : public RasterSource {
+bool is_wider_than_floats(SampleType type) {
+  return type == SampleType::uint32 || type == SampleType::int32 || type == SampleType::float64;
+}
+
+Result<double> exact_sample_at(RasterPart& part, std::int64_t column, std::int64_t row, std::size_t band) {
+  if (part.tiles) return part.tiles->exact_sample_at(column, row, band);
+  TiffSampleRows rows(part.level.part, 1);
+  const auto samples = rows.read(row);
+  if (!samples) return samples.error();
+  const TiffSamples& kind = part.level.part.picture.samples;
+  return exact_sample(kind, band, *samples + static_cast<std::size_t>(column) * kind.pixel_bytes());
+}
+
+class TiffRaster : public TiffSource {
  public:
   TiffRaster(std::shared_ptr<TiffParts> parts, RasterInfo info) : parts_(std::move(parts)), info_(std::move(info)) {}
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
@@ -78,6 +95,34 @@ class TiffRaster : public RasterSource {
       tile.make_picture = [parts = parts_, block] { return picture_of(*parts, block); };
     }
     return tile;
+  }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    auto value = RasterSource::value_at(column, row);
+    if (!value || !is_wider_than_floats(parts_->parts.back().level.part.picture.samples.type)) return value;
+    const NumberCoding& coding = *parts_->coding.numbers;
+    const auto sample = exact_sample_at(parts_->parts.back(), column, row, coding.band);
+    if (!sample) return TileFailure{MissingKind::broken, parts_->name + ": " + sample.error().message};
+    return (*sample * coding.scale + coding.offset) * info_.numbers->scale + info_.numbers->offset;
+  }
+
+  [[nodiscard]] Result<std::vector<ByteSpan>> spans(const TileId& block) override {
+    if (!has_block(info_, block)) return std::vector<ByteSpan>();
+    const RasterPart& part = parts_->parts[static_cast<std::size_t>(block.level)];
+    return part.tiles ? part.tiles->spans(block.x, block.y) : std::vector<ByteSpan>();
+  }
+
+  [[nodiscard]] std::unique_ptr<TiffSource> over(const std::shared_ptr<const ByteFile>& file) const override {
+    auto parts = std::make_shared<TiffParts>(TiffParts{parts_->name, parts_->coding, {}});
+    for (const RasterPart& part : parts_->parts) {
+      assert(part.tiles);
+      TiffLevel level = part.level;
+      level.part.file = file;
+      if (level.mask) level.mask->file = file;
+      parts->parts.push_back(
+          {.level = level, .tiles = std::make_unique<TiffTileLevel>(level), .rows = {}, .store = {}});
+    }
+    return std::make_unique<TiffRaster>(std::move(parts), info_);
   }
 
  private:
@@ -130,7 +175,12 @@ RasterLevel shape_of(const RasterPart& part, const CrsPlace& place, const TiffPi
 }
 
 Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOptions& options) {
-  const CodingOptions given{.nodata = options.nodata, .scale = options.scale, .offset = options.offset};
+  CodingOptions given{.nodata = options.nodata,
+                      .scale = options.scale,
+                      .offset = options.offset,
+                      .band = {},
+                      .composite = options.composite};
+  if (options.band > 0) given.band = static_cast<std::size_t>(options.band - 1);
   PixelCoding coding;
   if (options.heights) {
     const auto numbers = numbers_of(pyramid, given);
@@ -144,26 +194,71 @@ Result<PixelCoding> choose_coding(const TiffPyramid& pyramid, const RasterOption
   return coding;
 }
 
+/// The range of stored numbers of at most 16 bits, without a nodata at its end.
+std::optional<WholeRange> whole_range(SampleType type, const std::optional<double>& nodata) {
+  WholeRange range;
+  switch (type) {
+    case SampleType::uint8:
+      range = {.least = 0, .most = 255};
+      break;
+    case SampleType::int8:
+      range = {.least = -128, .most = 127};
+      break;
+    case SampleType::uint16:
+      range = {.least = 0, .most = 65535};
+      break;
+    case SampleType::int16:
+      range = {.least = -32768, .most = 32767};
+      break;
+    default:
+      return {};
+  }
+  if (nodata == static_cast<double>(range.least)) ++range.least;
+  if (nodata == static_cast<double>(range.most)) --range.most;
+  return range;
+}
+
+/// The meaning of the blocks' numbers. Moves scale and offset into it if blocks keep the stored numbers.
+NumberInfo numbers_info(const TiffPyramid& pyramid, const RasterOptions& options, PixelCoding& coding) {
+  const BandMetadata band = pyramid.metadata.band(static_cast<std::size_t>(std::max(options.band, 1) - 1));
+  NumberInfo info{
+      .scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true, .unit = band.unit, .quantity = band.description};
+  if (!options.stored || !coding.numbers) return info;
+  info.scale = std::exchange(coding.numbers->scale, 1.0);
+  info.offset = std::exchange(coding.numbers->offset, 0.0);
+  info.whole = whole_range(pyramid.whole().part.picture.samples.type, coding.numbers->nodata);
+  return info;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const CrsPlace& place,
                                                   const RasterOptions& options) {
   auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();
-  auto coding = choose_coding(*pyramid, options);
+  auto source = make_tiff_source(*std::move(pyramid), path.string(), place, options);
+  if (!source) return source.error();
+  return std::unique_ptr<RasterSource>(*std::move(source));
+}
+
+Result<std::unique_ptr<TiffSource>> make_tiff_source(TiffPyramid pyramid, const std::string& name,
+                                                     const CrsPlace& place, const RasterOptions& options) {
+  auto coding = choose_coding(pyramid, options);
   if (!coding) return coding.error();
-  const TiffLevel& whole = pyramid->whole();
-  RasterInfo info{.name = path.stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
+  const TiffLevel& whole = pyramid.whole();
+  const NumberInfo meaning = numbers_info(pyramid, options, *coding);
+  RasterInfo info{.name = fs::path(name).stem().string(), .attribution = {}, .crs = place.crs, .levels = {}};
   info.opaque = !whole.mask && coding->colours && !coding->colours->samples().may_be_clear();
-  if (options.heights) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
-  const auto nodata = options.nodata ? options.nodata : pyramid->metadata.nodata;
-  auto parts = std::make_shared<TiffParts>(TiffParts{path.string(), *std::move(coding), {}});
-  for (TiffLevel& level : pyramid->levels) {
+  if (options.heights) info.numbers = meaning;
+  const auto nodata = options.nodata ? options.nodata : pyramid.metadata.nodata;
+  auto parts = std::make_shared<TiffParts>(TiffParts{name, *std::move(coding), {}});
+  for (TiffLevel& level : pyramid.levels) {
     level.part.picture.samples.nodata = nodata;  // for tiles that are not stored
     parts->parts.push_back(make_part(level, *parts, options, info.opaque));
     info.levels.push_back(shape_of(parts->parts.back(), place, whole.part.picture));
+    info.by_rows = info.by_rows || !is_tiled(level);
   }
-  return std::unique_ptr<RasterSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
+  return std::unique_ptr<TiffSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
 }
 
 }  // namespace terrella

@@ -9,6 +9,8 @@
 
 #include "base/result.h"
 #include "streaming/georeference/affine.h"
+#include "streaming/numbers/coding_options.h"
+#include "streaming/numbers/number_statistics.h"
 #include "streaming/raster/raster_source.h"
 
 namespace terrella {
@@ -19,6 +21,10 @@ struct RasterOptions {
   std::optional<double> nodata = {};
   std::optional<double> scale = {};
   std::optional<double> offset = {};
+  /// With `heights`: blocks have the stored numbers, and RasterInfo::numbers has scale and offset.
+  bool stored = false;
+  int band = 0;                                 ///< of the numbers, counted from 1; 0: the only one
+  std::optional<BandComposite> composite = {};  ///< a picture of three bands, each stretched
   /// For the temporary file of a large picture that is read row by row; empty: the system's folder (TMPDIR).
   std::filesystem::path work_folder = {};
   int jobs = 0;  ///< threads that decode rows; 0: one for each core. Blocks are decoded by the thread that reads them
@@ -45,11 +51,26 @@ struct RasterFacts {
   double scale = 1.0;  ///< value = stored number · scale + offset
   double offset = 0.0;
   std::string unit;
+  std::string quantity;  ///< the band's description
+  /// Values of a coarse level of the described band; none for palettes, and for colours without a chosen band.
+  std::optional<NumberStatistics> statistics = {};
   /// Facts that change what is shown: "values from 1000 to 3520 are shown from black to white (…)".
   std::vector<std::string> notes;
 };
 
-/// Reads the facts; none if the file is no TIFF. Reads some pixels if the picture needs a stretch. Blocks. thread: any
-[[nodiscard]] Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path);
+/// Which numbers of a TIFF are described.
+struct DescribedBand {
+  int band = 0;                       ///< counted from 1; 0: the only one
+  std::optional<double> nodata = {};  ///< instead of the file's
+};
+
+/// Reads the facts; none if the file is no TIFF. Reads at most 64 tiles or rows of the coarsest level. Blocks.
+/// thread: any
+[[nodiscard]] Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path,
+                                                                 const DescribedBand& wanted = {});
+
+/// True for a TIFF that is shown as numbers unless the user says otherwise: gray, and not of 8 bits or fewer. False for
+/// a file that cannot be read. Blocks. thread: any
+[[nodiscard]] bool holds_numbers(const std::filesystem::path& path);
 
 }  // namespace terrella

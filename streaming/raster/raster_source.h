@@ -25,10 +25,11 @@ struct RasterLevel {
 struct RasterInfo {
   std::string name;
   std::string attribution;
-  std::string crs;                              ///< text for Crs::open()
-  std::vector<RasterLevel> levels;              ///< the coarsest first; never empty. TileId::level is the index
-  bool opaque = false;                          ///< every pixel inside a level has data
-  std::optional<ElevationInfo> elevation = {};  ///< set: blocks are numbers; none: blocks are pictures
+  std::string crs;                         ///< text for Crs::open()
+  std::vector<RasterLevel> levels;         ///< the coarsest first; never empty. TileId::level is the index
+  bool opaque = false;                     ///< every pixel inside a level has data
+  bool by_rows = false;                    ///< blocks of a level are read from the top, row by row
+  std::optional<NumberInfo> numbers = {};  ///< set: blocks are numbers; none: blocks are pictures
 };
 
 /// Pixels of a raster, read by blocks: a tiled TIFF with its overviews, a tile pyramid in a projected system, a decoded
@@ -42,6 +43,9 @@ class RasterSource {
   /// (EncodedTile::make_picture) or the numbers (EncodedTile::make_numbers). A block smaller than its level's block
   /// size is allowed at the right and lower edges only. MissingKind as for TileSource::read().
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& block) = 0;
+  /// Returns the value of a pixel of the finest level, scale and offset applied. Failures as for
+  /// TileSource::value_at(). thread: worker
+  [[nodiscard]] virtual Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row);
   /// Returns the object that fetches blocks for which read() returns `remote`; null if all blocks are local. Lives as
   /// long as the source.
   [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }

@@ -13,7 +13,7 @@ class RowRaster : public RasterSource {
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
     if (!has_block(info_, block)) return TileFailure{.kind = MissingKind::absent, .why = {}};
     EncodedTile tile;
-    if (info_.elevation) {
+    if (info_.numbers) {
       tile.make_numbers = [store = store_, block] { return stored_numbers(*store, block.x, block.y); };
     } else {
       tile.make_picture = [store = store_, block] { return stored_picture(*store, block.x, block.y); };
@@ -34,7 +34,8 @@ std::unique_ptr<RasterSource> make_row_raster(RowPicture picture, const CrsPlace
   info.name = std::move(picture.name);
   info.crs = place.crs;
   info.opaque = picture.pixels.pixel_bytes == 3;
-  if (picture.is_numbers) info.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
+  info.by_rows = true;
+  if (picture.is_numbers) info.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .nodata = {}, .floats = true};
   auto store = std::make_shared<BlockStore>(picture.pixels, temporary_folder(work_folder), std::move(picture.next_row));
   info.levels.push_back({.width_px = picture.pixels.width_px,
                          .height_px = picture.pixels.height_px,

@@ -1,9 +1,8 @@
 #include "streaming/raster/tiff_level.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
-
-#include "streaming/raster/tiff_tiles.h"
 
 namespace terrella {
 namespace {
@@ -39,30 +38,63 @@ Result<std::vector<std::uint8_t>> TiffTileLevel::samples(std::int64_t column, st
 }
 
 /// The tiles of a mask may have another size than those of the picture.
+template <class Call>
+Status TiffTileLevel::for_each_mask_tile(std::int64_t column, std::int64_t row, const Call& call) const {
+  if (!level_.mask) return Done{};
+  const TiffPicture& mask = level_.mask->picture;
+  const std::int64_t x0 = column * picture().tile_width_px;
+  const std::int64_t y0 = row * picture().tile_height_px;
+  const std::int64_t x1 = std::min(x0 + picture().tile_width_px, mask.width_px);
+  const std::int64_t y1 = std::min(y0 + picture().tile_height_px, mask.height_px);
+  for (std::int64_t v = y0 / mask.tile_height_px; v * mask.tile_height_px < y1; ++v) {
+    for (std::int64_t u = x0 / mask.tile_width_px; u * mask.tile_width_px < x1; ++u) {
+      if (Status done = call(u, v); !done) return done;
+    }
+  }
+  return Done{};
+}
+
 Result<std::vector<std::uint8_t>> TiffTileLevel::opacity(std::int64_t column, std::int64_t row) {
   std::vector<std::uint8_t> all;
   if (!level_.mask) return all;
   const TiffPicture& mask = level_.mask->picture;
-  const std::int64_t width = picture().tile_width_px;
-  const std::int64_t x0 = column * width;
-  const std::int64_t y0 = row * picture().tile_height_px;
-  const std::int64_t x1 = std::min(x0 + width, mask.width_px);
-  const std::int64_t y1 = std::min(y0 + picture().tile_height_px, mask.height_px);
-  all.resize(static_cast<std::size_t>(width * picture().tile_height_px));
-  for (std::int64_t v = y0 / mask.tile_height_px; v * mask.tile_height_px < y1; ++v) {
-    for (std::int64_t u = x0 / mask.tile_width_px; u * mask.tile_width_px < x1; ++u) {
-      const auto tile = read_tile(*mask_readers_, mask, u, v, mask.tile_height_px);
-      if (!tile) return tile.error();
-      const std::int64_t left = std::max(x0, u * mask.tile_width_px);
-      const std::int64_t right = std::min(x1, (u + 1) * mask.tile_width_px);
-      for (std::int64_t y = std::max(y0, v * mask.tile_height_px); y < std::min(y1, (v + 1) * mask.tile_height_px);
-           ++y) {
-        const std::int64_t from = (y - v * mask.tile_height_px) * mask.tile_width_px + left - u * mask.tile_width_px;
-        mask_to_opacity(mask.samples, tile->data() + from, static_cast<std::size_t>(right - left),
-                        all.data() + (y - y0) * width + left - x0);
-      }
+  const std::int64_t width = picture().tile_width_px, height = picture().tile_height_px;
+  const std::int64_t x0 = column * width, y0 = row * height;
+  all.resize(static_cast<std::size_t>(width * height));
+  const Status read = for_each_mask_tile(column, row, [&](std::int64_t u, std::int64_t v) -> Status {
+    const auto tile = read_tile(*mask_readers_, mask, u, v, mask.tile_height_px);
+    if (!tile) return tile.error();
+    const std::int64_t left = std::max(x0, u * mask.tile_width_px);
+    const std::int64_t right = std::min({x0 + width, mask.width_px, (u + 1) * mask.tile_width_px});
+    const std::int64_t bottom = std::min({y0 + height, mask.height_px, (v + 1) * mask.tile_height_px});
+    for (std::int64_t y = std::max(y0, v * mask.tile_height_px); y < bottom; ++y) {
+      const std::int64_t from = (y - v * mask.tile_height_px) * mask.tile_width_px + left - u * mask.tile_width_px;
+      mask_to_opacity(mask.samples, tile->data() + from, static_cast<std::size_t>(right - left),
+                      all.data() + (y - y0) * width + left - x0);
     }
-  }
+    return Done{};
+  });
+  if (!read) return read.error();
+  return all;
+}
+
+Result<std::vector<ByteSpan>> TiffTileLevel::spans(std::int64_t column, std::int64_t row) {
+  std::vector<ByteSpan> all;
+  const auto add = [&all](TiffReaders& readers, const TiffPicture& of, std::int64_t u, std::int64_t v) -> Status {
+    auto reader = readers.lend();
+    if (!reader) return reader.error();
+    const auto found = tile_spans(**reader, of, u, v);
+    if (!found) {
+      reader->drop();
+      return found.error();
+    }
+    std::ranges::copy_if(*found, std::back_inserter(all), [](const ByteSpan& span) { return span.size > 0; });
+    return Done{};
+  };
+  if (Status found = add(readers_, picture(), column, row); !found) return found.error();
+  const Status found = for_each_mask_tile(
+      column, row, [&](std::int64_t u, std::int64_t v) { return add(*mask_readers_, level_.mask->picture, u, v); });
+  if (!found) return found.error();
   return all;
 }
 
@@ -94,6 +126,14 @@ Result<Numbers> TiffTileLevel::numbers(std::int64_t column, std::int64_t row, co
   to_floats(picture().samples, coding, pixels->data(), count, numbers.values.data());
   if (!clear->empty()) clear_numbers(clear->data(), count, numbers.values.data());
   return numbers;
+}
+
+Result<double> TiffTileLevel::exact_sample_at(std::int64_t x, std::int64_t y, std::size_t band) {
+  const std::int64_t width = picture().tile_width_px, height = picture().tile_height_px;
+  const auto pixels = samples(x / width, y / height);
+  if (!pixels) return pixels.error();
+  const auto pixel = static_cast<std::size_t>((y % height) * width + x % width);
+  return exact_sample(picture().samples, band, pixels->data() + pixel * picture().samples.pixel_bytes());
 }
 
 TiffRowLevel::TiffRowLevel(TiffLevel level, int jobs) : rows_(std::move(level.part), jobs) {

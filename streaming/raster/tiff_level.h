@@ -9,6 +9,7 @@
 #include "codecs/numbers.h"
 #include "streaming/raster/tiff_pyramid.h"
 #include "streaming/raster/tiff_sample_rows.h"
+#include "streaming/raster/tiff_tiles.h"
 
 namespace terrella {
 
@@ -20,8 +21,15 @@ class TiffTileLevel {
   [[nodiscard]] const TiffPicture& picture() const { return level_.part.picture; }
   [[nodiscard]] Result<Image> colours(std::int64_t column, std::int64_t row, const ColourConverter& converter);
   [[nodiscard]] Result<Numbers> numbers(std::int64_t column, std::int64_t row, const NumberCoding& coding);
+  /// exact_sample() of a pixel of the level; neither its mask nor its no-data value is looked at.
+  [[nodiscard]] Result<double> exact_sample_at(std::int64_t x, std::int64_t y, std::size_t band);
+  /// Looks up the bytes of the tile and of its mask. Parts that the file does not store are left out.
+  [[nodiscard]] Result<std::vector<ByteSpan>> spans(std::int64_t column, std::int64_t row);
 
  private:
+  /// Calls `call` for each tile of the mask under the tile, with its column and row, until one fails.
+  template <class Call>
+  [[nodiscard]] Status for_each_mask_tile(std::int64_t column, std::int64_t row, const Call& call) const;
   /// Opacity of the tile's pixels; empty without a mask.
   [[nodiscard]] Result<std::vector<std::uint8_t>> opacity(std::int64_t column, std::int64_t row);
   [[nodiscard]] Result<std::vector<std::uint8_t>> samples(std::int64_t column, std::int64_t row);

@@ -13,6 +13,8 @@ namespace {
 constexpr ttag_t kGdalMetadataTag = 42112;
 constexpr ttag_t kGdalNodataTag = 42113;
 constexpr std::uint32_t kMaxMetadataBytes = 1U << 20;
+/// Bands beyond this count as one.
+constexpr int kMaxBands = 1 << 16;
 
 /// Text of a tag that libtiff does not know, if the file gives it as text. Each of GDAL's tags is text.
 std::string_view text_tag(TIFF* tiff, ttag_t tag) {
@@ -31,12 +33,17 @@ std::string_view text_tag(TIFF* tiff, ttag_t tag) {
 void read_item(const pugi::xml_node& item, TiffMetadata& metadata) {
   const std::string_view name = item.attribute("name").as_string();
   const std::string_view role = item.attribute("role").as_string();
-  const bool first = item.attribute("sample").as_int(0) == 0;
-  if (role == "unittype" && first) metadata.unit = item.child_value();
+  const auto band = static_cast<std::size_t>(std::clamp(item.attribute("sample").as_int(0), 0, kMaxBands));
+  const auto of_band = [&]() -> BandMetadata& {
+    if (metadata.bands.size() <= band) metadata.bands.resize(band + 1);
+    return metadata.bands[band];
+  };
+  if (role == "unittype") of_band().unit = item.child_value();
+  if (role == "description") of_band().description = item.child_value();
   const auto number = read_number(item.child_value());
   if (!number) return;
-  if (role == "scale" && first && *number != 0.0) metadata.scale = *number;
-  if (role == "offset" && first) metadata.offset = *number;
+  if (role == "scale" && *number != 0.0) of_band().scale = *number;
+  if (role == "offset") of_band().offset = *number;
   if (name == "STATISTICS_MINIMUM") metadata.least = std::min(metadata.least.value_or(*number), *number);
   if (name == "STATISTICS_MAXIMUM") metadata.most = std::max(metadata.most.value_or(*number), *number);
 }

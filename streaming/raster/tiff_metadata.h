@@ -9,14 +9,25 @@
 
 namespace terrella {
 
+/// The meaning of one band's numbers: value = number · scale + offset.
+struct BandMetadata {
+  std::string unit;
+  std::string description;
+  double scale = 1.0;
+  double offset = 0.0;
+};
+
 /// Facts about the numbers in a TIFF that GDAL keeps in tags of its own.
 struct TiffMetadata {
-  std::optional<double> nodata;  ///< the tag 42113
-  std::string unit;              ///< the first band's unit
-  double scale = 1.0;            ///< the first band's: value = number · scale + offset
-  double offset = 0.0;
+  std::optional<double> nodata;     ///< the tag 42113
+  std::vector<BandMetadata> bands;  ///< the first bands of the picture; further ones say nothing
   /// STATISTICS_MINIMUM and STATISTICS_MAXIMUM of all bands that have them.
   std::optional<double> least, most;
+
+  /// Returns what is said of a band, counted from 0.
+  [[nodiscard]] BandMetadata band(std::size_t index) const {
+    return index < bands.size() ? bands[index] : BandMetadata{};
+  }
 };
 
 /// Reads the tags of the current directory. Tags of a wrong type and damaged XML count as missing, because the pixels

@@ -130,7 +130,8 @@ Status add_side_file(const fs::path& path, bool mask_file, PyramidParts& parts) 
 /// Refuses a picture that its Orientation tag turns. A stated place is that of the stored rows, as in GDAL, which
 /// ignores the tag.
 Status check_orientation(const fs::path& path, const TiffPicture& picture) {
-  if (picture.orientation <= ORIENTATION_TOPLEFT || picture.orientation > ORIENTATION_LEFTBOT) return Done{};
+  const bool turned = picture.orientation > ORIENTATION_TOPLEFT && picture.orientation <= ORIENTATION_LEFTBOT;
+  if (!turned || path.empty()) return Done{};
   const auto tags = read_geo_tags(path);
   const auto sides = read_side_files(path);
   const auto places = [](const SideClaim& claim) { return claim.transform || claim.has_control_points; };
@@ -143,22 +144,34 @@ Status check_orientation(const fs::path& path, const TiffPicture& picture) {
 
 }  // namespace
 
-Result<TiffPyramid> read_pyramid(const fs::path& path) {
-  const auto file = open_byte_file(path);
-  if (!file) return file.error();
-  const auto reader = TiffReader::open(*file);
+namespace {
+
+/// `path`: where the files beside the picture lie; empty: there are none.
+Result<TiffPyramid> read_parts(const std::shared_ptr<const ByteFile>& file, const fs::path& path) {
+  const auto reader = TiffReader::open(file);
   if (!reader) return reader.error();
   TiffPyramid pyramid{.levels = {}, .metadata = read_metadata(**reader)};
-  auto directories = read_directories(*file, **reader);
+  auto directories = read_directories(file, **reader);
   if (!directories) return directories.error();
   if (Status upright = check_orientation(path, directories->front().picture); !upright) return upright.error();
   PyramidParts parts(std::move(directories->front()));
   for (std::size_t i = 1; i < directories->size(); ++i) parts.add(std::move((*directories)[i]), false);
   for (const auto& [ending, mask_file] : {std::pair{".ovr", false}, std::pair{".msk", true}}) {
+    if (path.empty()) break;
     if (Status added = add_side_file(path.string() + ending, mask_file, parts); !added) return added.error();
   }
   pyramid.levels = parts.finish();
   return pyramid;
 }
+
+}  // namespace
+
+Result<TiffPyramid> read_pyramid(const fs::path& path) {
+  const auto file = open_byte_file(path);
+  if (!file) return file.error();
+  return read_parts(*file, path);
+}
+
+Result<TiffPyramid> read_pyramid(const std::shared_ptr<const ByteFile>& file) { return read_parts(file, {}); }
 
 }  // namespace terrella

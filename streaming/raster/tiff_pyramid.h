@@ -33,5 +33,7 @@ struct TiffPyramid {
 /// Reads all directories. Overviews that do not fit the picture (another kind of sample, another shape, without the
 /// picture's mask) are left out. The error names the file, the damage and a cure. Blocks. thread: any
 [[nodiscard]] Result<TiffPyramid> read_pyramid(const std::filesystem::path& path);
+/// The same for a file without files beside it.
+[[nodiscard]] Result<TiffPyramid> read_pyramid(const std::shared_ptr<const ByteFile>& file);
 
 }  // namespace terrella

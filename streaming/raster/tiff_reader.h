@@ -57,6 +57,9 @@ class TiffReaders {
     }
     [[nodiscard]] TiffReader* operator->() const { return reader_.get(); }
     [[nodiscard]] TiffReader& operator*() const { return *reader_; }
+    /// Closes the reader instead of returning it. libtiff takes a part of its table of blocks that could not be read
+    /// for zeros from then on.
+    void drop() { reader_.reset(); }
 
    private:
     TiffReaders* pool_;

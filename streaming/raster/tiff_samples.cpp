@@ -91,7 +91,7 @@ bool TiffSamples::may_be_clear() const {
 ColourConverter::ColourConverter(TiffSamples samples) : samples_(std::move(samples)) {
   is_plain_rgb_ = samples_.colour == TiffColour::rgb && samples_.per_pixel == 3 && samples_.stored_bits == 8 &&
                   samples_.type == SampleType::uint8 && !samples_.nodata && !samples_.stretch;
-  if (samples_.colour == TiffColour::palette) return;
+  if (samples_.colour == TiffColour::palette || samples_.composite) return;
   const auto fill = [this](auto zero) {
     using T = decltype(zero);
     if constexpr (sizeof(T) <= 2) {
@@ -149,7 +149,33 @@ void ColourConverter::convert(const std::uint8_t* from, std::size_t pixels, std:
   }
 }
 
+/// Bands of a composite are stretched without tables, because each band has a range of its own.
+template <class T>
+void ColourConverter::convert_composite(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const {
+  const auto nodata = as_sample<T>(samples_.nodata);
+  const std::array<BandStretch, 3>& bands = *samples_.composite;
+  for (std::size_t i = 0; i < pixels; ++i, from += samples_.pixel_bytes(), rgba += 4) {
+    bool clear = nodata.has_value();
+    bool unknown = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const T sample = sample_at<T>(from, bands[c].band);
+      const Stretch& range = bands[c].stretch;
+      const double share = (static_cast<double>(sample) - range.low) / (range.high - range.low);
+      rgba[c] = static_cast<std::uint8_t>(std::min(1.0, std::max(0.0, share)) * 255.0 + 0.5);
+      clear = clear && sample == *nodata;
+      if constexpr (std::is_floating_point_v<T>) unknown = unknown || std::isnan(sample);
+    }
+    rgba[3] = samples_.alpha == TiffAlpha::none
+                  ? std::uint8_t{255}
+                  : alpha_level(sample_at<T>(from, samples_.colours()), samples_.stored_bits);
+    if (clear || unknown) std::memset(rgba, 0, 4);
+  }
+}
+
 void ColourConverter::to_rgba(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const {
+  if (samples_.composite) {
+    return with_sample_type(samples_.type, [&](auto zero) { convert_composite<decltype(zero)>(from, pixels, rgba); });
+  }
   if (is_plain_rgb_) {
     for (std::size_t i = 0; i < pixels; ++i) {
       std::memcpy(rgba + 4 * i, from + 3 * i, 3);
@@ -169,10 +195,19 @@ void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std
     for (std::size_t i = 0; i < pixels; ++i, from += step) {
       const T sample = sample_at<T>(from, coding.band);
       const auto number = static_cast<float>(static_cast<double>(sample) * coding.scale + coding.offset);
-      const bool known = (!nodata || sample != *nodata) && std::isfinite(number);
+      const bool clear = samples.alpha != TiffAlpha::none && coding.band < samples.colours() &&
+                         sample_at<T>(from, samples.colours()) == T{};
+      const bool known = (!nodata || sample != *nodata) && !clear && std::isfinite(number);
       numbers[i] = known ? number : std::numeric_limits<float>::quiet_NaN();
     }
   });
+}
+
+double exact_sample(const TiffSamples& samples, std::size_t band, const std::uint8_t* pixel) {
+  double exact = 0.0;
+  with_sample_type(samples.type,
+                   [&](auto zero) { exact = static_cast<double>(sample_at<decltype(zero)>(pixel, band)); });
+  return exact;
 }
 
 void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to) {

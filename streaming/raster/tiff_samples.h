@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "streaming/numbers/stretch.h"
+
 namespace terrella {
 
 enum class TiffColour { gray, gray_inverted, rgb, palette };
@@ -16,10 +18,10 @@ enum class SampleType { uint8, int8, uint16, int16, uint32, int32, float32, floa
 /// "8-bit unsigned integers"
 [[nodiscard]] std::string sample_title(SampleType type);
 
-/// The range of values that a picture shows from black to white; low < high.
-struct Stretch {
-  double low = 0.0;
-  double high = 255.0;
+/// One of three bands that are shown as red, green and blue.
+struct BandStretch {
+  std::size_t band = 0;  ///< index of the sample in its pixel
+  Stretch stretch;
 };
 
 /// Layout and meaning of the samples in a TIFF's pixels, after unpacking: samples of a pixel together, none shorter
@@ -34,6 +36,7 @@ struct TiffSamples {
   std::optional<double> nodata = {};                 ///< a pixel whose colours all have this value is transparent
   /// Without it 16-bit samples are divided by 257. Samples with a sign, of 32 bits and floats need it.
   std::optional<Stretch> stretch = {};
+  std::optional<std::array<BandStretch, 3>> composite = {};  ///< set: these bands are the colours; not for palettes
 
   [[nodiscard]] std::size_t colours() const { return colour == TiffColour::rgb ? 3 : 1; }
   [[nodiscard]] std::size_t pixel_bytes() const { return per_pixel * sample_bytes(type); }
@@ -54,6 +57,8 @@ class ColourConverter {
   template <class T>
   [[nodiscard]] std::uint8_t level(T value) const;
   [[nodiscard]] std::uint8_t level_of(double value) const;
+  template <class T>
+  void convert_composite(const std::uint8_t* from, std::size_t pixels, std::uint8_t* rgba) const;
 
   TiffSamples samples_;
   bool is_plain_rgb_ = false;         ///< three bytes that are the colours
@@ -68,9 +73,13 @@ struct NumberCoding {
   double offset = 0.0;
 };
 
-/// Converts one sample of each pixel to a float. No data, NaN and infinite samples give NaN. thread: any
+/// Converts one sample of each pixel to a float. No data, NaN, infinite samples and pixels of alpha 0 give NaN. thread:
+/// any
 void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std::uint8_t* from, std::size_t pixels,
                float* numbers);
+
+/// One sample of a pixel as a double, which holds the values of every type exactly. thread: any
+[[nodiscard]] double exact_sample(const TiffSamples& samples, std::size_t band, const std::uint8_t* pixel);
 
 /// Unpacks samples of 1, 2 or 4 bits, the first in the highest bits, to a byte each. thread: any
 void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to);

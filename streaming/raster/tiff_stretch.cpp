@@ -16,12 +16,6 @@ constexpr std::int64_t kSampledPixels = 1 << 25;
 /// From here on, 16-bit values fill enough of the range to be shown unstretched.
 constexpr double kUpperHalf = 32768.0;
 
-void keep_known(const float* numbers, std::size_t count, std::vector<float>& values) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::isfinite(numbers[i])) values.push_back(numbers[i]);
-  }
-}
-
 /// Number of pieces to read, of `count` pieces of `pixels` pixels each.
 std::int64_t pieces_to_read(std::int64_t count, std::int64_t pixels) {
   return std::clamp<std::int64_t>(kSampledPixels / pixels, 1, std::min(count, kSampledPieces));
@@ -42,7 +36,8 @@ Status sample_tiles(const TiffLevel& level, const NumberCoding& coding, std::vec
         static_cast<std::size_t>(std::min(picture.tile_width_px, picture.width_px - column * picture.tile_width_px));
     const std::int64_t high = std::min(picture.tile_height_px, picture.height_px - row * picture.tile_height_px);
     for (std::int64_t y = 0; y < high; ++y) {
-      keep_known(numbers->values.data() + y * picture.tile_width_px, wide, values);
+      const float* from = numbers->values.data() + y * picture.tile_width_px;
+      values.insert(values.end(), from, from + wide);
     }
   }
   return Done{};
@@ -56,7 +51,7 @@ Status sample_rows(const TiffLevel& level, const NumberCoding& coding, std::vect
   for (std::int64_t i = 0; i < reads; ++i) {
     const std::int64_t y = (2 * i + 1) * picture.height_px / (2 * reads);
     if (Status read = rows.numbers(y, coding, row.data()); !read) return read;
-    keep_known(row.data(), row.size(), values);
+    values.insert(values.end(), row.begin(), row.end());
   }
   return Done{};
 }
@@ -68,22 +63,29 @@ double percentile(std::vector<float>& values, double share) {
   return static_cast<double>(values[static_cast<std::size_t>(at)]);
 }
 
+Status add_samples(const TiffLevel& level, const NumberCoding& coding, std::vector<float>& values) {
+  const bool tiled = level.part.picture.tiled && (!level.mask || level.mask->picture.tiled);
+  return tiled ? sample_tiles(level, coding, values) : sample_rows(level, coding, values);
+}
+
 Result<Stretch> range_of_samples(const TiffLevel& level, const std::optional<double>& nodata) {
-  const TiffPicture& picture = level.part.picture;
-  const bool tiled = picture.tiled && (!level.mask || level.mask->picture.tiled);
   std::vector<float> values;
-  for (std::size_t band = 0; band < picture.samples.colours(); ++band) {
-    const NumberCoding coding{.band = band, .nodata = nodata};
-    if (Status read = tiled ? sample_tiles(level, coding, values) : sample_rows(level, coding, values); !read) {
-      return read.error();
-    }
+  for (std::size_t band = 0; band < level.part.picture.samples.colours(); ++band) {
+    if (Status read = add_samples(level, {.band = band, .nodata = nodata}, values); !read) return read.error();
   }
+  std::erase_if(values, [](float value) { return !std::isfinite(value); });
   if (values.empty()) return Stretch{.low = 0.0, .high = 1.0};
   const double low = percentile(values, 0.02);
   return Stretch{.low = low, .high = percentile(values, 0.98)};
 }
 
 }  // namespace
+
+Result<std::vector<float>> sample_band(const TiffLevel& level, const NumberCoding& coding) {
+  std::vector<float> values;
+  if (Status read = add_samples(level, coding, values); !read) return read.error();
+  return values;
+}
 
 Result<std::optional<Stretch>> find_stretch(const TiffPyramid& pyramid, const std::optional<double>& nodata) {
   const TiffSamples& samples = pyramid.levels.front().part.picture.samples;

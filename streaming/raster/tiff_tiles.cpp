@@ -104,7 +104,10 @@ Result<std::vector<std::uint8_t>> read_tile(TiffReaders& readers, const TiffPict
   auto reader = readers.lend();
   if (!reader) return reader.error();
   const auto spans = tile_spans(**reader, picture, column, row);
-  if (!spans) return spans.error();
+  if (!spans) {
+    reader->drop();
+    return spans.error();
+  }
   std::vector<std::vector<std::byte>> planes;
   for (const ByteSpan& span : *spans) {
     planes.emplace_back(static_cast<std::size_t>(span.size));

@@ -50,7 +50,7 @@ RasterInfo raster_info_of(const TileSetInfo& tiles) {
                   .crs = square.crs,
                   .levels = {},
                   .opaque = false,
-                  .elevation = tiles.elevation};
+                  .numbers = tiles.numbers};
   for (int level = tiles.grid.min_level; level <= tiles.grid.max_level; ++level) {
     info.levels.push_back(level_of(tiles.grid, square, level));
   }

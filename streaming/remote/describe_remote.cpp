@@ -158,13 +158,13 @@ class Describing {
     const Result<SourceDescription> source = parse_source_json(text, where);
     if (!source) return source.error();
     RemoteOptions merged = merge(options, source->options);
-    if (merged.elevation) merged.format = ImageFormat::png;
+    if (merged.numbers && !merged.numbers->rgb) merged.format = ImageFormat::png;
     Result<RemoteTileSet> set = follow(*source, address, merged, options);
-    if (!set || !merged.elevation) return set;
-    if (set->info.format != ImageFormat::png) {
+    if (!set || !merged.numbers) return set;
+    if (!merged.numbers->rgb && set->info.format != ImageFormat::png) {
       return Error{where + ": its tiles are no PNG pictures, and heights are PNG of 16 bits; leave \"elevation\" out"};
     }
-    set->info.elevation = merged.elevation;
+    set->info.numbers = merged.numbers;
     return set;
   }
 
@@ -204,6 +204,8 @@ class Describing {
 
 }  // namespace
 
+bool names_its_kind(const Url& tile_set) { return kind_of_name(tile_set.with_secrets()) != Kind::unknown; }
+
 bool is_remote(const Url& tile_set) {
   const std::string_view text = tile_set.with_secrets();
   if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;
@@ -213,7 +215,9 @@ bool is_remote(const Url& tile_set) {
 }
 
 Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options, const FetchDocument& fetch) {
-  return Describing(fetch).describe(tile_set, options);
+  auto set = Describing(fetch).describe(tile_set, options);
+  if (set && options.numbers) set->info.numbers = options.numbers;
+  return set;
 }
 
 }  // namespace terrella

@@ -21,6 +21,9 @@ using FetchDocument =
 /// their directory. Looks at the text only. thread: any
 [[nodiscard]] bool is_remote(const Url& tile_set);
 
+/// True if the text names the kind of its set: a URL template, WMTS, WMS, TMS or JSON. thread: any
+[[nodiscard]] bool names_its_kind(const Url& tile_set);
+
 /// Finds the addresses of a set's tiles. `tile_set` is a URL template, or the address or file of a WMTS or WMS
 /// capabilities document, a GetMap request, a tilemapresource.xml, a GDAL_WMS or a JSON source description. `options`
 /// override a description. A document from the network may not point to files. Headers are only sent to the scheme,

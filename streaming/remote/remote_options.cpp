@@ -46,7 +46,7 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
   prefer(merged.projection, otherwise.projection);
   prefer(merged.latitude, otherwise.latitude);
   prefer(merged.format, otherwise.format);
-  prefer(merged.elevation, otherwise.elevation);
+  prefer(merged.numbers, otherwise.numbers);
   prefer(merged.name, otherwise.name);
   prefer(merged.attribution, otherwise.attribution);
   prefer(merged.body, otherwise.body);

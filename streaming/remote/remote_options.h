@@ -27,7 +27,7 @@ struct RemoteOptions {
   std::optional<LatitudeKind> latitude{};
   std::optional<ImageFormat> format{};  ///< none: by the ending of a URL template, else jpeg
 
-  std::optional<ElevationInfo> elevation{};  ///< the tiles are heights, 16-bit PNGs; none: pictures
+  std::optional<NumberInfo> numbers{};  ///< the tiles are heights, 16-bit PNGs; none: pictures
 
   std::optional<std::string> name{};
   std::optional<std::string> attribution{};

@@ -24,7 +24,7 @@ Status check_answer(const TileSetInfo& info, const TileId& id, std::span<const s
   TileSides sides{.least_width_px = grid.tile_px,
                   .least_height_px = grid.tile_px,
                   .most_px = grid.tile_px,
-                  .floats = info.elevation && info.elevation->floats};
+                  .floats = info.numbers && info.numbers->floats};
   if (info.square) {
     const TileBounds tile = tile_bounds(grid, id);
     if (tile.east_deg > grid.bounds.east.deg()) sides.least_width_px = 1;

@@ -17,10 +17,10 @@ constexpr int kVersion = 1;
 constexpr int kMaxLife_s = 315'360'000;  // ten years; more is a mistake of units
 
 constexpr std::array kKnown = {
-    "version",    "name",           "attribution",   "body",     "url",    "subdomains", "headers",
-    "wmts",       "layer",          "matrix_set",    "style",    "time",   "tms",        "wms",
-    "min_level",  "max_level",      "root_span_deg", "tile_px",  "bounds", "format",     "latitude",
-    "projection", "absence_life_s", "tile_life_s",   "elevation"};
+    "version",    "name",           "attribution",   "body",      "url",     "subdomains", "headers",
+    "wmts",       "layer",          "matrix_set",    "style",     "time",    "tms",        "wms",
+    "min_level",  "max_level",      "root_span_deg", "tile_px",   "bounds",  "format",     "latitude",
+    "projection", "absence_life_s", "tile_life_s",   "elevation", "encoding"};
 
 std::optional<std::string> text_if(JsonFields& fields, const char* field) {
   return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
@@ -110,8 +110,8 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.tile_life = life_if(fields, "tile_life_s");
   options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
-  options.elevation = read_elevation(*object, fields, where);
-  if (options.elevation && options.format && options.format != ImageFormat::png) {
+  options.numbers = read_elevation(*object, fields, where);
+  if (options.numbers && !options.numbers->rgb && options.format && options.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   if (fields.error()) return *fields.error();

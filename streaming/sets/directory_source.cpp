@@ -159,7 +159,7 @@ Result<std::unique_ptr<TileSource>> open_json(const fs::path& root, const fs::pa
   if (!bytes) return Error{bytes.error().message};
   Result<TileSetInfo> info = parse_tileset_json(as_text(*bytes), description.string());
   if (!info) return info.error();
-  DirectoryLayout layout{.root = root, .folder = {}, .extension = extension_of(info->format)};
+  DirectoryLayout layout{.root = root, .folder = {}, .extension = tile_ending(*info)};
   for (int level = info->grid.min_level; level <= info->grid.max_level; ++level) {
     layout.folder[level] = std::to_string(level);
   }

@@ -262,9 +262,9 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
   tiles.info.grid.bounds = table->square ? bounds_in_square(data) : bounds_of(in_latitude(data, table->crs.projection));
   tiles.info.format = format_of(reader, table->name);
   if (table->is_coverage) {
-    const Result<ElevationInfo> elevation = read_coverage(reader, table->name, where);
+    const Result<NumberInfo> elevation = read_coverage(reader, table->name, where);
     if (!elevation) return elevation.error();
-    tiles.info.elevation = *elevation;
+    tiles.info.numbers = *elevation;
   }
   if (Status placed = place_on_grid(*matrices, table->set, tiles, where); !placed) return placed.error();
   if (Status grid = check_grid(tiles.info.grid, where); !grid) return grid.error();

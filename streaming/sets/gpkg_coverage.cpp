@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
+#include <string>
 
 namespace terrella {
 namespace {
@@ -15,43 +13,49 @@ Status check_words(const SqliteQuery& row) {
   if (datatype != "integer" && datatype != "float") {
     return Error{fmt::format("its datatype is \"{}\", it must be integer or float", datatype)};
   }
-  constexpr std::array<std::string_view, 5> kMetres = {"", "m", "metre", "meter", "metres"};
-  const std::string unit = row.text(4).value_or("");
-  if (std::ranges::find(kMetres, unit) == kMetres.end()) {
-    return Error{fmt::format("its heights are in \"{}\", they must be in metres (gdal_calc.py converts them)", unit)};
-  }
   if (row.text(5) == "grid-value-is-corner") {
     return Error{
-        "its heights stand at the corners of pixels (grid-value-is-corner), they must stand for whole pixels "
+        "its numbers stand at the corners of pixels (grid-value-is-corner), they must stand for whole pixels "
         "or their middles (gdal_translate -co GRID_CELL_ENCODING=grid-value-is-center)"};
   }
   return Done{};
 }
 
-Result<ElevationInfo> info_of(const SqliteQuery& row) {
+/// "value" is what `cut` writes where nothing is known, and "Height" the table's default.
+std::string quantity_of(const std::string& stated) {
+  if (stated == "value") return {};
+  return stated == "Height" ? "height" : stated;
+}
+
+Result<NumberInfo> info_of(const SqliteQuery& row) {
   if (Status known = check_words(row); !known) return known.error();
   const std::optional<double> scale = row.number(1);
   const std::optional<double> offset = row.number(2);
   if (!scale || !offset || *scale == 0.0) return Error{"its scale and offset must be numbers, and the scale not 0"};
-  return ElevationInfo{
-      .scale = *scale, .offset = *offset, .nodata = row.number(3), .floats = row.text(0) == std::string("float")};
+  return NumberInfo{.scale = *scale,
+                    .offset = *offset,
+                    .nodata = row.number(3),
+                    .floats = row.text(0) == std::string("float"),
+                    .unit = row.text(4).value_or(""),
+                    .quantity = quantity_of(row.text(6).value_or(""))};
 }
 
 }  // namespace
 
-Result<ElevationInfo> read_coverage(SqliteReader& reader, const std::string& table, const std::string& where) {
+Result<NumberInfo> read_coverage(SqliteReader& reader, const std::string& table, const std::string& where) {
   const auto refuse = [&](const std::string& why) {
-    return Error{fmt::format("{}: the heights of \"{}\" (gpkg_2d_gridded_coverage_ancillary): {}", where, table, why)};
+    return Error{fmt::format("{}: the numbers of \"{}\" (gpkg_2d_gridded_coverage_ancillary): {}", where, table, why)};
   };
   Result<SqliteQuery, SqlError> query = reader.prepare(
-      "SELECT datatype, scale, \"offset\", data_null, uom, grid_cell_encoding FROM gpkg_2d_gridded_coverage_ancillary "
+      "SELECT datatype, scale, \"offset\", data_null, uom, grid_cell_encoding, quantity_definition FROM "
+      "gpkg_2d_gridded_coverage_ancillary "
       "WHERE tile_matrix_set_name = ?1");
   if (!query) return refuse(query.error().message);
   query->bind(1, table);
   const Result<bool, SqlError> row = query->step();
   if (!row) return refuse(row.error().message);
   if (!*row) return refuse("nothing is said of them");
-  Result<ElevationInfo> info = info_of(*query);
+  Result<NumberInfo> info = info_of(*query);
   if (!info) return refuse(info.error().message);
   return info;
 }

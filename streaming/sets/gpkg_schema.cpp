@@ -130,7 +130,7 @@ SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
 namespace {
 
 /// The extension knows no two's complement numbers. Other programs see gray pictures of them.
-bool is_coverage(const TileSetInfo& info) { return info.elevation && !info.elevation->is_signed; }
+bool is_coverage(const TileSetInfo& info) { return info.numbers && !info.numbers->is_signed && !info.numbers->rgb; }
 
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
@@ -163,17 +163,18 @@ SqlStatement matrix_set(const TileSetInfo& info) {
                   units.x(grid.west_deg + static_cast<double>(columns(grid, 0)) * grid.root_span_deg), units.y(top)}};
 }
 
-void describe_heights(const ElevationInfo& elevation, std::vector<SqlStatement>& all) {
+void describe_numbers(const NumberInfo& info, std::vector<SqlStatement>& all) {
   for (const char* table : kCoverageTables) all.push_back({table, {}});
   all.push_back({kCoverageExtension, {}});
-  std::vector<double> numbers = {elevation.scale, elevation.offset};
+  std::vector<double> numbers = {info.scale, info.offset};
   // GDAL rounds to the precision. The schema's default is one metre.
-  if (elevation.nodata) numbers.push_back(*elevation.nodata);
+  if (info.nodata) numbers.push_back(*info.nodata);
+  const std::string quantity = info.quantity.empty() ? "value" : info.quantity;
   all.push_back({std::string("INSERT INTO gpkg_2d_gridded_coverage_ancillary (tile_matrix_set_name, datatype, scale, "
-                             "offset, precision, data_null, uom) VALUES ('tiles', " +
-                             std::string(elevation.floats ? "'float'" : "'integer'") + ", ?1, ?2, abs(?1), ") +
-                     (elevation.nodata ? "?3" : "NULL") + ", 'm')",
-                 {},
+                             "offset, precision, data_null, uom, field_name, quantity_definition) VALUES ('tiles', " +
+                             std::string(info.floats ? "'float'" : "'integer'") + ", ?3, ?4, abs(?3), ") +
+                     (info.nodata ? "?5" : "NULL") + ", nullif(?1, ''), ?2, ?2)",
+                 {info.unit, quantity},
                  std::move(numbers)});
 }
 
@@ -204,9 +205,9 @@ std::vector<SqlStatement> geopackage_schema(const TileSetInfo& info, const std::
   all.push_back({std::string("INSERT INTO ") + kTileSetTable + " VALUES (?1, ?2)",
                  {kTileSetKey, to_tileset_json(info, cut_key)}});
   const bool webp = info.format == ImageFormat::webp;
-  if (info.elevation || webp) all.push_back({kExtensionsTable, {}});
+  if (info.numbers || webp) all.push_back({kExtensionsTable, {}});
   if (webp) all.push_back({kWebpExtension, {}});
-  if (is_coverage(info)) describe_heights(*info.elevation, all);
+  if (is_coverage(info)) describe_numbers(*info.numbers, all);
   if (grid.reduced) all.push_back({tile_table_sql(kSqueezedTable), {}});
   return all;
 }

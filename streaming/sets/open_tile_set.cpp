@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "streaming/cache/cache_report.h"
+#include "streaming/cache/cache_schema.h"
 #include "streaming/file_bytes.h"
 #include "streaming/other_formats.h"
 #include "streaming/pmtiles/pmtiles_set.h"
@@ -19,6 +21,12 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   }
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
+  if (read_cache_source(path).starts_with(kRangesKey)) {
+    return Error{
+        fmt::format("{0}: keeps parts of a TIFF on a server; show that with: terrella view ADDRESS --cache {0} "
+                    "--offline",
+                    path.string())};
+  }
   if (is_sqlite_file(path)) return open_geopackage(path, geodetic_mbtiles);
   const auto head = read_head(path, kFormatHeadBytes);
   if (!head) return Error{head.error().message};

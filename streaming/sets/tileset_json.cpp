@@ -19,6 +19,8 @@ using nlohmann::json;
 
 constexpr int kVersion = 1;
 constexpr const char* kCutKeyField = "cut_key";
+/// Format of tiles of floats.
+constexpr const char* kTiffEnding = "tif";
 
 /// Reads the square of a `projected` grid.
 std::optional<CrsSquare> read_square(const json& object, JsonFields& fields, const std::string& where) {
@@ -61,9 +63,11 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   if (fields.has("origin_west_deg")) info.grid.west_deg = fields.number("origin_west_deg");
   if (fields.has("origin_north_deg")) info.grid.north_deg = fields.number("origin_north_deg");
   info.grid.reduced = fields.choice("polar_rows", "full", "squeezed too", 0) == 1;
-  info.format = static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
-  info.elevation = read_elevation(object, fields, where);
-  if (info.elevation && info.format != ImageFormat::png) {
+  info.numbers = read_elevation(object, fields, where);
+  const bool tiff = info.numbers && info.numbers->floats && fields.has("format") && object["format"] == kTiffEnding;
+  info.format =
+      tiff ? ImageFormat::png : static_cast<ImageFormat>(fields.choice("format", kImageFormatNames, std::nullopt));
+  if (info.numbers && !info.numbers->rgb && info.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");
   }
   info.square = read_square(object, fields, where);
@@ -103,15 +107,17 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
     object["origin_north_deg"] = grid.north_deg;
   }
   if (grid.reduced) object["polar_rows"] = "squeezed too";
-  object["format"] = extension_of(info.format);
-  if (info.elevation) {
-    object["elevation"] = {{"scale", info.elevation->scale}, {"offset", info.elevation->offset}};
+  object["format"] = tile_ending(info);
+  if (info.numbers) {
+    object["elevation"] = {{"scale", info.numbers->scale}, {"offset", info.numbers->offset}};
     auto& elevation = object["elevation"];
-    if (info.elevation->nodata && info.elevation->floats) elevation["nodata"] = *info.elevation->nodata;
-    if (info.elevation->nodata && !info.elevation->floats)
-      elevation["nodata"] = static_cast<int>(*info.elevation->nodata);
-    if (info.elevation->is_signed) elevation["numbers"] = "signed";
-    if (info.elevation->floats) elevation["numbers"] = "float";
+    if (info.numbers->nodata && info.numbers->floats) elevation["nodata"] = *info.numbers->nodata;
+    if (info.numbers->nodata && !info.numbers->floats) elevation["nodata"] = static_cast<int>(*info.numbers->nodata);
+    if (info.numbers->is_signed) elevation["numbers"] = "signed";
+    if (info.numbers->floats) elevation["numbers"] = "float";
+    if (info.numbers->rgb) elevation["numbers"] = "rgb";
+    if (!info.numbers->unit.empty()) elevation["unit"] = info.numbers->unit;
+    if (!info.numbers->quantity.empty()) elevation["quantity"] = info.numbers->quantity;
   }
   if (const auto& square = info.square) {
     object["square"] = {
@@ -119,6 +125,10 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   }
   if (!cut_key.empty()) object[kCutKeyField] = cut_key;
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+const char* tile_ending(const TileSetInfo& info) {
+  return info.numbers && info.numbers->floats ? kTiffEnding : extension_of(info.format);
 }
 
 std::optional<std::string> read_cut_key(std::string_view text) {

@@ -35,4 +35,7 @@ inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
 /// allowed values. Unknown fields are ignored. thread: any
 [[nodiscard]] Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where);
 
+/// Ending of the files of tiles in a folder: "jpg", "png", "webp", or "tif" for floats. thread: any
+[[nodiscard]] const char* tile_ending(const TileSetInfo& info);
+
 }  // namespace terrella

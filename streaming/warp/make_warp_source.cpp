@@ -1,5 +1,7 @@
 #include "streaming/warp/make_warp_source.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "streaming/warp/fetch_desk.h"
@@ -12,7 +14,7 @@ class WarpSource : public TileSource, public RemoteTiles {
   WarpSource(std::shared_ptr<TilePlanner> planner, std::shared_ptr<const StoredBlocks> blocks, TileSetInfo info)
       : planner_(std::move(planner)), blocks_(std::move(blocks)), info_(std::move(info)) {
     if (RemoteTiles* network = blocks_->network()) {
-      desk_ = std::make_shared<FetchDesk>(*network, blocks_, info_.elevation.has_value());
+      desk_ = std::make_shared<FetchDesk>(*network, blocks_, info_.numbers.has_value());
     }
   }
   ~WarpSource() override {
@@ -28,7 +30,13 @@ class WarpSource : public TileSource, public RemoteTiles {
     WarpJob job(blocks_, planner_->plan(id));
     job.advance();
     if (!job.missing().empty()) return TileFailure{MissingKind::remote, {}};
-    return job.result(info_.elevation.has_value());
+    return job.result(info_.numbers.has_value());
+  }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
+    const double row_deg = row_latitude_deg(info_.grid, figure, Ellipsoid::normal(place.lat, place.lon));
+    const CrsPoint pixel = planner_->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
+    return blocks_->value_at(pixel);
   }
 
   [[nodiscard]] RemoteTiles* remote() override { return desk_ ? this : nullptr; }
@@ -63,24 +71,45 @@ Result<std::shared_ptr<TilePlanner>> TilePlanner::open(const RasterInfo& raster,
   return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews));
 }
 
-WarpPlan TilePlanner::plan(const TileId& id) {
-  std::optional<GroundMap> map;
+std::optional<GroundMap> TilePlanner::take_map() {
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
-      map = std::move(idle_.back());
+      GroundMap map = std::move(idle_.back());
       idle_.pop_back();
+      return map;
     }
   }
-  if (!map) {
-    auto opened = GroundMap::open(raster_, figure_);
-    if (!opened) return {.tile_px = frame_.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
-    map = *std::move(opened);
-  }
-  WarpPlan plan = plan_tile(*map, frame_, id);
+  auto opened = GroundMap::open(raster_, figure_);
+  return opened ? std::optional(*std::move(opened)) : std::nullopt;
+}
+
+void TilePlanner::put_back(GroundMap map) {
   const std::lock_guard lock(mutex_);
-  idle_.push_back(*std::move(map));
+  idle_.push_back(std::move(map));
+}
+
+WarpPlan TilePlanner::plan(const TileId& id) {
+  std::optional<GroundMap> map = take_map();
+  if (!map) return {.tile_px = frame_.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
+  WarpPlan plan = plan_tile(*map, frame_, id);
+  put_back(*std::move(map));
   return plan;
+}
+
+CrsPoint TilePlanner::pixel_at(const RowPlace& place) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::optional<GroundMap> map = take_map();
+  if (!map) return {kNone, kNone};
+  CrsPoint pixel{kNone, kNone};
+  map->pixels(std::span(&place, 1), std::span(&pixel, 1));
+  // The turn runs along the rows of every raster that has one and is stored north up.
+  if (const auto turn = map->turn_px(); turn && turn->y == 0.0 && turn->x != 0.0) {
+    const double turns = std::floor(pixel.x / std::abs(turn->x));
+    if (std::isfinite(turns)) pixel.x -= turns * std::abs(turn->x);
+  }
+  put_back(*std::move(map));
+  return pixel;
 }
 
 std::unique_ptr<TileSource> make_warp_source(std::unique_ptr<RasterSource> raster, std::shared_ptr<TilePlanner> planner,

@@ -18,8 +18,13 @@ class TilePlanner {
                                                                  const TileGrid& grid, Overviews overviews);
   [[nodiscard]] const WarpFrame& frame() const { return frame_; }
   [[nodiscard]] WarpPlan plan(const TileId& id);
+  /// The pixel of the raster's finest level under a place; infinite if there is none (GroundMap::pixels()).
+  [[nodiscard]] CrsPoint pixel_at(const RowPlace& place);
 
  private:
+  /// Lends a map of its own to a caller; none if no other can be made.
+  [[nodiscard]] std::optional<GroundMap> take_map();
+  void put_back(GroundMap map);
   TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
               Overviews overviews);
 

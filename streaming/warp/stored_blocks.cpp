@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tiles/height_decoder.h"
@@ -23,7 +24,7 @@ Result<Block, TileFailure> colours_of(const EncodedTile& encoded, int largest_si
   return Block(*std::move(image));
 }
 
-Result<Block, TileFailure> numbers_of(const EncodedTile& encoded, const ElevationInfo& info, int side_px) {
+Result<Block, TileFailure> numbers_of(const EncodedTile& encoded, const NumberInfo& info, int side_px) {
   auto numbers = encoded.make_numbers ? encoded.make_numbers() : decode_numbers(encoded, info, side_px);
   if (!numbers) return numbers.error();
   if (encoded.number_scale != 1.0 || encoded.number_offset != 0.0) {
@@ -76,8 +77,8 @@ Result<Block, TileFailure> StoredBlocks::decode_whole(const TileId& block, const
   const RasterInfo& info = raster_->info();
   const TileId id = stored(block);
   const RasterLevel& from = info.levels[static_cast<std::size_t>(id.level)];
-  auto whole = info.elevation ? numbers_of(encoded, *info.elevation, from.block_width_px)
-                              : colours_of(encoded, std::max(from.block_width_px, from.block_height_px));
+  auto whole = info.numbers ? numbers_of(encoded, *info.numbers, from.block_width_px)
+                            : colours_of(encoded, std::max(from.block_width_px, from.block_height_px));
   if (!whole) return whole;
   const std::int64_t width = std::min<std::int64_t>(from.block_width_px, from.width_px - id.x * from.block_width_px);
   const std::int64_t height =
@@ -89,6 +90,12 @@ Result<Block, TileFailure> StoredBlocks::decode_whole(const TileId& block, const
   }
   return TileFailure{MissingKind::broken, fmt::format("it is {}×{} pixels, the tile set says {}×{}", is_width,
                                                       is_height, from.block_width_px, from.block_height_px)};
+}
+
+Result<double, TileFailure> StoredBlocks::value_at(const CrsPoint& pixel) const {
+  // A place that the projection does not reach is infinite; pixel numbers beyond 2^31 do not exist.
+  const auto number = [](double at) { return std::isfinite(at) ? static_cast<std::int64_t>(std::floor(at)) : -1; };
+  return raster_->value_at(number(pixel.x), number(pixel.y));
 }
 
 std::string StoredBlocks::named(const TileId& block, const std::string& why) const {

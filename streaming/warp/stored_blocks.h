@@ -41,6 +41,8 @@ class StoredBlocks {
   [[nodiscard]] FoundBlock find(const TileId& block) const;
   /// Decodes a block, unless it is decoded already. Broken if it has another size than its level says.
   [[nodiscard]] DecodedBlocks::Decoded decode(const TileId& block, const FoundBlock& found) const;
+  /// RasterSource::value_at() of the pixel of the finest level around a point.
+  [[nodiscard]] Result<double, TileFailure> value_at(const CrsPoint& pixel) const;
   /// Puts the block's name before a reason.
   [[nodiscard]] std::string named(const TileId& block, const std::string& why) const;
 

@@ -104,15 +104,14 @@ Result<TileGrid> warp_grid(const RasterInfo& raster, const WarpOptions& options,
 Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> raster, const WarpOptions& options,
                                                 const std::string& where) {
   const RasterInfo& from = raster->info();
-  const auto grid = warp_grid(from, options, where);
+  const auto grid = options.grid ? Result<TileGrid>(*options.grid) : warp_grid(from, options, where);
   if (!grid) return grid.error();
+  if (Status good = check_raster(from, where); !good) return good.error();
   auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made);
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
   info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // of tiles inside the raster
-  if (from.elevation) {
-    info.elevation = ElevationInfo{.scale = from.elevation->scale, .offset = from.elevation->offset, .floats = true};
-  }
+  if (from.numbers) info.numbers = decoded(*from.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, options.decoded_bytes);
 }
 

@@ -19,6 +19,7 @@ struct WarpOptions {
   std::string body;   ///< TileSetInfo::body of the result
   int tile_px = 256;  ///< [16, 4096]
   std::size_t decoded_bytes = kWarpDecodedBytes;
+  std::optional<TileGrid> grid = {};  ///< default: warp_grid(); else `tile_px` does not count
 };
 
 /// Chooses the grid of the tiles of a raster. Its finest pixels are no larger than those in the middle of the raster,
@@ -29,7 +30,7 @@ struct WarpOptions {
                                          const std::string& where);
 
 /// Makes a geodetic tile set (warp_grid()) from a raster in any coordinate system that PROJ knows, local or remote.
-/// Tiles are pictures, or numbers if the raster has RasterInfo::elevation. Workers make a tile from the blocks of the
+/// Tiles are pictures, or numbers if the raster has RasterInfo::numbers. Workers make a tile from the blocks of the
 /// overview that suits it. Each block is read or fetched once, however many tiles need it at a time. Places beyond the
 /// raster, and places that its projection does not reach, are transparent or NaN.
 ///

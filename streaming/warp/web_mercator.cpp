@@ -37,9 +37,7 @@ Result<std::unique_ptr<TileSource>> geodetic_of_projected(std::unique_ptr<TileSo
   if (!planner) return Error{where + ": " + planner.error().message};
   info.made_of = info.grid;
   info.grid = *grid;
-  if (info.elevation) {
-    info.elevation = ElevationInfo{.scale = info.elevation->scale, .offset = info.elevation->offset, .floats = true};
-  }
+  if (info.numbers) info.numbers = decoded(*info.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info),
                           {.noun = "stored tile", .first_level = first_level}, options.decoded_bytes);
 }
@@ -86,9 +84,7 @@ Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stor
   info.made_of = mercator;
   info.grid = geodetic_grid_of(mercator);
   if (Status good = check_grid(info.grid, where + ": between the ends of Web Mercator"); !good) return good.error();
-  if (info.elevation) {
-    info.elevation = ElevationInfo{.scale = info.elevation->scale, .offset = info.elevation->offset, .floats = true};
-  }
+  if (info.numbers) info.numbers = decoded(*info.numbers);
   auto raster = raster_of_tiles(std::move(stored));
   auto planner = TilePlanner::open(raster->info(), figure_of(mercator), info.grid, Overviews::stored);
   if (!planner) return Error{where + ": " + planner.error().message};

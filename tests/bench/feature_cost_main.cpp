@@ -62,6 +62,12 @@ GlobeOptions with_sky(bool time) {
   return options;
 }
 
+GlobeOptions unlit() {
+  GlobeOptions options;
+  options.unlit = true;
+  return options;
+}
+
 /// Globes and what is drawn of them; all on one target.
 class Features {
  public:
@@ -118,9 +124,17 @@ void add_all(const Inputs& inputs, Features& features) {
   features.add_look("stereo, interlaced", opaque, Stereo::interlaced);
   features.add_look("stereo, anaglyph", opaque, Stereo::anaglyph);
   features.add_look("translucent, interlaced", glass, Stereo::interlaced);
+  features.add_look("bilinear magnification", {.sharpness = Sharpness::bilinear}, Stereo::off);
+  features.add("unlit", make_globe(inputs, unlit(), false));
   features.add("sky", make_globe(inputs, with_sky(false), false));
   features.add("sky, Sun, Moon, city lights", make_globe(inputs, with_sky(true), false));
-  if (!inputs.elevation.empty()) features.add("relief", make_globe(inputs, {}, true));
+  GlobeOptions dull = with_sky(true);
+  dull.surface.glint = false;
+  features.add("the same without glint", make_globe(inputs, std::move(dull), false));
+  if (inputs.elevation.empty()) return;
+  features.add("relief", make_globe(inputs, {}, true));
+  features.add("relief, unlit", make_globe(inputs, unlit(), true));
+  features.add("relief, hillshade", make_globe(inputs, {.surface = {.hillshade = true}}, true));
 }
 
 }  // namespace

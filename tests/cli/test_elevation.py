@@ -56,10 +56,15 @@ class BadHeights(ProgramTest):
         return level, table
 
     def test_a_picture_for_heights(self):
-        self.write("in.png", heights_png(128, 64))
-        for picture in ("in.png", BLUE_MARBLE):
-            self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", picture, *RENDER,
-                              says=[str(picture), "cut --elevation"])
+        self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", BLUE_MARBLE, *RENDER,
+                          says=[str(BLUE_MARBLE), "heights"])
+
+    def test_a_picture_of_numbers_is_heights(self):
+        flat, _ = self.run_flat()
+        self.write("in.png", hills(256, 128))
+        done = self.run_program("render", "sea.gpkg", "--elevation", "in.png", *ROUGH, *RENDER)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertNotEqual((self.folder / "out.png").read_bytes(), flat)
 
     def test_a_tile_set_of_pictures_for_heights(self):
         self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", "sea.gpkg", *RENDER,

@@ -76,6 +76,8 @@ void write_height_tiff(const fs::path& path, const Heights<T>& heights, int form
   TIFFClose(tiff);
 }
 
+constexpr WholeRange k16Bits{0, 65535};
+
 class Elevation : public testing::Test {
  protected:
   [[nodiscard]] CutOptions options(const std::string& input, const CutElevation& elevation = {},
@@ -84,11 +86,11 @@ class Elevation : public testing::Test {
         .images = {folder_ / input}, .output = folder_ / output, .tile_px = 16, .elevation = elevation, .force = true};
   }
 
-  [[nodiscard]] ElevationInfo described(const std::string& output = "out.gpkg") const {
+  [[nodiscard]] NumberInfo described(const std::string& output = "out.gpkg") const {
     const auto tiles = open_tile_set(folder_ / output);
     EXPECT_TRUE(tiles) << tiles.error().message;
-    EXPECT_TRUE(tiles && (*tiles)->info().elevation);
-    return tiles && (*tiles)->info().elevation ? *(*tiles)->info().elevation : ElevationInfo{};
+    EXPECT_TRUE(tiles && (*tiles)->info().numbers);
+    return tiles && (*tiles)->info().numbers ? *(*tiles)->info().numbers : NumberInfo{};
   }
 
   /// What GDAL says stands at a pixel, `overview` levels above the finest; NaN: nothing, or nodata.
@@ -111,7 +113,7 @@ TEST_F(Elevation, GdalReadsTheHeightsOfA16BitPng) {
   const auto heights = random_heights<std::uint16_t>(64, 32, 0, 65535);
   write_gray_png(folder_ / "in.png", heights);
   ASSERT_TRUE(must_cut(options("in.png", {.scale = 0.5, .offset = -10000.0})));
-  EXPECT_EQ(described(), (ElevationInfo{.scale = 0.5, .offset = -10000.0, .nodata = {}}));
+  EXPECT_EQ(described(), (NumberInfo{.scale = 0.5, .offset = -10000.0, .nodata = {}, .whole = k16Bits}));
   for (const auto& [x, y] : {std::pair{0, 0}, std::pair{63, 31}, std::pair{17, 20}, std::pair{40, 3}}) {
     EXPECT_EQ(by_gdal(x, y), heights.at(x, y) * 0.5 - 10000.0) << x << " " << y;
   }
@@ -138,7 +140,7 @@ TEST_F(Elevation, SignedAndFloatTiffsGiveMetres) {
   for (const bool tiled : {false, true}) {
     write_height_tiff(folder_ / "in.tif", whole, SAMPLEFORMAT_INT, tiled);
     ASSERT_TRUE(must_cut(options("in.tif")));
-    EXPECT_EQ(described(), (ElevationInfo{.scale = 1.0, .offset = -32768.0, .nodata = {}}));
+    EXPECT_EQ(described(), (NumberInfo{.scale = 1.0, .offset = -32768.0, .nodata = {}, .whole = k16Bits}));
     EXPECT_EQ(by_gdal(40, 3), whole.at(40, 3));
   }
   const auto real = random_heights<float>(64, 32, -11000.0, 8848.0);

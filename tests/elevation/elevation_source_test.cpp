@@ -44,7 +44,7 @@ TEST_F(ElevationSets, WhatTheCutterWritesComesBackFromGeoPackageAndFolder) {
   for (const char* name : {"out.gpkg", "tiles"}) {
     const auto source = must_open(folder_ / name);
     ASSERT_TRUE(source);
-    EXPECT_EQ(source->tiles()->info().elevation->nodata, 777.0);
+    EXPECT_EQ(source->tiles()->info().numbers->nodata, 777.0);
     for_each_height(*source, raster, [&](std::int64_t x, std::int64_t y, double height_m) {
       EXPECT_EQ(height_m, raster.at(x, y) == 777.0 ? 0.0 : raster.at(x, y) * 0.25 - 1000.0) << name;
     });
@@ -90,7 +90,7 @@ TEST_F(ElevationSets, GdalsFloatsComeBackFromTiffTiles) {
   write_gdal_geopackage(folder_ / "in.tif", folder_ / "gdal.gpkg");
   const auto source = must_open(folder_ / "gdal.gpkg");
   ASSERT_TRUE(source);
-  EXPECT_TRUE(source->tiles()->info().elevation->floats);
+  EXPECT_TRUE(source->tiles()->info().numbers->floats);
   double worst_m = 0.0;
   for_each_height(*source, raster, [&](std::int64_t x, std::int64_t y, double height_m) {
     if (raster.at(x, y) != -9999.0) worst_m = std::max(worst_m, std::abs(height_m - raster.at(x, y)));
@@ -107,7 +107,7 @@ TEST_F(ElevationSets, GdalsFloatsInPngTilesComeBackByTheirTilesScale) {
   write_gdal_geopackage(folder_ / "in.tif", folder_ / "gdal.gpkg", "-co TILE_FORMAT=PNG");
   const auto source = must_open(folder_ / "gdal.gpkg");
   ASSERT_TRUE(source);
-  EXPECT_FALSE(source->tiles()->info().elevation->floats);
+  EXPECT_FALSE(source->tiles()->info().numbers->floats);
   constexpr double kHalfStep_m = 0.5 * 1000.0 / 65535.0;
   double worst_m = 0.0;
   for_each_height(*source, raster, [&](std::int64_t x, std::int64_t y, double height_m) {
@@ -125,7 +125,7 @@ TEST_F(ElevationSets, PicturesBesideHeightsAreStillTheTileSet) {
                         "-90 -a_srs EPSG:4326");
   const auto tiles = open_tile_set(folder_ / "both.gpkg");
   ASSERT_TRUE(tiles) << tiles.error().message;
-  EXPECT_FALSE((*tiles)->info().elevation);
+  EXPECT_FALSE((*tiles)->info().numbers);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -21,7 +23,7 @@ std::vector<std::uint16_t> ramp() {
   return values;
 }
 
-Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const ElevationInfo& info, double tile_scale = 1.0,
+Result<HeightTile, TileFailure> decode(std::vector<std::byte> bytes, const NumberInfo& info, double tile_scale = 1.0,
                                        double tile_offset = 0.0) {
   return decode_heights(kId, {std::move(bytes), tile_scale, tile_offset}, info, kSide_px);
 }
@@ -43,6 +45,35 @@ TEST(HeightDecoder, NumbersBecomeMetresByTheTileThenTheSet) {
   EXPECT_EQ(tile->min_m, -80.0F);
   EXPECT_EQ(tile->max_m, 65535.0F - 80.0F);
   EXPECT_EQ(tile->unknown, 0U);
+}
+
+// The values of Mapbox's and Tilezen's own documentation: Rgb (1, 134, 160) is 0 m, and (128, 0, 0) is 0 m.
+TEST(HeightDecoder, ColoursAreTerrainRgbOrTerrarium) {
+  Image picture{kSide_px, kSide_px, std::vector<std::uint8_t>(kSide_px * kSide_px * 4, 255)};
+  const auto paint = [&picture](int at, std::array<std::uint8_t, 4> colour) {
+    std::ranges::copy(colour, picture.rgba.begin() + 4 * at);
+  };
+  for (int i = 0; i < kSide_px * kSide_px; ++i) paint(i, {1, 134, 160, 255});
+  paint(1, {1, 134, 161, 255});
+  paint(2, {2, 221, 60, 255});
+  paint(3, {9, 9, 9, 0});
+  NumberInfo info{.scale = 0.1, .offset = -10000.0};
+  info.rgb = true;
+  const auto mapbox = decode(*encode_png(picture), info);
+  ASSERT_TRUE(mapbox) << mapbox.error().why;
+  EXPECT_NEAR(mapbox->heights_m[0], 0.0F, 1e-3);
+  EXPECT_NEAR(mapbox->heights_m[1], 0.1F, 1e-3);
+  EXPECT_NEAR(mapbox->heights_m[2], 8770.0F, 1e-3);  // 2 · 65536 + 221 · 256 + 60 = 187708
+  EXPECT_EQ(mapbox->unknown, 1U);
+  for (int i = 0; i < kSide_px * kSide_px; ++i) paint(i, {128, 0, 0, 255});
+  paint(1, {162, 145, 128, 255});
+  info.scale = 1.0 / 256.0;
+  info.offset = -32768.0;
+  const auto terrarium = decode(*encode_png(picture), info);
+  ASSERT_TRUE(terrarium) << terrarium.error().why;
+  EXPECT_EQ(terrarium->heights_m[0], 0.0F);
+  EXPECT_EQ(terrarium->heights_m[1], 162.0F * 256.0F + 145.0F + 0.5F - 32768.0F);
+  expect_broken(decode(*encode_jpeg(picture, 90), info), "JPEG");
 }
 
 TEST(HeightDecoder, NodataBeyondTheNumbersIsNone) {
@@ -103,8 +134,8 @@ TEST(HeightDecoder, ATileOfNothingKnownIsLevel) {
 }
 
 TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
-  const ElevationInfo whole;
-  const ElevationInfo floats{.nodata = {}, .floats = true};
+  const NumberInfo whole;
+  const NumberInfo floats{.nodata = {}, .floats = true};
   expect_broken(decode(bytes_of("junk"), whole), "no PNG picture");
   expect_broken(decode({}, whole), "no PNG picture");
   expect_broken(decode(*encode_png(gradient(kSide_px, kSide_px)), whole), "RGB of 8 bits");
@@ -118,7 +149,7 @@ TEST(HeightDecoder, WhatIsBrokenSaysWhy) {
 }
 
 /// Every prefix, and bits flipped: whatever comes out, it must come out, and be finite.
-void feed_damaged(const std::vector<std::byte>& whole, const ElevationInfo& info) {
+void feed_damaged(const std::vector<std::byte>& whole, const NumberInfo& info) {
   const auto check = [&info](const std::vector<std::byte>& bytes) {
     const auto tile = decode(bytes, info);
     if (!tile) {

@@ -90,7 +90,6 @@ TEST_F(RefusedHeights, LessThanThePlanet) {
 TEST_F(RefusedHeights, WordsOfTheCoverageThatAreNotUnderstood) {
   const std::string table = "UPDATE gpkg_2d_gridded_coverage_ancillary SET ";
   const std::vector<std::pair<std::string, std::string>> spoilt = {
-      {"uom = 'ft'", "metres"},
       {"grid_cell_encoding = 'grid-value-is-corner'", "corners"},
       {"scale = 0", "scale"},
       {"\"offset\" = 'much'", "offset"},
@@ -104,6 +103,11 @@ TEST_F(RefusedHeights, WordsOfTheCoverageThatAreNotUnderstood) {
         "DELETE FROM gpkg_2d_gridded_coverage_ancillary; INSERT INTO gpkg_2d_gridded_coverage_ancillary SELECT * "
         "FROM kept");
   }
+}
+
+TEST_F(RefusedHeights, NumbersInAnotherUnit) {
+  spoil("UPDATE gpkg_2d_gridded_coverage_ancillary SET uom = 'ft'");
+  expect_refused({"\"ft\"", "metres"});
 }
 
 TEST_F(RefusedHeights, TablesThatAreNotThere) {

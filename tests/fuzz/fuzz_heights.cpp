@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr int kSide_px = 16;
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
   const bool is_png = terrella::sniff_format(bytes) == terrella::ImageFormat::png;
-  const terrella::ElevationInfo info{.scale = 0.5, .offset = -100.0, .nodata = 7.0, .floats = !is_png};
+  const terrella::NumberInfo info{.scale = 0.5, .offset = -100.0, .nodata = 7.0, .floats = !is_png};
   const auto tile = terrella::decode_heights({}, {.bytes = {bytes.begin(), bytes.end()}}, info, kSide_px);
   if (!tile) {
     if (tile.error().why.empty()) std::abort();

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -236,6 +237,17 @@ void write_rasters(const fs::path& folder) {
   }
 }
 
+/// The same files as a server would send them, whole (0) and with faults; see fuzz_remote_tiff.cpp.
+void write_remote_tiffs(const fs::path& from, const fs::path& to) {
+  for (const auto& entry : fs::directory_iterator(from)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    for (const char fault : {'\0', '\5'}) {
+      write(to / (entry.path().filename().string() + (fault == 0 ? "" : ".faults")), fault + bytes);
+    }
+  }
+}
+
 /// A tile as SQL writes a blob.
 std::string blob_of(const std::vector<std::byte>& bytes) {
   constexpr const char* kDigits = "0123456789ABCDEF";
@@ -321,6 +333,7 @@ int main(int argc, char** argv) {
   write(folder / "heights/a.png", *encode_gray16_png(heights, 16));
   write_float_tiff(folder / "heights/a.tif");
   write_rasters(folder / "raster");
+  write_remote_tiffs(folder / "raster", folder / "remote_tiff");
   write(folder / "http_headers/content", kFields);
   write(folder / "http_headers/refusal", kRefusal);
   write(folder / "http_headers/header", "X-Key: value");

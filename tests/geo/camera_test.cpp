@@ -1,5 +1,7 @@
 #include "geo/camera.h"
 
+#include "geo/place_text.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -205,6 +207,41 @@ TEST(ParseCamera, ThreeToSixFields) {
   }
 }
 
+TEST(ParseCamera, TakesPlacesAsPeopleWriteThem) {
+  const Result<Camera> camera = parse_camera("30N,20.5W,1000km");
+  ASSERT_TRUE(camera.ok()) << camera.error().message;
+  EXPECT_DOUBLE_EQ(camera->eye.lat.deg(), 30.0);
+  EXPECT_DOUBLE_EQ(camera->eye.lon.deg(), -20.5);
+  EXPECT_DOUBLE_EQ(camera->eye.height_m, 1e6);
+}
+
+struct PlaceText {
+  const char* text;
+  double lat_deg, lon_deg;
+};
+
+TEST(ReadPlace, TakesDegreesMinutesSecondsAndBothOrders) {
+  for (const PlaceText& p : std::initializer_list<PlaceText>{
+           {"47.4, 8.5", 47.4, 8.5},
+           {"47.4 8.5", 47.4, 8.5},
+           {" -33.9,-151.2 ", -33.9, -151.2},
+           {"47°24′N 8°30′E", 47.4, 8.5},
+           {"47°24'36\"N, 8°30'E", 47.41, 8.5},
+           {"47° 24' N 8° 30' W", 47.4, -8.5},
+           {"8.5E 47.4N", 47.4, 8.5},
+           {"30N20E", 30.0, 20.0},
+           {"10, 190", 10.0, -170.0},
+       }) {
+    const auto place = read_place(p.text);
+    ASSERT_TRUE(place.has_value()) << p.text;
+    EXPECT_NEAR(place->lat.deg(), p.lat_deg, 1e-9) << p.text;
+    EXPECT_NEAR(place->lon.deg(), p.lon_deg, 1e-9) << p.text;
+  }
+  for (const char* text : {"", "Zurich", "47", "91, 8", "47N 8N", "New York", "1 2 3", "nan, 0", "inf 0", "Essen"}) {
+    EXPECT_FALSE(read_place(text).has_value()) << text;
+  }
+}
+
 struct Refusal {
   const char* text;
   const char* names;  ///< what the message must contain
@@ -219,7 +256,10 @@ TEST(ParseCamera, RefusalsNameTheFieldAndItsRange) {
            {"90.0001,0,1", "LAT is \"90.0001\""},
            {"-91,0,1", "LAT"},
            {"0,inf,1", "LON is \"inf\", but must be any finite number"},
-           {"0,20E,1", "LON is \"20E\""},
+           {"0,20N,1", "LON is \"20N\""},
+           {"20E,0,1", "LAT is \"20E\""},
+           {"0,20X,1", "LON is \"20X\""},
+           {"0,0,1mm", "ALT is \"1mm\""},
            {"0,0,2e12", "ALT is \"2e12\", but must be from -1e12 to 1e12 metres"},
            {"0,0,", "ALT is \"\""},
            {"0,0,1e999", "ALT"},

@@ -20,7 +20,7 @@ double mountain_m(double lat_rad, double lon_rad, double waves) {
 Mountains::Mountains(double waves) : waves_(waves) {
   info_.grid = kHeightGrid;
   info_.format = ImageFormat::png;
-  info_.elevation = ElevationInfo{.scale = 0.25, .offset = -8192.0, .nodata = {}, .floats = false};
+  info_.numbers = NumberInfo{.scale = 0.25, .offset = -8192.0, .nodata = {}, .floats = false};
 }
 
 Result<EncodedTile, TileFailure> Mountains::read(const TileId& id) {

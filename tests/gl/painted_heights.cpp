@@ -17,7 +17,7 @@ class PaintedHeights : public TileSource {
   PaintedHeights(const TileGrid& grid, HeightPaint paint) : paint_(std::move(paint)) {
     info_.grid = grid;
     info_.format = ImageFormat::png;
-    info_.elevation = ElevationInfo{.scale = kStep_m, .offset = kLowest_m, .nodata = {}, .floats = false};
+    info_.numbers = NumberInfo{.scale = kStep_m, .offset = kLowest_m, .nodata = {}, .floats = false};
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {

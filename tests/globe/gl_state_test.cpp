@@ -2,6 +2,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "render/gl/draw_state.h"
@@ -10,6 +11,7 @@
 #include "tests/gl/gl_dump.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/layer_source.h"
+#include "tests/gl/painted_numbers.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {
@@ -202,6 +204,12 @@ void fill(Globe& globe) {
                                       return Rgba{200, 90, 30, lon < 20 ? std::uint8_t{0} : std::uint8_t{255}};
                                     }),
       {.opacity = 0.5}));
+  ImageLook stretched{.opacity = 0.5};
+  stretched.numbers = NumberLook{.low = 0.0, .high = 90.0};
+  ASSERT_TRUE(globe.add_imagery(std::make_shared<PaintedNumbers>(
+                                    grid, [](double, double row) { return static_cast<float>(std::floor(row)); },
+                                    NumberInfo{.floats = true, .whole = WholeRange{-90, 90}}),
+                                stretched));
   const Geodetic here{.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0), .height_m = 1000.0};
   const Geodetic there{.lat = Angle::degrees(30.0), .lon = Angle::degrees(-10.0), .height_m = 1000.0};
   const Geodetic third{.lat = Angle::degrees(-20.0), .lon = Angle::degrees(0.0), .height_m = -1000.0};
@@ -247,6 +255,8 @@ TEST_F(ForeignContext, EveryOtherCallDoesToo) {
     EXPECT_EQ(differences(before, dump_gl_state()), "");
     globe->render_until_settled(target.framebuffer(), kForeign,
                                 std::chrono::steady_clock::now() + std::chrono::seconds(60));
+    EXPECT_TRUE(globe->value_at(globe->imagery().back(), {.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0)}));
+    EXPECT_EQ(differences(before, dump_gl_state()), "");
     globe->set_budget(
         {.gpu_bytes = 1, .upload_bytes_per_frame = 1, .upload_time_per_frame = {}, .relief_meshes_per_frame = 1});
     EXPECT_TRUE(globe->show_objects(globe->objects().front(), false));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
@@ -107,6 +108,24 @@ TEST_F(GlobeTranslucency, LookingDownFromUnderTheGroundTheInnerSphereIsThere) {
   without.surface.inner_sphere_below_m.reset();
   settled_globe(without, camera_at(10, 20, -2.0e5));
   expect_near(picture().at(80, 60), kSurface, 0, "far wall");
+}
+
+TEST_F(GlobeTranslucency, AColouredInnerSphereShowsThroughAndLooksRound) {
+  GlobeOptions options = translucent(0.5);
+  options.surface.inner_sphere_srgb = {0.2F, 0.4F, 0.8F};
+  settled_globe(options, camera_at(10, 20, 3.0e7));
+  const Color below{51, 102, 204};
+  Color mixed{};
+  for (std::size_t k = 0; k < 3; ++k) mixed[k] = static_cast<std::uint8_t>((kSurface[k] + below[k] + 1) / 2);
+  expect_near(picture().at(80, 60), mixed, 2, "the middle");
+  // The inner sphere's rim, and the curtain beside it, are a third as bright.
+  const double focal_px = 60.0 / std::tan(20.0 * std::numbers::pi / 180.0);
+  const double rim_px = focal_px * 6378137.0 / (3.0e7 + 6378137.0);
+  const int near_rim = picture().at(80 + static_cast<int>(0.9 * rim_px), 60)[2];
+  EXPECT_NEAR(near_rim, 0.5 * (kSurface[2] + 0.35 * below[2]), 4);
+  options.surface.inner_sphere_srgb = glm::vec3(0.0F);
+  settled_globe(options, camera_at(10, 20, 3.0e7));
+  expect_near(picture().at(80, 60), times(0.5, kSurface), kBlendRounding, "black");
 }
 
 class GlobeStereo : public GlobeTranslucency {};

@@ -6,6 +6,7 @@
 
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/painted_heights.h"
+#include "tests/gl/painted_numbers.h"
 #include "tests/scene/patch_test_support.h"
 
 #include <epoxy/gl.h>
@@ -97,6 +98,25 @@ TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAga
   EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 5)) << "and a flat one";
   EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 5)) << "no time";
   EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 9));
+}
+
+TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
+  const auto globe = make_globe({}, one_colour(kProgramsGrid, {200, 120, 40}));
+  globe->set_camera(camera_at(10, 20, 2.0e7));
+  settle(*globe, kProgramsPicture);
+  const std::size_t alone = all_programs().size();
+  const auto numbers =
+      std::make_shared<PaintedNumbers>(kProgramsGrid, [](double lon, double) { return static_cast<float>(lon); });
+  ImageLook look{.opacity = 0.5};
+  look.numbers = NumberLook{};
+  const auto layer = globe->add_imagery(numbers, look);
+  ASSERT_TRUE(layer);
+  settle(*globe, kProgramsPicture);
+  EXPECT_EQ(all_programs().size(), alone + 5) << "four and a flat one";
+  look.opacity = 1.0;
+  ASSERT_TRUE(globe->set_look(*layer, look) && globe->move(*layer, 0));
+  settle(*globe, kProgramsPicture);
+  EXPECT_EQ(all_programs().size(), alone + 13) << "as the base layer, and the picture over it";
 }
 
 TEST_F(Programs, TheSkyBringsStarsSunMoonAndAir) {

@@ -27,7 +27,7 @@ class FormulaTiles : public TileSource {
     if (id == missing) return TileFailure{.kind = kind, .why = "tile of the test"};
     EncodedTile tile;
     const int side = info_.grid.tile_px;
-    if (info_.elevation) {
+    if (info_.numbers) {
       tile.make_numbers = [id, side]() -> Result<Numbers, TileFailure> {
         Numbers numbers{.width_px = side, .height_px = side, .values = {}};
         for (int y = 0; y < side; ++y) {
@@ -122,10 +122,10 @@ TEST(TileRowsTest, GoOnBeyondTheDateLine) {
 
 TEST(TileRowsTest, HeightsBecomeNumbersOfTiles) {
   TileSetInfo info = half_degree(GeoRect{});
-  info.elevation = ElevationInfo{.scale = 2.0, .offset = 10.0, .nodata = {}, .floats = true};
+  info.numbers = NumberInfo{.scale = 2.0, .offset = 10.0, .nodata = {}, .floats = true};
   auto tiles = std::make_unique<FormulaTiles>(info);
   tiles->missing = {.level = 4, .x = 1, .y = 0};
-  auto input = open_tile_rows(std::move(tiles), 2, ElevationInfo{.scale = 0.5, .offset = -100.0}, "a.tif");
+  auto input = open_tile_rows(std::move(tiles), 2, NumberInfo{.scale = 0.5, .offset = -100.0}, "a.tif");
   ASSERT_TRUE(input) << input.error().message;
   ASSERT_EQ(input->rows->info().width_px, 720);
   ASSERT_EQ(input->rows->info().height_px, 360);

@@ -58,7 +58,8 @@ TEST(DescribeRemote, ADescriptionSaysWhatHeightsMean) {
       R"({"url": "http://a.org/{z}/{x}/{y}", "max_level": 3, "elevation": {"scale": 0.5, "offset": -100, "nodata": 0}})";
   const auto set = web.describe("http://a.org/h.json");
   ASSERT_TRUE(set) << set.error().message;
-  EXPECT_EQ(set->info.elevation, (ElevationInfo{.scale = 0.5, .offset = -100.0, .nodata = 0.0}));
+  EXPECT_EQ(set->info.numbers,
+            (NumberInfo{.scale = 0.5, .offset = -100.0, .nodata = 0.0, .whole = WholeRange{0, 65535}}));
   EXPECT_EQ(set->info.format, ImageFormat::png);
   web.pages["http://a.org/t.xml"] = kTms;
   web.pages["http://a.org/t.json"] = R"({"tms": "http://a.org/t.xml", "elevation": {"scale": 1, "offset": 0}})";

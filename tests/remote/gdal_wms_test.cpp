@@ -106,7 +106,7 @@ TEST(GdalWms, AHundredVariantsOpenAndAskForTheTilesOfTheirWindow) {
         EXPECT_EQ(set->info.body, window.body);
         EXPECT_EQ(set->info.grid.tile_px, block);
         EXPECT_EQ(set->info.square.has_value(), window.own_square);
-        EXPECT_FALSE(set->info.elevation);
+        EXPECT_FALSE(set->info.numbers);
         for (int steps = 0; steps <= 2; ++steps) expect_addresses(*set, window, steps, origin == std::string("bottom"));
       }
     }
@@ -158,13 +158,13 @@ TEST(GdalWms, NumbersAreHeights) {
   };
   const auto int16 = heights("<BandsCount>1</BandsCount><DataType>Int16</DataType><DataValues NoData=\"-32768\"/>");
   ASSERT_TRUE(int16) << int16.error().message;
-  ASSERT_TRUE(int16->info.elevation);
-  EXPECT_TRUE(int16->info.elevation->is_signed);
-  EXPECT_EQ(int16->info.elevation->nodata, -32768.0);
+  ASSERT_TRUE(int16->info.numbers);
+  EXPECT_TRUE(int16->info.numbers->is_signed);
+  EXPECT_EQ(int16->info.numbers->nodata, -32768.0);
   const auto floats = heights(
       "<BandsCount>1</BandsCount><DataType>Float32</DataType><DataValues><NoData>-3.4e38</NoData></DataValues>");
   ASSERT_TRUE(floats) << floats.error().message;
-  EXPECT_TRUE(floats->info.elevation->floats);
+  EXPECT_TRUE(floats->info.numbers->floats);
   EXPECT_FALSE(heights("<DataType>Int16</DataType>"));
   EXPECT_FALSE(heights("<BandsCount>1</BandsCount><DataType>Float64</DataType>"));
   EXPECT_TRUE(heights("<BandsCount>1</BandsCount>"));

@@ -103,9 +103,10 @@ class NightLightsTest : public testing::Test {
 
 TEST_F(NightLightsTest, LightsCitiesByNightAlone) {
   const std::initializer_list<std::string_view> programs[] = {
-      {"frame.glsl", "patch_common.glsl", "patch_plain.frag"},
-      {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"},
-      {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"}};
+      {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_plain.frag"},
+      {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_magnified.frag"},
+      {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_exact_point.glsl",
+       "patch_polar.frag"}};
   for (const auto& files : programs) {
     SCOPED_TRACE(std::data(files)[files.size() - 1]);
     EXPECT_EQ(color(files, 0, 0, 0)[0], 255) << "a city at noon";

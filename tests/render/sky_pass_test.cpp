@@ -176,6 +176,53 @@ INSTANTIATE_TEST_SUITE_P(April2024, SkyMoon,
                                          MoonPhase{"2024-04-23T23:49:00Z", 1.0},
                                          MoonPhase{"2024-05-01T11:27:00Z", 0.5}));
 
+TEST(SkyPass, TheFullMoonIsFlat) {
+  const SkyInput input = only("2024-04-23T23:49:00Z", false, false, true, false);
+  const Geodetic below = Ellipsoid::lat_lon({glm::normalize(input.almanac.moon.xyz_m)});
+  const Camera camera = looking(below.lat.deg(), below.lon.deg(), 1e6, 0, 90, 0.8);
+  SkyScene scene(earth(), kSky, {});
+  const auto seen = scene.draw(camera, input);
+  const View view = scene.view(camera);
+  const glm::dvec3 to_moon = input.almanac.moon.xyz_m - view.eye.xyz_m;
+  const glm::dvec2 center = direction_px(view, glm::normalize(to_moon));
+  const double radius_px = std::asin(kMoonRadius_m / glm::length(to_moon)) * view.pixels_per_radian();
+  const auto ring = [&](double from, double to) {
+    double sum = 0.0;
+    int n = 0;
+    for (int k = 0; k < kSky.width_px * kSky.height_px; ++k) {
+      const glm::dvec2 p(k % kSky.width_px + 0.5, k / kSky.width_px + 0.5);
+      const double r = glm::distance(p, center) / radius_px;
+      if (r < from || r > to) continue;
+      sum += light_at(seen, k % kSky.width_px, k / kSky.width_px);
+      ++n;
+    }
+    return sum / n;
+  };
+  // A ball of chalk has a rim of a third.
+  EXPECT_NEAR(ring(0.85, 0.95) / ring(0.0, 0.3), 1.0, 0.06);
+}
+
+TEST(SkyPass, ShowsFaintStarsAndTheirColours) {
+  const SkyInput input = only(kSolstice, true, false, false, false);
+  const Camera camera = looking(0, 0, 2e7, 0, 90, 40);
+  const View view = make_view(camera, earth().ellipsoid, kSky);
+  const glm::dvec3 direction = pixel_ray(view, {100.5, 80.5}).xyz;
+  const auto peak = [&](float magnitude, double bv) {
+    Star star = star_towards(input, direction, magnitude);
+    star.color_linear = star_color_linear(bv);
+    SkyScene scene(earth(), kSky, {star});
+    const auto seen = scene.draw(camera, input);
+    return std::pair(channel_at(seen, 100, 80, 0), channel_at(seen, 100, 80, 2));
+  };
+  // A screen in a lit room shows 30 of 255 beside black.
+  EXPECT_GE(peak(4.0F, 0.3).first, 90);
+  EXPECT_GE(peak(6.0F, 0.3).first, 30);
+  const auto [red, red_blue] = peak(1.0F, 1.8);
+  EXPECT_GT(red, red_blue + 60) << "Betelgeuse";
+  const auto [blue_red, blue] = peak(2.0F, -0.2);
+  EXPECT_GT(blue, blue_red + 20) << "a star of Orion's belt";
+}
+
 TEST(SkyPass, RimsTheGlobeWithBlueAndNothingBeyond) {
   constexpr double kEmpty_m = 100e3;
   for (const double height_m : {300e3, 2e6}) {

@@ -24,7 +24,6 @@ void tell(const PatchNode& node, std::string& bytes) {
     bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
   };
   append(node.relief.heights_m);
-  append(node.relief.slopes);
   if (node.window) {
     append(node.window->cells);
     for (const CellExtent& cell : node.window->cells) {

@@ -25,20 +25,34 @@ View view_of(double lat, double lon, double height_m, double heading = 0.0, doub
   return make_view(camera, earth().ellipsoid, viewport);
 }
 
-/// How many pixels a picture point is off the nearest line of the net, by its latitude and longitude.
-double off_net_px(const View& view, const Graticule& net, glm::dvec2 px) {
+constexpr double kFinest_deg = 0.001;  // every line's degrees are a multiple of it
+
+/// Pixels from a point of the picture to a parallel (`axis` 0) or a meridian (1); nothing outside the planet.
+double off_line_px(const View& view, glm::dvec2 px, int axis, double deg) {
   const Grab there = grab(view, earth().ellipsoid, px);
   if (!there.on_surface) return 0.0;  // the limb's own end points
-  const Geodetic place = earth().ellipsoid.to_geodetic(there.point);
-  const double lat = net.parallels_deg * std::round(place.lat.deg() / net.parallels_deg);
-  const double lon = net.meridians_deg * std::round(place.lon.deg() / net.meridians_deg);
-  double off = HUGE_VAL;
-  for (const Geodetic line : {Geodetic{.lat = Angle::degrees(lat), .lon = place.lon},
-                              Geodetic{.lat = place.lat, .lon = Angle::degrees(lon)}}) {
-    const auto seen = project(view, earth().ellipsoid.to_ecef(line));
-    if (seen) off = std::min(off, glm::distance(*seen, px));
+  Geodetic place = earth().ellipsoid.to_geodetic(there.point);
+  (axis == 0 ? place.lat : place.lon) = Angle::degrees(deg);
+  const auto seen = project(view, earth().ellipsoid.to_ecef(place));
+  return seen ? glm::distance(*seen, px) : HUGE_VAL;
+}
+
+/// The parallel or meridian of round degrees on which the line's inner points lie, and how many pixels they are off.
+double off_round_px(const View& view, const GraticuleLine& line, double spacing_deg) {
+  double best = HUGE_VAL;
+  for (const int axis : {0, 1}) {
+    const Grab there = grab(view, earth().ellipsoid, line.points_px[line.points_px.size() / 2]);
+    const Geodetic place = earth().ellipsoid.to_geodetic(there.point);
+    const double deg = spacing_deg * std::round((axis == 0 ? place.lat : place.lon).deg() / spacing_deg);
+    double worst = 0.0;
+    for (std::size_t i = 1; i + 2 < line.points_px.size(); ++i) {
+      const double at = off_line_px(view, line.points_px[i], axis, deg);
+      const double between = off_line_px(view, 0.5 * (line.points_px[i] + line.points_px[i + 1]), axis, deg);
+      worst = std::max({worst, at / kOnLine_px, between / kChord_px});
+    }
+    best = std::min(best, worst);
   }
-  return off;
+  return best;
 }
 
 bool has_label(const Graticule& net, const std::string& text) {
@@ -52,11 +66,39 @@ TEST(Graticule, LiesOnRoundLatitudesAndLongitudes) {
     ASSERT_FALSE(net.lines.empty());
     for (const GraticuleLine& line : net.lines) {
       ASSERT_GE(line.points_px.size(), 2U);
-      for (std::size_t i = 1; i + 2 < line.points_px.size(); ++i) {
-        EXPECT_LT(off_net_px(view, net, line.points_px[i]), kOnLine_px);
-        EXPECT_LT(off_net_px(view, net, 0.5 * (line.points_px[i] + line.points_px[i + 1])), kChord_px);
-      }
+      EXPECT_LT(off_round_px(view, line, kFinest_deg), 1.0);
     }
+  }
+}
+
+// Pixels between neighbouring lines that cross a row or a column of the picture.
+std::vector<double> gaps(const Graticule& net, int axis, double value, double most) {
+  std::vector<double> at;
+  for (const GraticuleLine& line : net.lines) {
+    for (std::size_t i = 1; i < line.points_px.size(); ++i) {
+      const double a = line.points_px[i - 1][axis] - value, b = line.points_px[i][axis] - value;
+      if ((a < 0.0) == (b < 0.0)) continue;
+      const glm::dvec2 px = line.points_px[i - 1] + (line.points_px[i] - line.points_px[i - 1]) * (a / (a - b));
+      if (px[1 - axis] > 0.0 && px[1 - axis] < most) at.push_back(px[1 - axis]);
+    }
+  }
+  std::ranges::sort(at);
+  std::vector<double> out;
+  for (std::size_t i = 1; i < at.size(); ++i) out.push_back(at[i] - at[i - 1]);
+  return out;
+}
+
+// With one spacing for the whole picture, lines stood 2 px apart at the horizon and there were none in front.
+TEST(Graticule, HasRoomBetweenItsLinesFromTheForegroundToTheHorizon) {
+  const View view = view_of(36, -5, 1.5e5, 60, -12, {1280, 800});
+  const Graticule net = make_graticule(view, earth().ellipsoid);
+  // Rows from the lower edge to just under the horizon, which lies 17 px over the middle.
+  for (const double y : {780.0, 700.0, 600.0, 500.0, 430.0}) {
+    std::vector<double> found = gaps(net, 1, y, 1280.0);
+    ASSERT_GE(found.size(), 2U) << "at row " << y << " there are hardly any lines";
+    std::ranges::nth_element(found, found.begin() + std::ptrdiff_t(found.size() / 2));
+    EXPECT_GT(found[found.size() / 2], 15.0) << "at row " << y << " the lines run together";
+    EXPECT_LT(std::ranges::max(found), 700.0) << y;
   }
 }
 
@@ -123,7 +165,7 @@ TEST(Graticule, StaysSmallEverywhere) {
     for (const double pitch : {-90.0, -10.0, 0.0, 90.0}) {
       for (const Viewport viewport : {Viewport{1, 1}, Viewport{16384, 16}, Viewport{1024, 768}}) {
         const Graticule net = make_graticule(view_of(89.999, 180, height_m, 45, pitch, viewport), earth().ellipsoid);
-        EXPECT_LT(net.lines.size(), 300U);
+        EXPECT_LT(net.lines.size(), 600U);
         for (const GraticuleLine& line : net.lines) {
           for (const glm::dvec2 px : line.points_px) EXPECT_TRUE(std::isfinite(px.x) && std::isfinite(px.y));
         }

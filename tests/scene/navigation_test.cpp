@@ -215,6 +215,33 @@ TEST(Wheel, StaysBetweenTheGroundAndFiftyRadii) {
   EXPECT_DOUBLE_EQ(hand.navigator.camera().eye.height_m, 50.0 * earth().ellipsoid.a_m());
 }
 
+// It went down to 2.5 m over texels of 10 km: a flat blue screen.
+TEST(Wheel, StopsAtTheFinestTexelsAndGoesOnAfterASecondPush) {
+  constexpr double kTexel_m = 1.0e4;
+  for (const bool by_key : {false, true}) {
+    Hand hand(camera_at(46.0, 7.0, 1.0e7));
+    hand.navigator.set_finest_texel(kTexel_m);
+    const auto push = [&] {
+      for (int i = 0; i < 60; ++i) {
+        hand.now += Seconds(0.05);
+        by_key ? hand.navigator.key(NavigationKey::zoom_in, hand.now) : hand.navigator.wheel(kCentre, 1.0, hand.now);
+      }
+      hand.settle();
+    };
+    const auto texel_px = [&] {
+      const View view = make_view(hand.navigator.camera(), earth().ellipsoid, kViewport);
+      return view.pixels_per_radian() * kTexel_m / hand.navigator.camera().eye.height_m;
+    };
+    push();
+    EXPECT_NEAR(texel_px(), 8.0, 0.01);
+    EXPECT_TRUE(hand.navigator.is_at_texels());
+    hand.now += Seconds(1.0);
+    push();
+    EXPECT_GT(texel_px(), 1000.0) << "a second push goes on";
+    EXPECT_FALSE(hand.navigator.is_at_texels());
+  }
+}
+
 TEST(Wheel, OutFromATiltedViewKeepsTheGlobeInThePicture) {
   Hand hand(camera_at(46.0, 7.0, 1.0e4, 0.0, -5.0));
   for (int i = 0; i < 60; ++i) {

@@ -117,7 +117,7 @@ class FinestPixels {
     if (tile->make_numbers) {
       const auto numbers = tile->make_numbers();
       if (!numbers) return {};
-      const ElevationInfo& set = *source_.info().elevation;
+      const NumberInfo& set = *source_.info().numbers;
       for (const float number : numbers->values) {
         const double of_set = number * tile->number_scale + tile->number_offset;
         values.push_back(std::isfinite(number) ? of_set * set.scale + set.offset : 0.0);
@@ -163,7 +163,7 @@ TEST_P(GdalProjected, SpotsAreWhereGdaltransformSaysTheyAre) {
   const auto source = open();
   ASSERT_TRUE(source);
   EXPECT_EQ(source->info().body, given.body);
-  EXPECT_EQ(source->info().elevation.has_value(), given.heights);
+  EXPECT_EQ(source->info().numbers.has_value(), given.heights);
   std::vector<Point> points;  // of each spot: its middle, and the ends of its reach
   for (const Point& spot : kSpots) {
     const Point at{given.west + spot.x * given.pixel, given.north - spot.y * given.pixel};

@@ -39,7 +39,7 @@ PaintedRaster::PaintedRaster(const PaintedOptions& options, Ground red, Ground g
     }
     info_.levels.push_back(level);
   }
-  if (options.numbers) info_.elevation = ElevationInfo{.floats = true};
+  if (options.numbers) info_.numbers = NumberInfo{.floats = true};
 }
 
 Image PaintedRaster::paint(const TileId& block) const {

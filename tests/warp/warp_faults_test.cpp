@@ -265,8 +265,8 @@ TEST(Warp, NumbersWithoutDataTakeNoPart) {
   };
   const auto tiles = warped(std::make_unique<Island>(
       options, [&](double lat, double lon) { return std::isnan(island(lat, lon)) ? 0.0 : 200.0; }, plain));
-  ASSERT_TRUE(tiles->info().elevation);
-  EXPECT_TRUE(tiles->info().elevation->floats);
+  ASSERT_TRUE(tiles->info().numbers);
+  EXPECT_TRUE(tiles->info().numbers->floats);
   const TileGrid& grid = tiles->info().grid;
   int known = 0, unknown = 0;
   for (const double lat : {8.0, -8.0}) {
@@ -282,7 +282,7 @@ TEST(Warp, NumbersWithoutDataTakeNoPart) {
         ++known;
       }
     }
-    EXPECT_TRUE(decode_heights({}, *tile, *tiles->info().elevation, 64));
+    EXPECT_TRUE(decode_heights({}, *tile, *tiles->info().numbers, 64));
   }
   EXPECT_GT(known, 500);
   EXPECT_GT(unknown, 500);

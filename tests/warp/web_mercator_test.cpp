@@ -267,7 +267,7 @@ class HeightPlanet : public TileSource {
   HeightPlanet() {
     info_.grid = {
         .root_span_deg = 360.0, .tile_px = kMercatorPx, .max_level = 4, .projection = Projection::web_mercator};
-    info_.elevation = ElevationInfo{.scale = 1.0, .offset = 0.0, .floats = true};
+    info_.numbers = NumberInfo{.scale = 1.0, .offset = 0.0, .floats = true};
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
@@ -295,7 +295,7 @@ TEST(Mercator, HeightsAreNumbersOfTheSameMeaning) {
   const TileId id{4, 5, 3};  // 22.5° to 0°
   const auto tile = (*tiles)->read(id);
   ASSERT_TRUE(tile);
-  const auto heights = decode_heights(id, *tile, *(*tiles)->info().elevation, kMercatorPx);
+  const auto heights = decode_heights(id, *tile, *(*tiles)->info().numbers, kMercatorPx);
   ASSERT_TRUE(heights) << heights.error().why;
   for (int j = 0; j < kMercatorPx; ++j) {
     const double lat = 22.5 - (j + 0.5) * 22.5 / kMercatorPx;

@@ -12,7 +12,7 @@ namespace {
 TEST(Gazetteer, FindsByBeginningsFirstTheLargestFirst) {
   const auto places = Gazetteer::load(TERRELLA_PLACES);
   ASSERT_TRUE(places) << places.error().message;
-  EXPECT_EQ(places->size(), 243U);
+  EXPECT_EQ(places->size(), 24323U);
   const auto sao = places->find("sao", 8);
   ASSERT_FALSE(sao.empty());
   EXPECT_EQ(sao[0]->name, "São Paulo");
@@ -23,7 +23,16 @@ TEST(Gazetteer, FindsByBeginningsFirstTheLargestFirst) {
   EXPECT_EQ(with_accent[0], sao[0]);
   const auto york = places->find("  YORK ", 8);
   ASSERT_FALSE(york.empty());
-  EXPECT_EQ(york[0]->name, "New York");
+  EXPECT_EQ(york[0]->name, "York");
+  const auto new_york = places->find("new york", 8);
+  ASSERT_FALSE(new_york.empty());
+  EXPECT_EQ(new_york[0]->name, "New York City");
+  EXPECT_EQ(new_york[0]->country, "United States");
+  for (const char* typed : {"zurich", "ZÜRICH", "Zürich", "zürich"}) {
+    const auto zurich = places->find(typed, 8);
+    ASSERT_FALSE(zurich.empty()) << typed;
+    EXPECT_EQ(zurich[0]->name, "Zürich") << typed;
+  }
   const auto by_s = places->find("s", 3);
   ASSERT_EQ(by_s.size(), 3U);
   EXPECT_GE(by_s[0]->people, by_s[1]->people);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_items.h"
 
 namespace terrella {
@@ -40,10 +41,12 @@ void draw_opacity(LayerRow& row) {
 void draw_look(LayerRow& row) {
   choose("Show on", row.look.daylight, std::array{"day and night", "day side", "night side"});
   tip("Shows the layer only on the day or night side, if a time is set (P).");
-  bool clouds = row.look.alpha == AlphaFrom::brightness;
-  if (ImGui::Checkbox("Black is transparent", &clouds))
-    row.look.alpha = clouds ? AlphaFrom::brightness : AlphaFrom::own;
-  tip("For white-on-black pictures of clouds.");
+  if (!row.numbers) {
+    bool clouds = row.look.alpha == AlphaFrom::brightness;
+    if (ImGui::Checkbox("Black is transparent", &clouds))
+      row.look.alpha = clouds ? AlphaFrom::brightness : AlphaFrom::own;
+    tip("For white-on-black pictures of clouds.");
+  }
   if (row.finest_level > 0) draw_levels(row);
 }
 
@@ -72,6 +75,7 @@ LayerAsk draw_row(LayerRow& row) {
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
+  if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
   if (row.kind == LayerKind::imagery) draw_look(row);
   const LayerAsk ask = draw_buttons(row);
   ImGui::TreePop();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/scene_numbers.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
 #include "surface/layers.h"
@@ -17,9 +18,10 @@ struct LayerRow {
   LayerId id = LayerId::none;  ///< none for heights
   LayerKind kind = LayerKind::imagery;
   std::string name = {};
-  std::optional<GeoRect> bounds = {};  ///< set if known and smaller than the planet
-  int finest_level = 0;                ///< imagery only
-  ImageLook look = {};                 ///< objects use `shown` and opacity, heights use `shown`
+  std::optional<GeoRect> bounds = {};       ///< set if known and smaller than the planet
+  int finest_level = 0;                     ///< imagery only
+  std::optional<NumberFacts> numbers = {};  ///< set for imagery of numbers
+  ImageLook look = {};                      ///< objects use `shown` and opacity, heights use `shown`
 };
 
 enum class LayerAsk { none, raise, lower, remove, look_at };

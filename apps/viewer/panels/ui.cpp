@@ -167,6 +167,11 @@ void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterC
 
 void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
+void Ui::use_text(float scale) {
+  load_font(scale);
+  set_style(scale);
+}
+
 double Ui::text_height() { return double(ImGui::GetFontSize()); }
 
 std::vector<UiBox> Ui::panel_boxes() {

@@ -48,6 +48,8 @@ class Ui {
   bool on_character(unsigned character);
   static void on_enter(GLFWwindow* window, int entered);
   static void on_focus(GLFWwindow* window, int focused);
+  /// Sets font and style for panels without a window. Not within a frame.
+  static void use_text(float scale);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
   /// Rectangles of the panels that this frame has so far; within a frame.

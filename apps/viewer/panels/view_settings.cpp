@@ -49,6 +49,19 @@ void draw_from_below(ViewSettings& settings) {
       "nearby object. off draws everything in the frame.");
 }
 
+void draw_light(ViewSettings& settings) {
+  SurfaceLook& surface = settings.surface;
+  if (settings.has_relief) {
+    ImGui::Checkbox("Hillshade", &surface.hillshade);
+    tip("Shades mountains by light from the north-west, as maps do, instead of by the Sun.");
+  }
+  choose("Magnified imagery", surface.sharpness, std::array{"auto", "bilinear", "bicubic"});
+  tip("Filter where the imagery has no finer detail. bicubic shows no squares. auto: bicubic, in unlit views "
+      "bilinear.");
+  ImGui::ColorEdit3("Inner sphere's colour", &surface.inner_sphere_srgb.x, ImGuiColorEditFlags_NoInputs);
+  tip("Colour of the inner sphere under a translucent ground. Black shows no sphere unless objects lie below.");
+}
+
 void set_time(ViewSettings& settings, std::optional<UtcTime> time) {
   settings.time = time;
   settings.written = time;
@@ -158,6 +171,8 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
   draw_from_below(settings);
   group("Stereo view");
   draw_stereo(settings.stereo);
+  group("Light and detail");
+  draw_light(settings);
   ImGui::PopItemWidth();
   ImGui::End();
   return clicked;

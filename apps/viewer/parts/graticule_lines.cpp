@@ -53,8 +53,9 @@ void draw_graticule(const Graticule& graticule, const GraticulePart& part, doubl
   for (const GraticuleLine& line : graticule.lines) {
     points.clear();
     for (const glm::dvec2 px : line.points_px) points.push_back(to_ui(corner + px, unit_px));
-    const ImU32 colour =
-        line.principal ? tinted({255, 226, 150}, part.tint, 190) : tinted(glm::vec3(255.0F), part.tint, 105);
+    const glm::vec3 white(255.0F), amber(255.0F, 226.0F, 150.0F);
+    const float alpha = line.strength * (line.principal ? 190.0F : 105.0F);
+    const ImU32 colour = tinted(line.principal ? amber : white, part.tint, static_cast<int>(alpha));
     list->AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0,
                       line_width(line.principal ? 1.6F : 1.0F));
   }

@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "apps/viewer/input.h"
+#include "apps/viewer/panels/legend.h"
 
 namespace terrella {
 namespace {
 
 constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
+constexpr double kLegendGap = 0.8;         // in text heights, to the window's edge and the status line
 constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
 
 /// Looks straight down on the middle, from a height that shows the whole rectangle.
@@ -40,7 +42,10 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
 void Layers::draw_open(float foot) {
   std::vector<LayerRow> rows = rows_;
   const LayerWish wish = draw_layers(panel(), rows, switches_, foot, take_just_opened());
-  for (std::size_t i = 0; i < rows.size(); ++i) take_look(rows_[i], rows[i].look);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    take_look(rows_[i], rows[i].look);
+    rows_[i].numbers = std::move(rows[i].numbers);
+  }
   switch (wish.ask) {
     case LayerAsk::none:
       return;
@@ -52,6 +57,26 @@ void Layers::draw_open(float foot) {
     case LayerAsk::remove:
       return remove(wish.row);
   }
+}
+
+void Layers::draw(float foot) {
+  std::vector<LegendItem> items;
+  for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
+    if (!row->numbers || !row->look.numbers || !row->look.shown) continue;
+    items.push_back(
+        {.title = legend_title(row->name, *row->numbers), .unit = row->numbers->unit, .look = *row->look.numbers});
+  }
+  const double gap = kLegendGap * Ui::text_height();
+  draw_legend(items, gap, window_height() - static_cast<double>(foot) - gap);
+  Panel::draw(foot);
+}
+
+std::string Layers::value_at(const Geodetic& place) {
+  const auto row = std::find_if(rows_.rbegin(), rows_.rend(),
+                                [](const LayerRow& layer) { return layer.numbers && layer.look.shown; });
+  if (row == rows_.rend()) return {};
+  value_.ask(context_.globe, row->id, place);
+  return value_.text(place, row->numbers->unit);
 }
 
 void Layers::take_look(LayerRow& row, const ImageLook& look) {
@@ -127,8 +152,8 @@ void Layers::add(OpenedFile file) {
   if (row.name.empty()) row.name = file.path.string();
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
-  if (auto* tiles = std::get_if<std::shared_ptr<TileSource>>(&file.what)) {
-    added = add_tiles(std::move(*tiles), row);
+  if (auto* layer = std::get_if<ImageryLayer>(&file.what)) {
+    added = add_tiles(std::move(*layer), row);
   } else if (const auto* heights = std::get_if<ElevationSource>(&file.what)) {
     added = add_heights(*heights, row);
   } else {
@@ -145,11 +170,13 @@ void Layers::add(OpenedFile file) {
   say(std::move(told));
 }
 
-Status Layers::add_tiles(std::shared_ptr<TileSource> tiles, LayerRow& row) {
-  row.bounds = if_a_part(tiles->info().grid.bounds);
-  row.finest_level = tiles->info().grid.max_level;
-  const auto id = context_.globe.add_imagery(std::move(tiles));
+Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
+  row.bounds = if_a_part(layer.tiles->info().grid.bounds);
+  row.finest_level = layer.tiles->info().grid.max_level;
+  const auto id = context_.globe.add_imagery(std::move(layer.tiles), layer.look);
   if (!id) return id.error();
+  row.look = layer.look;
+  row.numbers = std::move(layer.numbers);
   row.id = *id;
   return Done{};
 }

@@ -6,6 +6,7 @@
 #include "apps/viewer/panels/layer_panel.h"
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/tools/dropped_files.h"
+#include "apps/viewer/tools/value_query.h"
 
 namespace terrella {
 
@@ -24,8 +25,12 @@ class Layers : public Panel {
   void take_opened();
 
   [[nodiscard]] std::string job() const override { return files_.text(); }
-  [[nodiscard]] bool changed() const override { return files_.ready(); }
+  [[nodiscard]] bool changed() const override { return files_.ready() || value_.ready(); }
   bool cancel() override;
+  /// Draws the legend of the shown layers of numbers, and the panel if it is open.
+  void draw(float foot) override;
+  /// The value that the highest shown layer of numbers stores at a place; empty while it is not known.
+  [[nodiscard]] std::string value_at(const Geodetic& place);
 
  private:
   void draw_open(float foot) override;
@@ -35,7 +40,7 @@ class Layers : public Panel {
   void remove(std::size_t row);
   void look_at(const GeoRect& bounds);
   void add(OpenedFile file);
-  [[nodiscard]] Status add_tiles(std::shared_ptr<TileSource> tiles, LayerRow& row);
+  [[nodiscard]] Status add_tiles(ImageryLayer layer, LayerRow& row);
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
   [[nodiscard]] Status add_objects(ObjectScene scene, LayerRow& row);
   void insert(LayerRow row);
@@ -44,6 +49,7 @@ class Layers : public Panel {
   std::optional<ElevationSource> heights_;  ///< kept while the heights are hidden
   DroppedFiles files_;
   std::vector<LayerSwitch> switches_;
+  ValueQuery value_;
 };
 
 }  // namespace terrella

@@ -1,30 +1,27 @@
 #include "apps/viewer/parts/search.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <array>
+#include <iterator>
+#include <utility>
 
 #include "apps/setup/data_dir.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/panels/readout.h"
+#include "geo/body.h"
+#include "geo/place_text.h"
 
 namespace terrella {
 namespace {
 
 constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
 constexpr std::size_t kMostFound = 8;
-constexpr float kSearchWidth = 22.0F;  // in text heights
-constexpr float kTop = 3.6F;           // below the attribution
-
-// Loads the list of places; without the list the globe still works.
-Gazetteer load_places() {
-  try {
-    Result<Gazetteer> places = Gazetteer::load(data_file("populated_places_110m.geojson"));
-    if (places) return *std::move(places);
-  } catch (const BrokenInstallation&) {
-  }
-  return {};
-}
+constexpr double kCoordinateStep_deg = 1e-4;  // of coordinates as the list shows them
+constexpr float kSearchWidth = 22.0F;         // in text heights
+constexpr float kTop = 3.6F;                  // below the attribution
 
 std::string full_name(const NamedPlace& place) {
   return place.country.empty() ? place.name : place.name + ", " + place.country;
@@ -33,9 +30,26 @@ std::string full_name(const NamedPlace& place) {
 }  // namespace
 
 bool Search::can_open() {
-  if (!places_) places_ = load_places();
-  if (places_->size() == 0) say("The program was installed without its list of places");
-  return places_->size() > 0;
+  if (!places_) {
+    auto loaded = load();
+    if (!loaded) {
+      say(loaded.error().message);
+      return false;
+    }
+    places_ = *std::move(loaded);
+  }
+  return true;
+}
+
+// The program's own places are on the Earth. On another body coordinates can be searched without a list.
+Result<Gazetteer> Search::load() const {
+  if (!file_.empty()) return Gazetteer::load(file_);
+  if (context_.globe.options().body.name != earth().name) return Gazetteer();
+  try {
+    return Gazetteer::load(data_file("cities.json"));
+  } catch (const BrokenInstallation& broken) {
+    return Error{broken.what()};
+  }
 }
 
 void Search::toggled() {
@@ -66,18 +80,34 @@ std::optional<NamedPlace> Search::draw_field() {
   text_.copy(text.data(), text.size() - 1);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0F);
-  const bool entered = ImGui::InputTextWithHint("##place", "Place name, then Enter; Esc closes", text.data(),
-                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##place", "Place name or coordinates, then Enter; Esc closes",
+                                                text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive()) context_.ui.field_is_ready();
   text_ = text.data();
   std::optional<NamedPlace> chosen;
+  if (const auto place = read_place(text_)) {
+    const NamedPlace named{.name = place_text(*place, kCoordinateStep_deg), .place = *place};
+    if (ImGui::Selectable(named.name.c_str()) || entered) chosen = named;
+  } else {
+    chosen = draw_found(entered);
+  }
+  ImGui::End();
+  return chosen;
+}
+
+/// The list of found places: the clicked one, or with `entered` the first.
+std::optional<NamedPlace> Search::draw_found(bool entered) const {
+  std::optional<NamedPlace> chosen;
   const auto found = places_->find(text_, kMostFound);
   for (const NamedPlace* place : found) {
-    if (ImGui::Selectable((full_name(*place) + "##" + place->folded).c_str())) chosen = *place;
+    const auto number = std::distance(found.data(), &place);
+    if (ImGui::Selectable(fmt::format("{}##{}", full_name(*place), number).c_str())) chosen = *place;
   }
-  if (found.empty() && !text_.empty()) ImGui::TextDisabled("No match among %zu places", places_->size());
+  if (found.empty() && !text_.empty()) {
+    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one by --places"
+                                                   : "No place has this name");
+  }
   if (entered && !found.empty()) chosen = *found.front();
-  ImGui::End();
   return chosen;
 }
 

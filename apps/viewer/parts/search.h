@@ -1,17 +1,21 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/tools/gazetteer.h"
 
 namespace terrella {
 
-/// Finds a place by name and flies there. Owns the list of places and the typed text. thread: main
+/// Finds a place by name or by coordinates and flies there. Owns the list of places and the typed text. thread: main
 class Search : public Panel {
  public:
-  explicit Search(const ViewerContext& context) : Panel(context, "Search") {}
+  /// `places`: GeoJSON file of named places; empty: the program's cities, which are on the Earth.
+  Search(const ViewerContext& context, std::filesystem::path places)
+      : Panel(context, "Search"), file_(std::move(places)) {}
 
   void take_keyboard() override;
 
@@ -19,9 +23,12 @@ class Search : public Panel {
   bool can_open() override;
   void toggled() override;
   void draw_open(float foot) override;
+  [[nodiscard]] Result<Gazetteer> load() const;
   [[nodiscard]] std::optional<NamedPlace> draw_field();
+  [[nodiscard]] std::optional<NamedPlace> draw_found(bool entered) const;
   void fly_to(const NamedPlace& place);
 
+  std::filesystem::path file_;
   std::optional<Gazetteer> places_;  ///< loaded at the first search
   std::string text_;
 };

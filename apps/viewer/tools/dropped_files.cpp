@@ -49,6 +49,11 @@ Result<OpenedFile> open_objects(const std::filesystem::path& path, Result<Object
   return OpenedFile{path, *std::move(file)};
 }
 
+/// Numbers are the ground's heights if they say so.
+bool is_of_heights(const TileSetInfo& info) {
+  return info.numbers && (info.numbers->quantity == "height" || info.numbers->unit == "m");
+}
+
 }  // namespace
 
 Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options, const Geodetic& place,
@@ -61,11 +66,17 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.projection.reset();
   tiles_options.latitude.reset();
   tiles_options.place = {};
+  tiles_options.numbers = {};
   tiles_options.remote = {};
+  tiles_options.cuts = nullptr;
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
-  if (!(*tiles)->info().elevation) return OpenedFile{path, *std::move(tiles)};
+  if (!is_of_heights((*tiles)->info())) {
+    auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
+    if (!layer) return layer.error();
+    return OpenedFile{path, *std::move(layer)};
+  }
   auto heights = ElevationSource::open(*std::move(tiles), path.string());
   if (!heights) return heights.error();
   return OpenedFile{path, *std::move(heights)};

@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "apps/scene/scene_numbers.h"
 #include "apps/setup/open_imagery.h"
 #include "streaming/objects/geojson_objects.h"
 
@@ -16,11 +17,11 @@ namespace terrella {
 /// Contents of a dropped file.
 struct OpenedFile {
   std::filesystem::path path;
-  std::variant<std::shared_ptr<TileSource>, ElevationSource, ObjectFile> what;
+  std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
 };
 
-/// Opens a picture (cut into the cache), a tile set of pictures or heights, GeoJSON, or a glTF model. A model stands at
-/// `place`. `options` sets the cache. The error names the file and the reason. thread: any, one at a time
+/// Opens a picture (cut into the cache), a tile set of pictures, numbers or heights, GeoJSON, or a glTF model. A model
+/// stands at `place`. `options` sets the cache. The error names the file and the reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
 

@@ -1,11 +1,15 @@
 #include "apps/viewer/tools/gazetteer.h"
 
+#include <utf8proc.h>
+
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
+#include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 
@@ -14,15 +18,22 @@ namespace {
 
 constexpr std::size_t kMostGazetteerBytes = 32UL << 20;
 
+/// Text without case, accents and blanks around it. Text that is not UTF-8 is kept as it is.
 std::string folded(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    result += byte < 0x80 ? static_cast<char>(std::tolower(byte)) : c;
-  }
-  const auto first = result.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  return result.substr(first, result.find_last_not_of(' ') - first + 1);
+  text = trimmed(text);
+  utf8proc_uint8_t* bare = nullptr;
+  constexpr auto kHow = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_DECOMPOSE | UTF8PROC_COMPAT |
+                                                       UTF8PROC_STRIPMARK | UTF8PROC_CASEFOLD);
+  const auto length = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                   static_cast<utf8proc_ssize_t>(text.size()), &bare, kHow);
+  if (length < 0) return std::string(text);
+  std::string result(reinterpret_cast<const char*>(bare), static_cast<std::size_t>(length));
+  std::free(bare);
+  return result;
+}
+
+bool is_on_planet(const Geodetic& place) {
+  return std::abs(place.lat.deg()) <= 90.0 && std::abs(place.lon.deg()) <= 360.0;
 }
 
 std::string text_of(const nlohmann::json& properties, const char* name) {
@@ -41,15 +52,33 @@ std::optional<NamedPlace> place_of(const nlohmann::json& feature) {
   }
   NamedPlace place;
   place.name = text_of(*properties, "name");
-  place.country = text_of(*properties, "adm0name");
-  const std::string ascii = text_of(*properties, "nameascii");
-  place.folded = folded(ascii.empty() ? place.name : ascii);
+  if (place.name.empty()) place.name = text_of(*properties, "title");
+  place.country = text_of(*properties, "country");
+  if (place.country.empty()) place.country = text_of(*properties, "adm0name");
+  place.folded = folded(place.name);
   place.place = {.lat = Angle::degrees((*at)[1].get<double>()), .lon = Angle::degrees((*at)[0].get<double>())};
-  const auto people = properties->find("pop_max");
-  if (people != properties->end() && people->is_number()) place.people = people->get<double>();
-  const bool on_planet = std::abs(place.place.lat.deg()) <= 90.0 && std::abs(place.place.lon.deg()) <= 180.0;
-  if (place.folded.empty() || !on_planet) return {};
+  for (const char* name : {"pop_max", "population"}) {
+    const auto people = properties->find(name);
+    if (people != properties->end() && people->is_number()) place.people = people->get<double>();
+  }
+  if (place.folded.empty() || !is_on_planet(place.place)) return {};
   return place;
+}
+
+/// Places of the columns `name`, `country`, `people`, `lat` and `lon`. Throws nlohmann::json::exception.
+std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
+  const auto &names = json.at("name"), &codes = json.at("country"), &countries = json.at("countries");
+  std::vector<NamedPlace> places;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    NamedPlace place{.name = names[k].get<std::string>(),
+                     .country = countries.at(codes.at(k).get<std::string>()).get<std::string>(),
+                     .people = json.at("people").at(k).get<double>()};
+    place.folded = folded(place.name);
+    place.place = {.lat = Angle::degrees(json.at("lat").at(k).get<double>()),
+                   .lon = Angle::degrees(json.at("lon").at(k).get<double>())};
+    places.push_back(std::move(place));
+  }
+  return places;
 }
 
 }  // namespace
@@ -61,6 +90,13 @@ Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
   const Result<nlohmann::json> json = parse_json_object(text, kMostGazetteerBytes, file.string());
   if (!json) return json.error();
   Gazetteer gazetteer;
+  if (json->contains("countries")) {
+    try {
+      gazetteer.places_ = places_of_columns(*json);
+    } catch (const nlohmann::json::exception& wrong) {
+      return Error{file.string() + ": not a list of cities: " + wrong.what()};
+    }
+  }
   if (const auto features = json->find("features"); features != json->end() && features->is_array()) {
     for (const nlohmann::json& feature : *features) {
       if (auto place = place_of(feature)) gazetteer.places_.push_back(*std::move(place));
@@ -77,7 +113,7 @@ std::vector<const NamedPlace*> Gazetteer::find(std::string_view text, std::size_
   if (sought.empty()) return begins;
   for (const NamedPlace& place : places_) {
     const auto at = place.folded.find(sought);
-    if (at == 0 || place.name.starts_with(text)) {
+    if (at == 0) {
       begins.push_back(&place);
     } else if (at != std::string::npos) {
       has.push_back(&place);

@@ -13,7 +13,7 @@ namespace terrella {
 struct NamedPlace {
   std::string name;     ///< UTF-8
   std::string country;  ///< may be empty
-  std::string folded;   ///< name as used in searches: lower-case ASCII letters
+  std::string folded;   ///< name as used in searches: without case and accents
   Geodetic place;
   double people = 0.0;
 };
@@ -21,12 +21,13 @@ struct NamedPlace {
 /// Places by name. thread: any
 class Gazetteer {
  public:
-  /// Loads a GeoJSON file of points with the properties of Natural Earth's populated places: name, nameascii, adm0name,
-  /// pop_max. Fails if the file cannot be read or contains no place. Invalid features are skipped.
+  /// Loads the program's list of cities (data/points/cities.json), or a GeoJSON file of points on any body. A point has
+  /// a `name` or a `title`, and may have `country` or `adm0name`, and `population` or `pop_max`. Fails if the file
+  /// cannot be read or contains no place. Invalid features are skipped.
   [[nodiscard]] static Result<Gazetteer> load(const std::filesystem::path& file);
 
   /// Finds at most `most` places. Names that begin with the text come first, then names that contain the text; both are
-  /// sorted by population, largest first. A blank text finds nothing.
+  /// sorted by population, largest first. Case and accents do not count. A blank text finds nothing.
   [[nodiscard]] std::vector<const NamedPlace*> find(std::string_view text, std::size_t most) const;
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 

@@ -15,7 +15,10 @@ struct FrameBlock {
   glm::vec4 texels;
   glm::vec4 paper;
   glm::vec4 layer_look;
+  glm::mat4 horizon_from_ecef;
+  glm::vec4 relief;
+  glm::vec4 surface_look;
 };
-static_assert(sizeof(FrameBlock) == 64 + 7 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 9 * 16 + 64);
 
 }  // namespace terrella

@@ -22,7 +22,7 @@ class GlState {
   GlState& operator=(const GlState&) = delete;
 
  private:
-  static constexpr GLuint kUnits = 7;  ///< number of texture units that passes use
+  static constexpr GLuint kUnits = 11;  ///< number of texture units that passes use
   static constexpr std::size_t kTargets = 4;
   static constexpr std::size_t kStores = 16;
 

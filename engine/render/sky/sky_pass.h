@@ -9,8 +9,8 @@
 #include "geo/camera.h"
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
+#include "render/sky/air_textures.h"
 #include "sky/almanac.h"
-#include "sky/atmosphere.h"
 #include "sky/star_catalogue.h"
 
 namespace terrella {
@@ -33,41 +33,34 @@ class SkyPass {
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
   /// Draws into the bound framebuffer and viewport, with the stencil test and color mask of `state`. The frame's
-  /// uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and texture unit
-  /// 0.
+  /// uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and texture units
+  /// 0 and 1.
   int draw(const View& view, const SkyInput& input, DrawState state);
+  /// Returns the air of the view for the passes that draw ground and limb; null without air. Valid until the next call.
+  [[nodiscard]] const AirTextures* fit_air(const View& view, const SkyInput& input);
 
  private:
-  /// The input of the sky table. The table is kept while this hardly changes.
-  struct TableKey {
-    double eye_radius = 0.0;
-    double sun_cos = 2.0;
-  };
   /// Place and size of a body's disc in the sky.
   struct Disc {
     glm::dvec3 center;
     double radius_rad;
   };
 
-  explicit SkyPass(const Body& body) : body_(body), air_(atmosphere_of(body)) {}
+  explicit SkyPass(const Body& body) : body_(body) {}
   Status build_programs();
   void load_stars(const std::vector<Star>& stars);
   int draw_stars(const View& view, const SkyInput& input, DrawState state) const;
   int draw_sun(const View& view, const SkyInput& input, DrawState state) const;
   int draw_moon(const View& view, const SkyInput& input, DrawState state) const;
-  int draw_air(const View& view, const SkyInput& input, DrawState state);
-  void update_table(double eye_radius, double sun_cos);
+  int draw_air(DrawState state) const;
   void place_disc(const View& view, const Disc& disc, double square) const;
 
   Body body_;
-  std::optional<Atmosphere> air_;
+  std::optional<AirTextures> air_;
   gl::Program star_program_, sun_program_, moon_program_, air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;
   int star_count_ = 0;
-  gl::Texture table_texture_;
-  SkyTable table_;
-  TableKey table_key_;
 };
 
 }  // namespace terrella

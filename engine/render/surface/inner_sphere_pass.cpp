@@ -57,21 +57,24 @@ Result<std::unique_ptr<InnerSpherePass>> InnerSpherePass::create(DepthMode depth
   return pass;
 }
 
-int InnerSpherePass::draw(double radius_m, const DrawState& state) const {
+int InnerSpherePass::draw(double radius_m, const glm::vec3& color_srgb, const DrawState& state) const {
   apply(state.with(program_.name()));
   glUniform2f(0, static_cast<float>(radius_m), 1.0F);
+  glUniform3f(1, color_srgb.x, color_srgb.y, color_srgb.z);
   glBindVertexArray(vertex_array_.name());
   glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_SHORT, nullptr);
   return 1;
 }
 
-int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip, DrawState state) const {
+int InnerSpherePass::draw_curtain(const std::vector<glm::vec3>& strip, const glm::vec3& color_srgb,
+                                  DrawState state) const {
   if (strip.empty()) return 0;
   glNamedBufferData(curtain_.name(), static_cast<GLsizeiptr>(strip.size() * sizeof(glm::vec3)), strip.data(),
                     GL_STREAM_DRAW);
   state.cull.reset();
   apply(state.with(program_.name()));
   glUniform2f(0, 1.0F, 0.0F);
+  glUniform3f(1, color_srgb.x, color_srgb.y, color_srgb.z);
   glBindVertexArray(curtain_array_.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
   return 1;

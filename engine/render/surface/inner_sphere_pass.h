@@ -15,16 +15,16 @@
 namespace terrella {
 
 /// Draws the inner sphere, which hides the far side under a translucent surface (paper 2, section 2.1), and the curtain
-/// beside it (surface/far_side_curtain.h). Both have the colour of the background. The caller has bound the framebuffer
-/// and the frame's uniform block. thread: main
+/// beside it (surface/far_side_curtain.h). Both have the colour of SurfaceLook, by default the background's. The caller
+/// has bound the framebuffer and the frame's uniform block. thread: main
 class InnerSpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<InnerSpherePass>> create(DepthMode depth);
 
   /// Returns the draw calls made.
-  int draw(double radius_m, const DrawState& state) const;
-  int draw_curtain(const std::vector<glm::vec3>& strip,
-                   DrawState state) const;  ///< both faces; ignores DrawState::cull
+  int draw(double radius_m, const glm::vec3& color_srgb, const DrawState& state) const;
+  /// Draws both faces; ignores DrawState::cull.
+  int draw_curtain(const std::vector<glm::vec3>& strip, const glm::vec3& color_srgb, DrawState state) const;
 
  private:
   InnerSpherePass() = default;

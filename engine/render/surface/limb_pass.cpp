@@ -1,6 +1,9 @@
 #include "render/surface/limb_pass.h"
 
+#include <cmath>
 #include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
+#include <string_view>
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
@@ -10,14 +13,36 @@ namespace terrella {
 namespace {
 // Half a pixel of coverage to either side, plus the error of the mesh.
 constexpr double kHalfWidth_px = 1.0;
+
+// Turns a fragment's place, pixels from the lower left corner of the view, into a ray in the axes of the horizon.
+glm::mat3 horizon_from_px(const View& view, const AirTextures& air) {
+  const double scale = 1.0 / view.pixels_per_radian();
+  const glm::dvec3 corner = view.forward + view.right * (view.shear_x - 0.5 * scale * view.viewport.width_px) -
+                            view.up * (0.5 * scale * view.viewport.height_px);
+  const glm::dmat3 ecef_from_px(view.right * scale, view.up * scale, corner);
+  return glm::mat3(air.horizon_from_ecef() * ecef_from_px);
+}
+
+void set_air(const View& view, const AirTextures* air) {
+  const bool thin = air != nullptr && air->sky().outside;
+  glUniform3f(3, 0.0F, 1.0F, 0.0F);
+  if (!thin) return;
+  const glm::mat3 axes = horizon_from_px(view, *air);
+  glUniformMatrix3fv(2, 1, GL_FALSE, glm::value_ptr(axes));
+  const double r = air->eye_radius(), limb = std::sqrt((r - 1.0) * (r + 1.0));
+  glUniform3f(3, static_cast<float>(limb), static_cast<float>(air->limb_pixel()), SkyColors::kLimbSteps);
+  air->bind_limb();
+  air->bind_ground();
+}
 }  // namespace
 
 Result<std::unique_ptr<LimbPass>> LimbPass::create() {
   std::unique_ptr<LimbPass> pass(new LimbPass);
-  if (Status s =
-          build_into(pass->program_, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {"limb.frag"}}}, {});
-      !s)
-    return s.error();
+  const auto build = [](gl::Program& program, std::string_view fragment) {
+    return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {fragment}}}, {});
+  };
+  if (Status s = build(pass->imagery_, "limb.frag"); !s) return s.error();
+  if (Status s = build(pass->lit_, "limb_air.frag"); !s) return s.error();
   pass->vertex_array_ = gl::make_vertex_array();
   pass->vertices_ = gl::make_buffer();
   const GLuint array = pass->vertex_array_.name();
@@ -37,12 +62,14 @@ bool LimbPass::fit(const View& view, const Ellipsoid& ellipsoid) {
   return true;
 }
 
-void LimbPass::draw(Viewport size, const LimbPicture& picture, DrawState state) const {
+void LimbPass::draw(const View& view, const LimbPicture& picture, LimbLook look, const AirTextures* air,
+                    DrawState state) const {
   state.depth.reset();
   state.cull.reset();
-  apply(state.with(program_.name()));
+  apply(state.with(look == LimbLook::lit ? lit_.name() : imagery_.name()));
   glUniform1i(0, picture.rows_apart);
-  glUniform4i(1, picture.left_px, 0, picture.left_px + size.width_px - 1, size.height_px - 1);
+  glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
+  if (look == LimbLook::lit) set_air(view, air);
   glBindTextureUnit(0, picture.texture);
   glBindSampler(0, 0);
   glBindVertexArray(vertex_array_.name());

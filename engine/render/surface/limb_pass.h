@@ -6,6 +6,7 @@
 #include "geo/camera.h"
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
+#include "render/sky/air_textures.h"
 
 namespace terrella {
 
@@ -18,7 +19,13 @@ struct LimbPicture {
   int rows_apart = 1;
 };
 
-/// Antialiases the globe's limb in a finished picture (shaders/surface/limb.frag). thread: main
+/// What the ground's colours at the limb contain.
+enum class LimbLook {
+  imagery,  ///< imagery alone: shaders/surface/limb.frag
+  lit       ///< light, and air if there is any: shaders/surface/limb_air.frag
+};
+
+/// Antialiases the globe's limb in a finished picture. thread: main
 class LimbPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
@@ -26,11 +33,12 @@ class LimbPass {
   /// Fits the ribbon to the limb of a view. False if no limb is in view.
   bool fit(const View& view, const Ellipsoid& ellipsoid);
   /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
-  void draw(Viewport size, const LimbPicture& picture, DrawState state) const;
+  /// `air` is null without air.
+  void draw(const View& view, const LimbPicture& picture, LimbLook look, const AirTextures* air, DrawState state) const;
 
  private:
   LimbPass() = default;
-  gl::Program program_;
+  gl::Program imagery_, lit_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
   GLsizei count_ = 0;

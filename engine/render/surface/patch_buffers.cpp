@@ -2,14 +2,16 @@
 
 #include <utility>
 
+#include "surface/slope_window.h"
+
 namespace terrella {
 namespace {
 constexpr int kFirstCapacity = 512;
 }
 
-PatchBuffers::PatchBuffers(const PatchTree& tree, bool has_relief)
+PatchBuffers::PatchBuffers(const PatchTree& tree, const TileGrid* heights)
     : tree_(tree),
-      has_relief_(has_relief),
+      heights_(heights != nullptr ? std::optional(*heights) : std::nullopt),
       vertices_per_patch_((tree.segments() + 1) * (tree.segments() + 1)),
       indices_(patch_indices(tree.segments())),
       index_buffer_(gl::make_buffer()) {
@@ -30,7 +32,7 @@ void PatchBuffers::grow() {
     buffer = std::move(larger);
   };
   enlarge(vertices_, sizeof(PatchVertex));
-  if (has_relief_) enlarge(slopes_, sizeof(glm::vec2));
+  if (heights_) enlarge(height_offsets_, sizeof(glm::vec2));
   capacity_ = capacity;
 }
 
@@ -50,9 +52,10 @@ void PatchBuffers::fill(const PatchNode& node, int place) {
   const std::vector<PatchVertex> vertices = patch_vertices(tree_, node);
   const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
   glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
-  if (!slopes_) return;
-  const auto slope_bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(glm::vec2));
-  glNamedBufferSubData(slopes_.name(), place * slope_bytes, slope_bytes, node.relief.slopes.data());
+  if (!heights_) return;
+  const std::vector<glm::vec2> offsets = height_offsets_deg(*heights_, tree_, node);
+  const auto offset_bytes = static_cast<GLsizeiptr>(offsets.size() * sizeof(glm::vec2));
+  glNamedBufferSubData(height_offsets_.name(), place * offset_bytes, offset_bytes, offsets.data());
 }
 
 int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {

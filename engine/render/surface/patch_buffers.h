@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <list>
+#include <optional>
 #include <unordered_map>
 
 #include "render/gl/gl_handle.h"
@@ -13,8 +14,8 @@ namespace terrella {
 /// share. thread: main
 class PatchBuffers {
  public:
-  /// `has_relief`: patches have slopes.
-  PatchBuffers(const PatchTree& tree, bool has_relief);
+  /// `heights`: grid of the heights; null: no relief.
+  PatchBuffers(const PatchTree& tree, const TileGrid* heights);
 
   /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there or if
   /// its heights have changed, in place of the patch drawn longest ago. Places used in the current frame are kept: the
@@ -24,7 +25,8 @@ class PatchBuffers {
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
   [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
-  [[nodiscard]] GLuint slope_buffer() const { return slopes_.name(); }  ///< two floats per vertex; only with relief
+  /// Two floats per vertex: height_offsets_deg(). Only with relief.
+  [[nodiscard]] GLuint height_offset_buffer() const { return height_offsets_.name(); }
   [[nodiscard]] GLuint index_buffer() const { return index_buffer_.name(); }
 
  private:
@@ -39,10 +41,10 @@ class PatchBuffers {
   void fill(const PatchNode& node, int place);
 
   const PatchTree& tree_;
-  bool has_relief_;
+  std::optional<TileGrid> heights_;
   int vertices_per_patch_;
   PatchIndices indices_;
-  gl::Buffer vertices_, slopes_;
+  gl::Buffer vertices_, height_offsets_;
   gl::Buffer index_buffer_;
   int capacity_ = 0;
   int used_ = 0;

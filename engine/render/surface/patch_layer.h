@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "render/gl/gl_handle.h"
+#include "render/surface/number_colors.h"
 #include "render/surface/patch_buffers.h"
 
 namespace terrella {
@@ -13,10 +15,13 @@ struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, oblique, polar, paper, kPrograms };
 
+  std::optional<NumberColors> numbers;     ///< none: a layer of pictures
   std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the base layer
   gl::Buffer draws, commands, cells;
   gl::Buffer frame_block;  ///< used for upper layers
   gl::Texture cells_texture;
+  gl::Buffer slope_draws, slope_cells;  ///< made by SlopeTextures; only with relief
+  gl::Texture slope_cells_texture;
   int first_command[kPrograms + 1] = {};
   long triangles = 0;
 };

@@ -1,13 +1,16 @@
 #include "render/surface/patch_pass.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
+#include "render/surface/slope_textures.h"
 
 namespace terrella {
 namespace {
@@ -23,7 +26,8 @@ struct DrawCommand {
 
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
-constexpr std::string_view kBaseLayer = "BASE_LAYER";
+/// #defines of LayerRole.
+constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
@@ -48,52 +52,63 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
     if (!chosen) return chosen.error();
     pass->options_.functions = *chosen;
   }
-  if (const Status built = pass->build_programs(pass->programs_, kBaseLayer); !built) return built.error();
+  if (const Status built = pass->prepare(LayerRole::base, false); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
-Status PatchPass::prepare_upper(bool special) {
-  if (special && !has_special_) {
-    if (Status built = build_programs(special_, "SPECIAL_LAYER"); !built) return built;
-    has_special_ = true;
+Status PatchPass::prepare(LayerRole role, bool numbers) {
+  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][which()][light_.index()];
+  if (!set.made) {
+    if (Status built = build_programs(set.programs, role, numbers); !built) return built;
+    set.made = true;
   }
-  if (flat_program_) return Done{};
-  if (Status built = build_programs(upper_, "UPPER_LAYER"); !built) return built;
-  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, kBaseLayer);
+  if (role == LayerRole::base || flat_program_) return Done{};
+  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
 }
 
 Status PatchPass::prepare_depth() {
-  return depth_program_ ? Done{} : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, kBaseLayer);
+  if (depth_program_) return Done{};
+  return build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
 }
 
-Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment,
-                        std::string_view layer) const {
-  return build_into(place, {{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
-                    {depth_define(options_.depth), has_relief_ ? "RELIEF" : "ELLIPSOID",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT",
-                     functions_define(options_.functions.value_or(ShaderFunctions::driver)), layer});
+Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
+                        bool numbers) const {
+  const bool pictures = !numbers;
+  return build_into(place,
+                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                    {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
+                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", options_.regolith ? "REGOLITH" : "NO_DUST",
+                     light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
+                     light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
+                     which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
+                     functions_define(options_.functions.value_or(ShaderFunctions::driver)),
+                     kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
 
-Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const {
+Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const {
   using enum PatchLayer::Program;
-  const auto make = [&](PatchLayer::Program which, std::initializer_list<std::string_view> files) {
-    return build(programs[which], files, layer);
+  const auto make = [&](PatchLayer::Program which, std::string_view file) {
+    return build(
+        programs[which],
+        {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
+        role, numbers);
+  };
+  const auto make_exact = [&](PatchLayer::Program which, std::string_view file) {
+    return build(programs[which],
+                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl",
+                  "patch_taps.glsl", "patch_exact_point.glsl", file},
+                 role, numbers);
   };
   if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = make(
-        polar, {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_polar.frag"});
+    Status s = make_exact(polar, "patch_polar.frag");
     if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = make(magnified, {"frame.glsl", "patch_common.glsl", "patch_magnified.frag"}); !s) return s;
-  if (Status s = make(plain, {"frame.glsl", "patch_common.glsl", "patch_plain.frag"}); !s) return s;
-  if (Status s = make(oblique, {"frame.glsl", "patch_common.glsl", "patch_oblique.frag"}); !s) return s;
-  if (options_.texturing == Texturing::paper) {
-    return make(paper,
-                {"frame.glsl", "functions.glsl", "patch_common.glsl", "patch_exact_point.glsl", "patch_paper.frag"});
-  }
-  return Done{};
+  if (Status s = make(magnified, "patch_magnified.frag"); !s) return s;
+  if (Status s = make(plain, "patch_plain.frag"); !s) return s;
+  if (Status s = make(oblique, "patch_oblique.frag"); !s) return s;
+  return options_.texturing == Texturing::paper ? make_exact(paper, "patch_paper.frag") : Done{};
 }
 
 void PatchPass::set_up_vertex_array() {
@@ -110,7 +125,13 @@ void PatchPass::set_up_vertex_array() {
   glEnableVertexArrayAttrib(array, 7);
   glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
   glVertexArrayAttribBinding(array, 7, 1);
-  if (has_relief_) gl::float_attribute(array, 8, 2, 2, 0);
+  if (!has_relief_) return;
+  gl::float_attribute(array, 8, 2, 2, 0);
+  glVertexArrayBindingDivisor(array, 3, 1);
+  gl::float_attribute(array, 9, 3, 4, offsetof(SlopeDraw, center_and_scale));
+  glEnableVertexArrayAttrib(array, 10);
+  glVertexArrayAttribIFormat(array, 10, 4, GL_UNSIGNED_INT, offsetof(SlopeDraw, window));
+  glVertexArrayAttribBinding(array, 10, 3);
 }
 
 void PatchPass::set_up_samplers() {
@@ -136,7 +157,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
-  return patch.footprint_texels > kPlainFootprint_texels ? oblique : plain;
+  return patch.footprint_texels > plain_footprint_texels_ ? oblique : plain;
 }
 
 void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -176,7 +197,12 @@ void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& verti
   glVertexArrayElementBuffer(array, vertices.index_buffer());
   glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
   glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
-  if (has_relief_) glVertexArrayVertexBuffer(array, 2, vertices.slope_buffer(), 0, sizeof(glm::vec2));
+  if (has_relief_) {
+    // Programs without light on relief read no slopes.
+    const bool slopes = static_cast<bool>(layer.slope_draws);
+    glVertexArrayVertexBuffer(array, 2, vertices.height_offset_buffer(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array, 3, slopes ? layer.slope_draws.name() : layer.draws.name(), 0, sizeof(SlopeDraw));
+  }
   glBindVertexArray(array);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, layer.commands.name());
 }
@@ -188,29 +214,26 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
   ++counts.draw_calls;
 }
 
-void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
+void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  draw_programs(programs_, layer, vertices, tiles, state, counts);
-}
-
-void PatchPass::draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles,
-                           bool special, const DrawState& state, FrameCounts& counts) const {
-  draw_programs(special ? special_ : upper_, layer, vertices, tiles, state, counts);
-}
-
-void PatchPass::draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer,
-                              const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
-                              FrameCounts& counts) const {
+  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][which()][light_.index()];
+  assert(set.made);
+  if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
+  if (layer.numbers) layer.numbers->bind();
   bind_vertices(layer, vertices);
   for (int p = 0; p < kPrograms; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
-    apply(state.with(programs[p].name()));
+    const GLuint program = set.programs[p].name();
+    if (layer.numbers) {
+      glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
+    }
+    apply(state.with(program));
     draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);
   }
   counts.triangles += layer.triangles;

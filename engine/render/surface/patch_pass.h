@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
+#include "render/sky/air_textures.h"
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
@@ -23,10 +25,20 @@
 
 namespace terrella {
 
+/// Light and filter of a frame's surface; each combination has programs of its own, made when first needed.
+struct PatchLight {
+  bool relief = false;   ///< slopes are lit; the caller uploads and binds them (SlopeTextures)
+  bool bicubic = false;  ///< magnified pictures are filtered bicubically
+  bool glint = false;    ///< the sea mirrors the Sun
+  [[nodiscard]] int index() const { return (relief ? 1 : 0) + (bicubic ? 2 : 0) + (glint ? 4 : 0); }
+};
+
 /// Options that determine the programs. Changing them needs a new renderer.
 struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
+  bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
+  PatchLight light = {};                          ///< of the first frame; `relief` follows from the heights
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
@@ -36,48 +48,61 @@ struct FrameCounts {
   long triangles = 0;
 };
 
+/// The part of a layer in the picture; each part has programs of its own.
+enum class LayerRole {
+  base,     ///< opaque
+  upper,    ///< premultiplied by the tiles' alpha and the opacity in the frame's uniform block
+  special,  ///< upper, and LayerFrame::special
+};
+
 /// Draws the patches of the surface, layer by layer, with a state that the caller gives. Owns their programs. The
 /// caller has bound the framebuffer and the frame's uniform block. thread: main (of the context)
 class PatchPass {
  public:
-  /// `has_relief` means that patches have slopes.
+  /// `has_relief`: the patches have heights.
   [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
   [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
-  /// Builds the programs of upper layers, once, before any upper layer is drawn. `special`: LayerFrame::special.
-  Status prepare_upper(bool special);
+  /// Sees the ground through this air from now on; null: without air.
+  void set_air(const AirTextures* air) { air_ = air; }
+  /// Draws in this light from now on.
+  void set_light(const PatchLight& light) { light_ = light; }
+  /// Builds the programs that draw a layer of pictures or numbers in the present air and light, once; for upper layers
+  /// also that of draw_flat(). Call after set_air() and set_light().
+  Status prepare(LayerRole role, bool numbers);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
   /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
   void set_paper_band(double band) { paper_band_ = band; }
+  /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
+  void set_plain_footprint(double texels) { plain_footprint_texels_ = texels; }
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
   /// layer's own or those shared by the surface.
   void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// Draws the opaque patches of the base layer, program by program.
-  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, const DrawState& state,
-            FrameCounts& counts) const;
-  /// Draws an upper layer, premultiplied by the tiles' alpha and the opacity in the frame's uniform block.
-  void draw_upper(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, bool special,
-                  const DrawState& state, FrameCounts& counts) const;
+  /// Draws a layer, program by program. Needs prepare().
+  void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
+            const DrawState& state, FrameCounts& counts) const;
   /// Draws depth only, in one call. The depth values are the same bits as those of draw(). Needs prepare_depth().
   void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                   FrameCounts& counts) const;
-  /// Draws opaque black with the same depth, in one call. Needs prepare_upper().
+  /// Draws opaque black with the same depth, in one call. Needs prepare() of an upper layer.
   void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                  FrameCounts& counts) const;
 
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms;
 
-  PatchPass(const RenderOptions& options, bool has_relief) : options_(options), has_relief_(has_relief) {}
-  Status build_programs(gl::Program (&programs)[kPrograms], std::string_view layer) const;
-  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, std::string_view layer) const;
+  PatchPass(const RenderOptions& options, bool has_relief)
+      : options_(options), has_relief_(has_relief), light_(options.light) {}
+  /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
+  [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
+  Status build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const;
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
+               bool numbers) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
-  void draw_programs(const gl::Program (&programs)[kPrograms], const PatchLayer& layer, const PatchBuffers& vertices,
-                     const TileTextures& tiles, const DrawState& state, FrameCounts& counts) const;
   void draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
                 const DrawState& state, FrameCounts& counts) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
@@ -85,9 +110,16 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  gl::Program programs_[kPrograms], upper_[kPrograms], special_[kPrograms];
-  bool has_special_ = false;
+  /// The programs of a role, for pictures or numbers, by which() air, in a light.
+  struct ProgramSet {
+    gl::Program programs[kPrograms];
+    bool made = false;
+  };
+  ProgramSet sets_[3][2][3][8];
+  const AirTextures* air_ = nullptr;
+  PatchLight light_;
   double paper_band_ = 0.05;
+  double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;

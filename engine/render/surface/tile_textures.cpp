@@ -1,6 +1,7 @@
 #include "render/surface/tile_textures.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,6 +13,17 @@ namespace {
 
 constexpr int kFirstSlots = 128;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
+
+/// How OpenGL stores the texels of a layout, and takes them.
+struct TexelFormat {
+  GLenum stored, channels, type;
+  std::size_t bytes;
+};
+TexelFormat format_of(const SlotLayout& layout) {
+  if (!layout.numbers) return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+  if (layout.numbers->codes) return {GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
+  return {GL_R32F, GL_RED, GL_FLOAT, 4};
+}
 
 /// Returns the number of texels around the planet in the tiles of a level and squeeze, if the columns close at ±180°.
 std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
@@ -55,11 +67,20 @@ void TileTextures::set_empty(Empty empty) {
 
 void TileTextures::paint_empty() {
   constexpr std::uint8_t kNothing[4] = {0, 0, 0, 0};
+  const TexelFormat format = format_of(layout_);
+  const auto none = static_cast<std::uint16_t>(layout_.numbers ? layout_.numbers->none : 0);
+  const void* texel = empty_ == Empty::plain_colour ? kPlainColour : kNothing;
+  if (layout_.numbers) texel = layout_.numbers->codes ? static_cast<const void*>(&none) : &kNoNumber;
   for (int k = 0; k < mips_; ++k) {
     const int side = layout_.slot_px() >> k;
-    glClearTexSubImage(texture_.name(), k, 0, 0, 0, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                       empty_ == Empty::plain_colour ? kPlainColour : kNothing);
+    glClearTexSubImage(texture_.name(), k, 0, 0, 0, side, side, 1, format.channels, format.type, texel);
   }
+}
+
+gl::Texture TileTextures::make_array(int slots) const {
+  gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(array.name(), mips_, format_of(layout_).stored, layout_.slot_px(), layout_.slot_px(), slots);
+  return array;
 }
 
 void TileTextures::set_budget(std::size_t bytes) {
@@ -77,10 +98,9 @@ void TileTextures::shrink() {
     const bool a_root = a.first.level == grid_.min_level, b_root = b.first.level == grid_.min_level;
     return a_root != b_root ? a_root : a.second->last_drawn > b.second->last_drawn;
   });
-  const gl::Texture larger = std::exchange(texture_, gl::make_texture(GL_TEXTURE_2D_ARRAY));
   slots_ = most_slots_;
   used_ = 1;
-  glTextureStorage3D(texture_.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots_);
+  const gl::Texture larger = std::exchange(texture_, make_array(slots_));
   paint_empty();
   for (const auto& [id, entry] : tiles) {
     if (used_ == slots_) {
@@ -97,17 +117,16 @@ void TileTextures::shrink() {
 }
 
 std::size_t TileTextures::slot_bytes() const {
-  std::size_t bytes = 0;
+  std::size_t texels = 0;
   for (int k = 0; k < mips_; ++k)
-    bytes += 4UL * static_cast<std::size_t>((layout_.slot_px() >> k) * (layout_.slot_px() >> k));
-  return bytes;
+    texels += static_cast<std::size_t>((layout_.slot_px() >> k) * (layout_.slot_px() >> k));
+  return texels * format_of(layout_).bytes;
 }
 
 bool TileTextures::grow() {
   const int slots = std::min(most_slots_, slots_ == 0 ? kFirstSlots : 2 * slots_);
   if (slots == slots_) return false;
-  gl::Texture larger = gl::make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(larger.name(), mips_, GL_RGBA8, layout_.slot_px(), layout_.slot_px(), slots);
+  gl::Texture larger = make_array(slots);
   for (int k = 0; k < mips_; ++k) {
     const int side = layout_.slot_px() >> k;
     if (!texture_) continue;
@@ -134,17 +153,33 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
   const TileResidency::Entry* there = residency_.find(id);
   const int slot = there != nullptr && there->state == TileState::resident ? there->slot : take_slot(frame);
   if (slot < 0) return false;
+  const TexelFormat format = format_of(layout_);
+  if (format.bytes == 2) glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
   for (int k = 0; k < mips_ && k < static_cast<int>(mips.size()); ++k) {
     const int side = layout_.mip_px(k);
-    glTextureSubImage3D(texture_.name(), k, 0, 0, slot, side, side, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+    glTextureSubImage3D(texture_.name(), k, 0, 0, slot, side, side, 1, format.channels, format.type,
                         mips[static_cast<std::size_t>(k)].data());
   }
+  if (format.bytes == 2) glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   TileResidency::Entry& entry = residency_.entry(id);
   entry.state = TileState::resident;
   entry.slot = slot;
   entry.last_drawn = frame;
   join_gutters(id);
   return true;
+}
+
+double TileTextures::number_at(const TileId& id, int x, int y) const {
+  const TileResidency::Entry* entry = residency_.find(id);
+  assert(layout_.numbers && entry != nullptr && entry->state == TileState::resident);
+  const TexelFormat format = format_of(layout_);
+  const int gutter = layout_.gutter_px;
+  std::uint16_t code = 0;
+  float number = 0.0F;
+  void* texel = layout_.numbers->codes ? static_cast<void*>(&code) : &number;
+  glGetTextureSubImage(texture_.name(), 0, gutter + x, gutter + y, entry->slot, 1, 1, 1, format.channels, format.type,
+                       static_cast<GLsizei>(format.bytes), texel);
+  return number_of(*layout_.numbers, layout_.numbers->codes ? code : static_cast<double>(number));
 }
 
 bool TileTextures::is_resident(const TileId& id) const {
@@ -186,7 +221,7 @@ void TileTextures::join_squeezed(const TileId& wide, const TileId& narrow, int d
 }
 
 // Fills the gutter on side `dy` from a tile twice or half as wide. Bilinear filtering averages two texels into one, or
-// interpolates two texels into four.
+// interpolates two texels into four. Numbers are taken from the nearest texel, so that "no data" is never averaged.
 void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy, int half) {
   if (!stretch_from_) {
     stretch_from_ = gl::make_framebuffer();
@@ -205,7 +240,8 @@ void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy
     glNamedFramebufferTextureLayer(stretch_into_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
                                    residency_.entry(into).slot);
     glBlitNamedFramebuffer(stretch_from_.name(), stretch_into_.name(), from_x, from_y, from_x + from_w, from_y + g,
-                           into_x, into_y, into_x + into_w, into_y + g, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+                           into_x, into_y, into_x + into_w, into_y + g, GL_COLOR_BUFFER_BIT,
+                           layout_.numbers ? GL_NEAREST : GL_LINEAR);
   }
 }
 

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <list>
+#include <optional>
 #include <vector>
 
 #include "render/gl/gl_handle.h"
 #include "surface/plan/tile_coverage.h"
+#include "tiles/number_texels.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_residency.h"
 
@@ -15,14 +17,15 @@ namespace terrella {
 struct SlotLayout {
   int tile_px = 256;
   int gutter_px = 8;
+  std::optional<NumberSlots> numbers = {};  ///< set: texels are numbers, R16 or R32F; none: pictures, RGBA8
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
   /// Texels per side that a tile fills in a slot's mip: less than the mip's size if the gutter does not halve evenly.
   [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
 /// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. Slot
-/// 0 is a plain colour or transparent, for places without imagery. A slot's gutter receives the texels of neighbouring
-/// tiles as they arrive, so that filtering continues across a tile's border. thread: main
+/// 0 is a plain colour or transparent, for numbers "no data", for places without imagery. A slot's gutter receives the
+/// texels of neighbouring tiles as they arrive, so that filtering continues across a tile's border. thread: main
 class TileTextures {
  public:
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
@@ -33,12 +36,17 @@ class TileTextures {
   /// Sets the budget and evicts the tiles drawn longest ago if there is less room.
   void set_budget(std::size_t bytes);
 
-  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels per side, RGBA8 (tiles/tile_texels.h). If the
+  /// Puts a tile into a slot: `mips` finest first, slot_px >> k texels per side (tiles/tile_texels.h). If the
   /// budget is used up, evicts the tile drawn longest ago, but never a tile of the coarsest level or of `frame`. False
   /// if there is no room.
   bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
 
+  /// Reads back one texel of a resident tile of numbers, counted from the tile's north-west corner; waits for the GPU.
+  /// NaN if it has no data.
+  [[nodiscard]] double number_at(const TileId& id, int x, int y) const;
+
   [[nodiscard]] TileResidency& residency() { return residency_; }
+  [[nodiscard]] const TileResidency& residency() const { return residency_; }
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   [[nodiscard]] int mips() const { return mips_; }
@@ -47,6 +55,7 @@ class TileTextures {
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
 
  private:
+  [[nodiscard]] gl::Texture make_array(int slots) const;
   int take_slot(std::uint64_t frame);
   [[nodiscard]] int slots_for(std::size_t bytes) const;
   bool grow();

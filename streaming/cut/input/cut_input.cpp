@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "geo/body.h"
 #include "streaming/cut/input/height_input.h"
 #include "streaming/cut/input/mosaic_rows.h"
@@ -33,10 +35,28 @@ CutInput put_rows(std::unique_ptr<RowReader> rows, const PicturePlace& place, bo
           .remarks = place.placed.remarks};
 }
 
+/// Place of a raster without rows. It is always warped; pixels that fit the grid are copied then.
+Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture) {
+  place.kind = PlaceKind::warped;
+  place.from = place.placed.projected;
+  if (place.from) return place;
+  if (picture.width_px != 2 * picture.height_px) {
+    return Error{
+        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
+                    "--crs CRS and --bounds W,S,E,N",
+                    picture.path.string(), picture.width_px, picture.height_px)};
+  }
+  const double step = 180.0 / static_cast<double>(picture.height_px);
+  place.from =
+      CrsPlace{.to_crs = {.x0 = -180.0, .x_per_column = step, .y0 = 90.0, .y_per_row = -step}, .crs = "EPSG:4326"};
+  return place;
+}
+
 Result<CutInput> open_one(const CutOptions& options, const OpenRows& open, const std::optional<HeightPlan>& heights) {
-  const auto picture = measure_picture(options.images.front());
+  const auto picture = options.raster ? options.raster->picture : measure_picture(options.images.front());
   if (!picture) return picture.error();
-  const auto place = find_place(options, *picture);
+  auto place = find_place(options, *picture);
+  if (place && options.raster) place = warped_place(*std::move(place), *picture);
   if (!place) return place.error();
   if (place->kind == PlaceKind::warped) {
     auto warped = open_warped(options, *picture, *place, heights);
@@ -51,6 +71,25 @@ Result<CutInput> open_one(const CutOptions& options, const OpenRows& open, const
   return put_rows(*std::move(rows), *place, heights.has_value());
 }
 
+/// Many rasters, each resampled to one grid.
+Result<CutInput> open_resampled(const CutOptions& options, const std::optional<HeightPlan>& heights) {
+  std::vector<std::string> remarks;
+  auto warped = open_many(options, heights, remarks);
+  if (!warped) return warped.error();
+  return CutInput{.rows = std::move(warped->rows),
+                  .bounds = warped->bounds,
+                  .latitude = warped->latitude,
+                  .place = "many",
+                  .has_gaps = true,
+                  .remarks = std::move(remarks)};
+}
+
+/// True if a part of a mosaic states a place whose rows are no parallels.
+bool needs_resampling(const CutOptions& options, const PictureFile& part) {
+  const auto placed = place_picture(part, {.crs = options.crs});
+  return placed && placed->projected && !placed->placement;
+}
+
 /// Place of a part of a mosaic, in even steps of degrees.
 Result<PicturePlace> place_of_part(const CutOptions& options, const PictureFile& picture) {
   const PlaceWords words = words_of(options);
@@ -60,10 +99,6 @@ Result<PicturePlace> place_of_part(const CutOptions& options, const PictureFile&
   if (!body) return body.error();
   const auto latitude = check_figure(*placed, *body, options.latitude);
   if (!latitude) return latitude.error();
-  if (placed->projected && !placed->placement) {
-    return Error{fmt::format("{}, and parts of a mosaic are not resampled; make one picture of them: {}", placed->claim,
-                             join_command(options.images))};
-  }
   return PicturePlace{.latitude = *latitude, .placed = *std::move(placed)};
 }
 
@@ -93,25 +128,73 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
   return put_rows(make_mosaic_rows(std::move(parts), *std::move(layout), info, open), *place, heights);
 }
 
+/// True if tiles need a number that means "no data": pixels may lie beside the picture.
+bool may_have_gaps(const CutOptions& options) {
+  if (options.images.size() > 1 || options.mosaic || is_mosaic(options.images.front())) return true;
+  const auto picture = measure_picture(options.images.front());
+  const auto place = picture ? find_place(options, *picture) : Result<PicturePlace>(picture.error());
+  if (!place) return true;  // open_one() says why
+  const bool whole = place->kind == PlaceKind::planet || place->kind == PlaceKind::nodes || !place->bounds;
+  return place->kind == PlaceKind::warped || !whole;
+}
+
+Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
+  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
+  if (options.format && options.format != ImageFormat::png) {
+    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
+  }
+  std::vector<fs::path> images = options.images;
+  if (is_mosaic(images.front())) {
+    const auto list = list_of(options);
+    if (!list) return list.error();
+    images.clear();
+    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+  }
+  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
+                                         : plan_numbers(images, *options.numbers, may_have_gaps(options));
+  if (!planned) return planned.error();
+  return std::optional(*planned);
+}
+
+/// True for a folder or a list of rasters, and for parts in a projection.
+bool is_many(const CutOptions& options) {
+  if (options.images.size() == 1 && !options.mosaic) return is_mosaic(options.images.front());
+  if (options.mosaic || options.bounds) return false;
+  return std::ranges::any_of(options.images, [&](const fs::path& image) {
+    const auto part = measure_picture(image);
+    return part && needs_resampling(options, *part);
+  });
+}
+
 }  // namespace
 
-Result<CutInput> open_input(const CutOptions& options) {
-  std::optional<HeightPlan> heights;
-  if (options.elevation) {
-    if (options.format && options.format != ImageFormat::png)
-      return Error{"heights are written as PNG alone; leave --format out"};
-    const auto planned = plan_heights(options.images, *options.elevation, options.jobs);
-    if (!planned) return planned.error();
-    heights = *planned;
+CodingOptions choice_of(const CutOptions& options) {
+  CodingOptions choice;
+  if (!options.composite) return choice;
+  choice.nodata = options.composite->nodata;
+  choice.composite = BandComposite{.bands = {}, .stretch = options.composite->stretch};
+  for (std::size_t c = 0; c < 3; ++c) {
+    choice.composite->bands[c] = static_cast<std::size_t>(options.composite->bands[c] - 1);
   }
-  const OpenRows open = [heights, jobs = options.jobs](const fs::path& image) {
-    return heights ? open_height_rows(image, heights->coding, jobs) : open_rows(image, jobs);
+  return choice;
+}
+
+Result<CutInput> open_input(const CutOptions& options) {
+  const auto planned = plan_of(options);
+  if (!planned) return planned.error();
+  const std::optional<HeightPlan>& heights = *planned;
+  const CodingOptions choice = choice_of(options);
+  const OpenRows open = [heights, choice, jobs = options.jobs](const fs::path& image) {
+    return heights ? open_height_rows(image, heights->coding, jobs) : open_rows(image, choice, jobs);
   };
-  const bool several = options.images.size() > 1 || options.mosaic;
-  auto input = several ? open_mosaic(options, open, heights.has_value()) : open_one(options, open, heights);
+  const bool several = !options.raster && (options.images.size() > 1 || options.mosaic);
+  auto input = is_many(options) ? open_resampled(options, heights)
+               : several        ? open_mosaic(options, open, heights.has_value())
+                                : open_one(options, open, heights);
   if (!input || !heights) return input;
-  input->elevation = heights->elevation;
-  if (input->has_gaps && !input->elevation->nodata) input->elevation->nodata = kAddedNodata;
+  input->numbers = heights->numbers;
+  const bool gaps = options.numbers ? may_have_gaps(options) : input->has_gaps;
+  if (gaps && !input->numbers->nodata && !input->numbers->floats) input->numbers->nodata = kAddedNodata;
   return input;
 }
 

@@ -16,11 +16,14 @@ struct CutInput {
   std::unique_ptr<RowReader> rows;
   std::optional<GeoRect> bounds{};  ///< none: the whole planet
   LatitudeKind latitude = LatitudeKind::graphic;
-  std::string place;                         ///< place_text()
-  std::optional<ElevationInfo> elevation{};  ///< set if the rows are heights (PixelKind::height)
-  bool has_gaps = false;                     ///< pixels may lie beside the picture
-  std::vector<std::string> remarks{};        ///< for the user
+  std::string place;                    ///< place_text()
+  std::optional<NumberInfo> numbers{};  ///< set if the rows are numbers (PixelKind::height and number)
+  bool has_gaps = false;                ///< pixels may lie beside the picture
+  std::vector<std::string> remarks{};   ///< for the user
 };
 [[nodiscard]] Result<CutInput> open_input(const CutOptions& options);
+
+/// The bands that a picture shows, as the readers count them.
+[[nodiscard]] CodingOptions choice_of(const CutOptions& options);
 
 }  // namespace terrella

@@ -27,6 +27,8 @@ struct Probe {
   std::optional<double> nodata = {};
   double scale = 1.0;  ///< metres = number · scale + offset
   double offset = 0.0;
+  bool eight_bits = false;
+  BandMetadata band = {};
 };
 
 HeightKind kind_of(SampleType type) {
@@ -34,7 +36,7 @@ HeightKind kind_of(SampleType type) {
   return type == SampleType::int8 || type == SampleType::int16 ? HeightKind::int16 : HeightKind::float32;
 }
 
-Result<Probe> probe_heights(const fs::path& image) {
+Result<Probe> probe_heights(const fs::path& image, std::optional<std::size_t> band = {}) {
   if (Status regular = check_regular(image); !regular) return regular.error();
   std::ifstream file(image, std::ios::binary);
   char head[4] = {};
@@ -43,12 +45,15 @@ Result<Probe> probe_heights(const fs::path& image) {
   if (!begins_as_tiff({head, sizeof(head)})) return Probe{};
   const auto pyramid = read_pyramid(image);
   if (!pyramid) return pyramid.error();
-  const auto numbers = numbers_of(*pyramid, {});
+  const auto numbers = numbers_of(*pyramid, {.band = band});
   if (!numbers) return numbers.error();
-  return Probe{.kind = kind_of(pyramid->whole().part.picture.samples.type),
+  const SampleType type = pyramid->whole().part.picture.samples.type;
+  return Probe{.kind = kind_of(type),
                .nodata = numbers->nodata,
                .scale = numbers->scale,
-               .offset = numbers->offset};
+               .offset = numbers->offset,
+               .eight_bits = type == SampleType::uint8 || type == SampleType::int8,
+               .band = pyramid->metadata.band(band.value_or(0))};
 }
 
 /// Drops a nodata value that no sample of this kind can have.
@@ -86,21 +91,26 @@ Status widen(const fs::path& image, const HeightCoding& coding, int jobs, Range&
 Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, int jobs,
                                HeightPlan plan) {
   if (options.scale || options.offset) {
-    plan.elevation.scale = options.scale.value_or(1.0);
-    plan.elevation.offset = options.offset.value_or(0.0);
+    plan.numbers.scale = options.scale.value_or(1.0);
+    plan.numbers.offset = options.offset.value_or(0.0);
   } else {
     Range range;
     for (const fs::path& image : images) {
       if (Status widened = widen(image, plan.coding, jobs, range); !widened) return widened.error();
     }
-    if (range.least > range.most) return Error{fmt::format("{}: holds no height", images.front().string())};
+    if (range.least > range.most) {
+      return Error{
+          fmt::format("{}: holds no height: each pixel is no data or not a number; say with --nodata which value "
+                      "means no data, or name another file",
+                      images.front().string())};
+    }
     const double span = static_cast<double>(range.most) - static_cast<double>(range.least);
-    plan.elevation.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
-    plan.elevation.offset = range.least;
+    plan.numbers.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
+    plan.numbers.offset = range.least;
   }
-  plan.elevation.nodata = kFloatNodata;
-  plan.coding.scale = plan.elevation.scale;
-  plan.coding.offset = plan.elevation.offset;
+  plan.numbers.nodata = kFloatNodata;
+  plan.coding.scale = plan.numbers.scale;
+  plan.coding.offset = plan.numbers.offset;
   return plan;
 }
 
@@ -152,19 +162,32 @@ class BetweenNodes : public RowReader {
 
 }  // namespace
 
-Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options, int jobs) {
-  HeightPlan plan;
+namespace {
+
+/// The kind of the pictures, which must be one.
+Result<Probe> probe_all(const std::vector<fs::path>& images, std::optional<std::size_t> band) {
   std::optional<Probe> first;
   for (const fs::path& image : images) {
-    const auto probe = probe_heights(image);
+    const auto probe = probe_heights(image, band);
     if (!probe) return probe.error();
     if (!first) first = *probe;
     if (probe->kind != first->kind || probe->scale != first->scale || probe->offset != first->offset) {
       return Error{
-          fmt::format("{}: its heights are of another kind or scale than those of {}; convert it (gdal_translate -ot)",
+          fmt::format("{}: its numbers are of another kind or scale than those of {}; convert it (gdal_translate -ot)",
                       image.string(), images.front().string())};
     }
   }
+  return *first;
+}
+
+}  // namespace
+
+Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options, int jobs) {
+  HeightPlan plan;
+  plan.numbers.unit = "m";
+  plan.numbers.quantity = "height";
+  const auto first = probe_all(images, {});
+  if (!first) return first.error();
   if (options.scale && (*options.scale == 0.0 || !std::isfinite(*options.scale))) {
     return Error{"--scale: it takes metres per number, not 0"};
   }
@@ -175,9 +198,33 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
     return plan_floats(images, options, jobs, plan);
   }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
-  plan.elevation.scale = options.scale.value_or(first->scale);
-  plan.elevation.offset = options.offset.value_or(first->offset) - shift * plan.elevation.scale;
-  if (plan.coding.nodata) plan.elevation.nodata = static_cast<int>(*plan.coding.nodata) + shift;
+  plan.numbers.scale = options.scale.value_or(first->scale);
+  plan.numbers.offset = options.offset.value_or(first->offset) - shift * plan.numbers.scale;
+  if (plan.coding.nodata) plan.numbers.nodata = static_cast<int>(*plan.coding.nodata) + shift;
+  return plan;
+}
+
+Result<HeightPlan> plan_numbers(const std::vector<fs::path>& images, const CutNumbers& options, bool may_have_gaps) {
+  const auto band = static_cast<std::size_t>(options.band - 1);
+  const auto probe = probe_all(images, band);
+  if (!probe) return probe.error();
+  HeightPlan plan;
+  plan.numbers.unit = probe->band.unit;
+  plan.numbers.quantity = probe->band.description;
+  const auto nodata = possible(options.nodata ? options.nodata : probe->nodata, probe->kind);
+  plan.coding = {.kind = probe->kind, .band = band, .nodata = nodata};
+  if (!nodata && may_have_gaps && !probe->eight_bits) plan.coding.kind = HeightKind::float32;
+  if (plan.coding.kind == HeightKind::float32) {
+    plan.coding.sample_scale = probe->scale;
+    plan.coding.sample_offset = probe->offset;
+    plan.numbers.floats = true;
+    plan.numbers.nodata = nodata;
+    return plan;
+  }
+  const int shift = probe->kind == HeightKind::int16 ? kInt16Shift : 0;
+  plan.numbers.scale = probe->scale;
+  plan.numbers.offset = probe->offset - shift * probe->scale;
+  if (nodata) plan.numbers.nodata = *nodata + shift;
   return plan;
 }
 
@@ -185,10 +232,11 @@ RasterOptions raster_of(const HeightPlan& plan) {
   RasterOptions options;
   options.heights = true;
   options.nodata = plan.coding.nodata;
+  options.band = static_cast<int>(plan.coding.band) + (plan.coding.band > 0 ? 1 : 0);
   const bool is_float = plan.coding.kind == HeightKind::float32;
   const int shift = plan.coding.kind == HeightKind::int16 ? kInt16Shift : 0;
-  options.scale = is_float ? plan.coding.sample_scale : plan.elevation.scale;
-  options.offset = is_float ? plan.coding.sample_offset : plan.elevation.offset + shift * plan.elevation.scale;
+  options.scale = is_float ? plan.coding.sample_scale : plan.numbers.scale;
+  options.offset = is_float ? plan.coding.sample_offset : plan.numbers.offset + shift * plan.numbers.scale;
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace terrella {
 namespace {
@@ -24,6 +25,32 @@ std::uint16_t height_at(const std::uint8_t* pixel) {
   std::uint16_t height = 0;
   std::memcpy(&height, pixel, sizeof(height));
   return height;
+}
+
+void clear_height(std::optional<std::uint16_t> nodata, std::uint8_t* out) {
+  if (nodata) put_height(*nodata, out);
+}
+
+float number_at(const std::uint8_t* pixel) {
+  float number = 0.0F;
+  std::memcpy(&number, pixel, sizeof(number));
+  return number;
+}
+
+void put_number(float number, std::uint8_t* out) { std::memcpy(out, &number, sizeof(number)); }
+
+void floats_to_numbers(std::span<const float> row, std::uint8_t* out) {
+  for (std::size_t i = 0; i < row.size(); i += 4) {
+    const bool known = row[i + 3] > 0.0F;
+    put_number(known ? row[i] / row[i + 3] : std::numeric_limits<float>::quiet_NaN(), out + i);
+  }
+}
+
+void mix_numbers(const std::uint8_t* a, const std::uint8_t* b, float share, std::uint8_t* out) {
+  const float first = number_at(a);
+  const float second = number_at(b);
+  if (std::isnan(first) || std::isnan(second)) return put_number(std::isnan(first) ? second : first, out);
+  put_number((1.0F - share) * first + share * second, out);
 }
 
 void heights_to_floats(std::span<const std::uint8_t> pixels, float* out) {

@@ -81,7 +81,8 @@ boolean on_app1(j_decompress_ptr decoder) {
 
 class JpegRows : public RowReader {
  public:
-  JpegRows(File file, std::string name) : file_(std::move(file)), name_(std::move(name)) {
+  JpegRows(File file, std::string name, int eighths)
+      : file_(std::move(file)), name_(std::move(name)), eighths_(static_cast<unsigned>(eighths)) {
     decoder_.err = jpeg_std_error(&errors_.manager);
     errors_.manager.error_exit = on_jpeg_error;
     errors_.manager.emit_message = on_message;
@@ -96,11 +97,10 @@ class JpegRows : public RowReader {
 
   [[nodiscard]] Status open() {
     if (!read_header()) return Error{fmt::format("{}: is not a JPEG that can be read: {}", name_, errors_.message)};
-    info_ = {.width_px = decoder_.image_width, .height_px = decoder_.image_height, .has_alpha = false};
+    info_ = {.width_px = decoder_.output_width, .height_px = decoder_.output_height, .has_alpha = false};
     if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
     if (Status can = check_kind(); !can) return can;
     orientation_ = exif_orientation(std::as_bytes(std::span(exif_.bytes.data(), exif_.size)));
-    if (!start()) return row_error(name_, 0, info_.height_px, errors_.message);
     return Done{};
   }
 
@@ -108,7 +108,9 @@ class JpegRows : public RowReader {
   [[nodiscard]] int orientation() const { return orientation_; }
 
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
-    if (!read_scanline(rgba.data())) return row_error(name_, row_, info_.height_px, errors_.message);
+    // A picture of several scans is decoded here.
+    if ((row_ == 0 && !start()) || !read_scanline(rgba.data()))
+      return row_error(name_, row_, info_.height_px, errors_.message);
     ++row_;
     return Done{};
   }
@@ -123,6 +125,9 @@ class JpegRows : public RowReader {
     jpeg_set_marker_processor(&decoder_, JPEG_APP0 + 1, on_app1);
     jpeg_stdio_src(&decoder_, file_.get());
     jpeg_read_header(&decoder_, TRUE);
+    decoder_.scale_num = eighths_;
+    decoder_.scale_denom = 8;
+    jpeg_calc_output_dimensions(&decoder_);
     return true;
   }
   bool start() {
@@ -163,6 +168,7 @@ class JpegRows : public RowReader {
 
   File file_;
   std::string name_;
+  unsigned eighths_;
   PictureInfo info_;
   std::int64_t row_ = 0;
   int orientation_ = 1;
@@ -174,8 +180,8 @@ class JpegRows : public RowReader {
 
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name) {
-  auto rows = std::make_unique<JpegRows>(std::move(file), name);
+Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name, int eighths) {
+  auto rows = std::make_unique<JpegRows>(std::move(file), name, eighths);
   if (Status opened = rows->open(); !opened) return opened.error();
   const int orientation = rows->orientation();
   return upright_rows(std::move(rows), orientation, name);

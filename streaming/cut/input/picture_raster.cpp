@@ -12,7 +12,11 @@ namespace terrella {
 namespace {
 
 Result<std::unique_ptr<RowReader>> open_picture_rows(const std::filesystem::path& path, const RasterOptions& options) {
-  if (!options.heights) return open_rows(path, options.jobs);
+  if (!options.heights) {
+    return open_rows(path,
+                     {.nodata = options.nodata, .scale = {}, .offset = {}, .band = {}, .composite = options.composite},
+                     options.jobs);
+  }
   HeightCoding coding;
   coding.nodata = options.nodata;
   return open_height_rows(path, coding, options.jobs);

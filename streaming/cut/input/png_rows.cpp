@@ -41,12 +41,15 @@ class PngRows : public RowReader {
                       png_get_valid(png_, header_, PNG_INFO_tRNS) != 0;
     if (Status fits = check_picture_size(name_, info_.width_px, info_.height_px); !fits) return fits;
     if (!start()) return row_error(name_, 0, info_.height_px, message_);
-    return passes_ > 1 ? read_interlaced() : Done{};
+    return Done{};
   }
 
   [[nodiscard]] const PictureInfo& info() const override { return info_; }
 
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
+    if (passes_ > 1 && whole_.empty()) {
+      if (Status read = read_interlaced(); !read) return read;
+    }
     const std::uint8_t* row = passes_ > 1 ? whole_.data() + static_cast<std::size_t>(row_) * row_bytes() : nullptr;
     if (row == nullptr) {
       samples_.resize(heights_ ? row_bytes() : 0);

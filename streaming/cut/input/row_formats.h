@@ -19,12 +19,14 @@ struct CloseFile {
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Opens a reader. The file must be at its first byte, and its head already checked for the format.
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name);
+/// `eighths`, 1 to 8: a smaller picture of that many eighths of the size, which takes less time to decode.
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name, int eighths = 8);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_webp_rows(const std::string& name);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
-                                                                const std::optional<HeightCoding>& heights, int jobs);
+                                                                const std::optional<HeightCoding>& heights,
+                                                                const CodingOptions& choice, int jobs);
 
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);

@@ -101,7 +101,8 @@ Error refuse_heights(const std::string& name) {
 namespace {
 
 Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
-                                            const std::optional<HeightCoding>& heights, int jobs) {
+                                            const std::optional<HeightCoding>& heights, const CodingOptions& choice,
+                                            int jobs) {
   const std::string name = path.string();
   if (Status regular = check_regular(path); !regular) return regular.error();
   File file(std::fopen(name.c_str(), "rb"));
@@ -112,11 +113,17 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   if (head.empty()) return Error{fmt::format("{}: is empty", name)};
   std::rewind(file.get());
   const ImageFormat format = sniff_format(std::as_bytes(std::span(head)));
+  if (format != ImageFormat::unknown && choice.composite) {
+    return Error{
+        fmt::format("{}: --bands chooses bands of a TIFF; leave it out, or convert the picture "
+                    "(gdal_translate -of COG)",
+                    name)};
+  }
   if (format == ImageFormat::png) return open_png_rows(std::move(file), name, heights);
   if (format != ImageFormat::unknown && heights) return refuse_heights(name);
   if (format == ImageFormat::jpeg) return open_jpeg_rows(std::move(file), name);
   if (format == ImageFormat::webp) return open_webp_rows(name);
-  if (begins_as_tiff(head)) return open_tiff_rows(name, heights, jobs);
+  if (begins_as_tiff(head)) return open_tiff_rows(name, heights, choice, jobs);
   const std::string hint = convert_hint(path, head);
   return Error{
       fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, WebP, TIFF or BigTIFF" : hint)};
@@ -124,13 +131,13 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
 
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path, int jobs) {
-  return open_any(path, {}, jobs);
+Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path, const CodingOptions& choice, int jobs) {
+  return open_any(path, {}, choice, jobs);
 }
 
 Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path, const HeightCoding& coding,
                                                     int jobs) {
-  return open_any(path, coding, jobs);
+  return open_any(path, coding, {}, jobs);
 }
 
 }  // namespace terrella

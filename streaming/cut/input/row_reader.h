@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/result.h"
+#include "streaming/numbers/coding_options.h"
 
 namespace terrella {
 
@@ -43,9 +44,11 @@ class RowReader {
 /// reader then reports it.
 [[nodiscard]] Status check_regular(const std::filesystem::path& path);
 
-/// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. `jobs` threads decode a row of a TIFF's
-/// tiles; 0: one for each core. The error names the file, the fault and a cure.
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path, int jobs = 0);
+/// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. `choice` says how a TIFF is shown; other
+/// pictures refuse a composite. `jobs` threads decode a row of a TIFF's tiles; 0: one for each core. The error names
+/// the file, the fault and a cure.
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path,
+                                                           const CodingOptions& choice = {}, int jobs = 0);
 
 struct HeightCoding;
 /// Like open_rows(), for heights: rows of 32-bit floats instead of RGBA8 (streaming/cut/input/heights.h). Accepts a

@@ -27,8 +27,10 @@ class TiffRows : public RowReader {
   [[nodiscard]] Status read_row(std::span<std::uint8_t> rgba) override {
     const std::int64_t y = row_++;
     if (colours_) return rows_.colours(y, *colours_, rgba.data());
-    const NumberCoding stored{
-        .nodata = heights_.nodata, .scale = heights_.sample_scale, .offset = heights_.sample_offset};
+    const NumberCoding stored{.band = heights_.band,
+                              .nodata = heights_.nodata,
+                              .scale = heights_.sample_scale,
+                              .offset = heights_.sample_offset};
     if (Status read = rows_.numbers(y, stored, numbers_.data()); !read) return read;
     to_numbers(heights_, numbers_);
     std::memcpy(rgba.data(), numbers_.data(), rgba.size());
@@ -57,11 +59,11 @@ class TiffRows : public RowReader {
 }  // namespace
 
 Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name, const std::optional<HeightCoding>& heights,
-                                                  int jobs) {
+                                                  const CodingOptions& choice, int jobs) {
   const auto pyramid = read_pyramid(name);
   if (!pyramid) return pyramid.error();
   if (heights) return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *heights, jobs));
-  auto colours = colours_of(*pyramid, {});
+  auto colours = colours_of(*pyramid, choice);
   if (!colours) return colours.error();
   return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *std::move(colours), jobs));
 }

@@ -57,7 +57,7 @@ constexpr std::size_t kPixelBytes = 4;
 
 class TileRows : public RowReader {
  public:
-  TileRows(std::unique_ptr<TileSource> tiles, int jobs, const std::optional<ElevationInfo>& numbers, std::string where)
+  TileRows(std::unique_ptr<TileSource> tiles, int jobs, const std::optional<NumberInfo>& numbers, std::string where)
       : tiles_(std::move(tiles)),
         grid_(tiles_->info().grid),
         range_(range_of(grid_)),
@@ -66,7 +66,7 @@ class TileRows : public RowReader {
         where_(std::move(where)) {
     info_.width_px = range_.x1 - range_.x0;
     info_.height_px = range_.y1 - range_.y0;
-    info_.has_alpha = !tiles_->info().elevation;
+    info_.has_alpha = !tiles_->info().numbers;
     info_.opaque_inside = info_.has_alpha && tiles_->info().format == ImageFormat::jpeg;
   }
 
@@ -134,7 +134,7 @@ class TileRows : public RowReader {
     const TileId id{.level = grid_.max_level, .x = piece.tile_x, .y = tile_y, .squeeze = 0};
     auto tile = tiles_->read(id);
     if (!tile) return missing(piece, id, tile.error());
-    if (tiles_->info().elevation) return read_numbers(piece, id, *tile);
+    if (tiles_->info().numbers) return read_numbers(piece, id, *tile);
     const auto image = tile->make_picture ? tile->make_picture() : decoded(*tile);
     if (!image) return missing(piece, id, image.error());
     if (Status fits = check_side(id, image->width_px, image->height_px); !fits) return fits;
@@ -153,8 +153,8 @@ class TileRows : public RowReader {
     const auto made = tile.make_numbers();
     if (!made) return missing(piece, id, made.error());
     if (Status fits = check_side(id, made->width_px, made->height_px); !fits) return fits;
-    const ElevationInfo& set = *tiles_->info().elevation;
-    const ElevationInfo meaning = numbers_.value_or(ElevationInfo{});
+    const NumberInfo& set = *tiles_->info().numbers;
+    const NumberInfo meaning = numbers_.value_or(NumberInfo{});
     place(piece, [&](std::size_t at, std::uint8_t* to) {
       const double number = made->values[at] * tile.number_scale + tile.number_offset;
       const double metres = number * set.scale + set.offset;
@@ -186,7 +186,7 @@ class TileRows : public RowReader {
     }
     std::array<std::uint8_t, 4> empty{};
     const float none = std::numeric_limits<float>::quiet_NaN();
-    if (tiles_->info().elevation) std::memcpy(empty.data(), &none, sizeof(none));
+    if (tiles_->info().numbers) std::memcpy(empty.data(), &none, sizeof(none));
     place(piece, [&](std::size_t, std::uint8_t* to) { std::memcpy(to, empty.data(), kPixelBytes); });
     return Done{};
   }
@@ -206,7 +206,7 @@ class TileRows : public RowReader {
   TileGrid grid_;
   PixelRange range_;
   int jobs_;
-  std::optional<ElevationInfo> numbers_;
+  std::optional<NumberInfo> numbers_;
   std::string where_;
   PictureInfo info_;
   std::int64_t row_ = 0;
@@ -217,7 +217,7 @@ class TileRows : public RowReader {
 }  // namespace
 
 Result<TileRowsInput> open_tile_rows(std::unique_ptr<TileSource> tiles, int jobs,
-                                     const std::optional<ElevationInfo>& numbers, const std::string& where) {
+                                     const std::optional<NumberInfo>& numbers, const std::string& where) {
   if (tiles->info().grid.projection != Projection::equirectangular) {
     return Error{fmt::format("{}: only tiles with evenly spaced parallels can be cut", where)};
   }

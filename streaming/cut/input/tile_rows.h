@@ -24,8 +24,7 @@ struct TileRowsInput {
 /// or have no local tiles, and for heights that are stored as pictures. The error of a row begins with `where`. thread:
 /// any
 [[nodiscard]] Result<TileRowsInput> open_tile_rows(std::unique_ptr<TileSource> tiles, int jobs,
-                                                   const std::optional<ElevationInfo>& numbers,
-                                                   const std::string& where);
+                                                   const std::optional<NumberInfo>& numbers, const std::string& where);
 
 /// Side of the tiles of which a row is held in at most 24 MiB, for a picture of that width: 256 px, or less for wide
 /// pictures. thread: any

@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "geo/body.h"
+#include "streaming/cut/input/cut_input.h"
 #include "streaming/cut/input/picture_raster.h"
 #include "streaming/cut/input/rolled_rows.h"
 #include "streaming/cut/input/tile_rows.h"
+#include "streaming/mosaic/mosaic_tiles.h"
 #include "streaming/warp/warp_source.h"
 
 namespace terrella {
@@ -40,6 +42,22 @@ class OpaqueRows : public RowReader {
   PictureInfo info_;
 };
 
+struct RemarkLog {
+  std::vector<std::string> remarks;
+  bool ended = false;
+};
+
+/// A set without its network side: tiles of the finest level of a mosaic are all local.
+class LocalTiles : public TileSource {
+ public:
+  explicit LocalTiles(std::unique_ptr<TileSource> tiles) : tiles_(std::move(tiles)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return tiles_->info(); }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+
+ private:
+  std::unique_ptr<TileSource> tiles_;
+};
+
 /// Makes a picture of all longitudes from one that crosses ±180° and would reach the same tile from both sides.
 void roll_if_needed(const CutOptions& options, WarpedInput& warped, bool heights) {
   const PictureInfo& info = warped.rows->info();
@@ -61,7 +79,13 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   RasterOptions reading = heights ? raster_of(*heights) : RasterOptions{};
   reading.work_folder = options.output.parent_path();
   reading.jobs = options.jobs;
-  auto raster = open_picture_raster(picture.path, *place.from, reading);
+  if (!heights) {
+    const CodingOptions choice = choice_of(options);
+    reading.nodata = choice.nodata;
+    reading.composite = choice.composite;
+  }
+  auto raster = options.raster ? options.raster->open(*place.from, reading)
+                               : open_picture_raster(picture.path, *place.from, reading);
   if (!raster) return raster.error();
   const bool opaque = (*raster)->info().opaque && place.placed.placement;
   WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};
@@ -72,13 +96,72 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
   auto tiles = warp_source(*std::move(raster), warp, name);
   if (!tiles) return tiles.error();
   auto rows =
-      open_tile_rows(*std::move(tiles), options.jobs, heights ? std::optional(heights->elevation) : std::nullopt, name);
+      open_tile_rows(*std::move(tiles), options.jobs, heights ? std::optional(heights->numbers) : std::nullopt, name);
   if (!rows) return rows.error();
   WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds};
   // Parallels and meridians as edges leave no gap on a whole planet.
   if (opaque && !heights && is_planet(warped.bounds)) {
     warped.rows = std::make_unique<OpaqueRows>(std::move(warped.rows));
   }
+  roll_if_needed(options, warped, heights.has_value());
+  return warped;
+}
+
+Result<MosaicList> list_of(const CutOptions& options) {
+  if (options.images.size() == 1) return read_mosaic_list(options.images.front());
+  MosaicList list;
+  for (const auto& image : options.images) list.entries.push_back({.path = image});
+  return list;
+}
+
+Result<WarpedInput> open_many(const CutOptions& options, const std::optional<HeightPlan>& heights,
+                              std::vector<std::string>& remarks) {
+  const std::string name = options.images.front().string();
+  const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
+  if (!body) return body.error();
+  auto list = list_of(options);
+  if (!list) return list.error();
+  MosaicOptions mosaic;
+  mosaic.pixels = heights ? MosaicPixels::heights : MosaicPixels::colours;
+  mosaic.figure = {.body = *body, .latitude = options.latitude};
+  mosaic.body = options.body;
+  mosaic.reading = {.measure = measure_picture, .open = open_picture_raster};
+  mosaic.jobs = options.jobs;
+  mosaic.work_folder = options.output.parent_path();
+  // Remarks of the opening are returned; those of the reading come while the caller has gone on.
+  const auto log = std::make_shared<RemarkLog>();
+  mosaic.remark = [log, said = options.remark](const std::string& reason) {
+    if (!log->ended) {
+      log->remarks.push_back(reason);
+    } else if (said) {
+      said(reason);
+    }
+  };
+  if (heights) {
+    const RasterOptions reading = raster_of(*heights);
+    for (MosaicEntry& entry : list->entries) {
+      entry.nodata = reading.nodata;
+      entry.scale = reading.scale;
+      entry.offset = reading.offset;
+    }
+  }
+  auto tiles = open_mosaic(*list, name, mosaic);
+  if (!tiles) return tiles.error();
+  const TileGrid& grid = (*tiles)->info().grid;
+  const double columns = width_deg(grid.bounds) * grid.tile_px / tile_span_deg(grid, grid.max_level);
+  mosaic.tile_px = tile_side_for_rows(std::llround(columns));
+  if (mosaic.tile_px != grid.tile_px) {
+    log->remarks.clear();
+    tiles = open_mosaic(*list, name, mosaic);
+    if (!tiles) return tiles.error();
+  }
+  const LatitudeKind latitude = (*tiles)->info().grid.latitude;
+  log->ended = true;
+  remarks = log->remarks;
+  auto rows = open_tile_rows(std::make_unique<LocalTiles>(*std::move(tiles)), options.jobs,
+                             heights ? std::optional(heights->numbers) : std::nullopt, name);
+  if (!rows) return rows.error();
+  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds, .latitude = latitude};
   roll_if_needed(options, warped, heights.has_value());
   return warped;
 }

@@ -56,7 +56,7 @@ class FolderWriter : public TileWriter {
   [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override {
     const fs::path levels = id.squeeze == 0 ? part_ : part_ / kSqueezedFolder;
     const fs::path folder = levels / std::to_string(id.level) / std::to_string(id.x);
-    const fs::path file = folder / fmt::format("{}.{}", id.y, extension_of(info_.format));
+    const fs::path file = folder / fmt::format("{}.{}", id.y, tile_ending(info_));
     int failed = write_file(file, bytes);
     if (failed == ENOENT) {
       std::error_code ignored;

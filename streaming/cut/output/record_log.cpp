@@ -31,6 +31,10 @@ std::uint32_t checksum_of(const Header& header, std::span<const std::byte> bytes
   return static_cast<std::uint32_t>(crc32_z(begun, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
+TileId id_of(const Header& header) {
+  return {.level = header.level, .x = header.x, .y = header.y, .squeeze = header.squeeze};
+}
+
 fs::path part_of(const fs::path& path) { return path.string() + ".part"; }
 
 /// Returns false at the end of the file, and at an incomplete record.
@@ -43,8 +47,8 @@ bool read_record(std::FILE* file, Header& header, std::vector<std::byte>& bytes)
 
 }  // namespace
 
-Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bool resume, fs::path output) {
-  std::unique_ptr<RecordLogWriter> log(new RecordLogWriter(std::move(path), std::move(output)));
+Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bool resume, fs::path output, Told told) {
+  std::unique_ptr<RecordLogWriter> log(new RecordLogWriter(std::move(path), std::move(output), std::move(told)));
   const fs::path part = part_of(log->path_);
   log->file_.reset(std::fopen(part.c_str(), resume ? "a+be" : "wbe"));
   if (!log->file_) return cannot_write(log->output_, errno);
@@ -57,10 +61,12 @@ Result<std::unique_ptr<RecordLogWriter>> RecordLogWriter::open(fs::path path, bo
   while (read_record(file, header, bytes) && header.level != kEndLevel) {
     end = std::ftell(file);
     ++log->found_;
+    if (log->told_) log->told_(id_of(header), static_cast<std::uint64_t>(end) - header.size, header.size);
   }
   std::fseek(file, end, SEEK_SET);
   if (ftruncate(fileno(file), end) != 0) return cannot_write(log->output_, errno);
   log->records_ = log->found_;
+  log->end_ = static_cast<std::uint64_t>(end);
   return log;
 }
 
@@ -79,7 +85,12 @@ Status RecordLogWriter::put(const TileId& id, std::span<const std::byte> bytes) 
   header.checksum = checksum_of(header, bytes);
   if (Status begun = write(std::as_bytes(std::span(&header, 1))); !begun) return begun;
   ++records_;
-  return write(bytes);
+  if (Status written = write(bytes); !written) return written;
+  end_ += sizeof(header) + bytes.size();
+  if (!told_ || id.level == kEndLevel) return Done{};
+  if (std::fflush(file_.get()) != 0) return cannot_write(output_, errno);
+  told_(id, end_ - bytes.size(), bytes.size());
+  return Done{};
 }
 
 Status RecordLogWriter::finish() {
@@ -105,7 +116,9 @@ Result<std::optional<LogRecord>> RecordLogReader::next() {
   }
   if (header.level == kEndLevel) return std::optional<LogRecord>{};
   ++records_;
-  record.id = {.level = header.level, .x = header.x, .y = header.y, .squeeze = header.squeeze};
+  position_ += sizeof(header) + header.size;
+  record.id = id_of(header);
+  record.offset = position_ - header.size;
   return std::optional(std::move(record));
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@ namespace terrella {
 struct LogRecord {
   TileId id;
   std::vector<std::byte> bytes;
+  std::uint64_t offset = 0;  ///< of the bytes in the file
 };
 
 struct CloseLog {
@@ -31,20 +33,25 @@ class RecordLogWriter : public TileWriter {
  public:
   /// Opens the log for writing. With `resume`, continues after the last complete record of NAME.part; else starts anew.
   /// `output` is named in errors.
+  /// `told` may be empty. It receives every record, those found on opening too, as soon as another reader of the file
+  /// finds it.
+  using Told = std::function<void(const TileId& id, std::uint64_t offset, std::size_t size)>;
   [[nodiscard]] static Result<std::unique_ptr<RecordLogWriter>> open(std::filesystem::path path, bool resume,
-                                                                     std::filesystem::path output);
+                                                                     std::filesystem::path output, Told told = {});
   /// Number of records found on opening.
   [[nodiscard]] std::int64_t found() const { return found_; }
   [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override;
   [[nodiscard]] Status finish() override;
 
  private:
-  RecordLogWriter(std::filesystem::path path, std::filesystem::path output)
-      : path_(std::move(path)), output_(std::move(output)) {}
+  RecordLogWriter(std::filesystem::path path, std::filesystem::path output, Told told)
+      : path_(std::move(path)), output_(std::move(output)), told_(std::move(told)) {}
   [[nodiscard]] Status write(std::span<const std::byte> bytes);
 
   std::filesystem::path path_, output_;
+  Told told_;
   LogFile file_;
+  std::uint64_t end_ = 0;  ///< of the file, bytes
   std::int64_t found_ = 0;
   std::int64_t records_ = 0;
 };
@@ -60,6 +67,7 @@ class RecordLogReader {
   RecordLogReader(std::filesystem::path path, LogFile file) : path_(std::move(path)), file_(std::move(file)) {}
   std::filesystem::path path_;
   LogFile file_;
+  std::uint64_t position_ = 0;
   std::int64_t records_ = 0;
 };
 

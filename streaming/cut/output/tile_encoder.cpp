@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <turbojpeg.h>
 
+#include <cmath>
 #include <cstring>
 
+#include "codecs/float_tiff.h"
 #include "streaming/cut/input/heights.h"
 #include "streaming/cut/output/gray16_png.h"
 
@@ -43,6 +45,22 @@ std::vector<std::uint16_t> heights_of_tile(const Strip& strip, std::int64_t inde
   return heights;
 }
 
+/// A known number that equals nodata moves to the next float.
+std::vector<float> numbers_of_tile(const Strip& strip, std::int64_t index, std::optional<float> nodata) {
+  const auto side = static_cast<std::size_t>(strip.tile_px);
+  std::vector<float> numbers;
+  numbers.reserve(side * side);
+  for (std::size_t y = 0; y < side; ++y) {
+    const std::uint8_t* row = strip.tile(index) + y * strip.stride_bytes();
+    for (std::size_t x = 0; x < side; ++x) {
+      float number = number_at(row + x * 4);
+      if (nodata && number == *nodata) number = std::nextafter(number, 0.0F);
+      numbers.push_back(nodata && std::isnan(number) ? *nodata : number);
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
 void TileEncoder::DestroyHandle::operator()(void* handle) const { tjDestroy(handle); }
@@ -52,6 +70,9 @@ TileEncoder::TileEncoder(const TileCoding& coding) : coding_(coding) {
 }
 
 Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int64_t index) {
+  if (coding_.floats) {
+    return encode_float_tiff(numbers_of_tile(strip, index, coding_.nodata), strip.tile_px);
+  }
   if (coding_.heights) return encode_gray16_png(heights_of_tile(strip, index), strip.tile_px);
   const bool outline = coding_.png_outline && !is_opaque(strip, index);
   if (coding_.format == ImageFormat::jpeg && !outline) return encode_jpeg_tile(strip, index);

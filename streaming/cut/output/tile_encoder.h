@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -15,8 +16,10 @@ namespace terrella {
 struct TileCoding {
   ImageFormat format = ImageFormat::jpeg;
   int quality = 85;
-  bool heights = false;      ///< 16-bit gray PNG
-  bool png_outline = false;  ///< a tile with transparent pixels becomes PNG instead of JPEG
+  bool heights = false;              ///< 16-bit gray PNG
+  bool floats = false;               ///< TIFF of 32-bit floats, from PixelKind::number
+  bool png_outline = false;          ///< a tile with transparent pixels becomes PNG instead of JPEG
+  std::optional<float> nodata = {};  ///< with `floats`: written for NaN; none: NaN is written
 };
 
 /// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG and WebP:

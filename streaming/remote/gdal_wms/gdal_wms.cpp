@@ -78,7 +78,7 @@ std::string with_user(const std::string& url, const std::string& user_and_passwo
 }
 
 ImageFormat format_of(const GdalWmsDocument& said, const std::string& url) {
-  if (said.elevation) return ImageFormat::png;
+  if (said.numbers) return ImageFormat::png;
   const std::string kind =
       lower_case(said.service == GdalWmsDocument::Service::wms ? said.image_format : url.substr(0, url.find('?')));
   if (kind.ends_with("png")) return ImageFormat::png;
@@ -94,7 +94,7 @@ Status limit(const RemoteOptions& options, TileGrid& grid) {
 RemoteTileSet make_set(const GdalWmsDocument& said, GdalWmsGrid placed, const std::string& url) {
   RemoteTileSet set;
   set.info.format = format_of(said, url);
-  set.info.elevation = said.elevation;
+  set.info.numbers = said.numbers;
   set.url = with_user(url, said.user_and_password);
   set.northing_first = said.northing_first;
   set.info.grid = placed.grid;

@@ -191,11 +191,11 @@ Status read_numbers(const pugi::xml_node& root, XmlValues& values, GdalWmsDocume
                              in_quotes(type))};
   }
   if (bands != 1) return Error{fmt::format("it has {} bands of {}; heights have one", bands, type)};
-  said.elevation = ElevationInfo{.nodata = nodata, .floats = floats, .is_signed = is_signed};
+  said.numbers = NumberInfo{.nodata = nodata, .floats = floats, .is_signed = is_signed};
   const double least = is_signed ? -32768.0 : 0.0;
   // A number that no pixel can have means nothing.
   if (nodata && !floats && (*nodata != std::round(*nodata) || *nodata < least || *nodata > least + 65535.0)) {
-    said.elevation->nodata.reset();
+    said.numbers->nodata.reset();
   }
   return Done{};
 }

@@ -38,7 +38,7 @@ struct GdalWmsDocument {
   std::string crs{};            ///< text for Crs::open()
   std::string request_crs{};    ///< value of SRS or CRS in requests of a WMS
   GdalWindow window{};
-  std::optional<ElevationInfo> elevation{};  ///< numbers; none: pictures
+  std::optional<NumberInfo> numbers{};  ///< numbers; none: pictures
   std::vector<int> missing_statuses{};
   bool exception_is_missing = false;
   std::string referer{};

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/cut.h"
+#include "streaming/numbers/stretch_rule.h"
+#include "streaming/raster/open_raster.h"
+
+namespace terrella {
+
+/// How the numbers of a raster are read and coloured; the parse has checked every value.
+struct NumberOptions {
+  std::string colormap;              ///< name of a map, with ":CENTRE" if it has a middle, or a file; empty: viridis
+  std::vector<StretchRule> stretch;  ///< one, or one for each of `bands`; empty: percent:2,98
+  std::optional<double> nodata;
+  int band = 0;                             ///< counted from 1; 0: the only one
+  std::optional<std::array<int, 3>> bands;  ///< shown as red, green and blue, counted from 1
+  bool operator==(const NumberOptions&) const = default;
+
+  /// True if the user wants a raster of any kind read as numbers.
+  [[nodiscard]] bool ask_for_numbers() const {
+    return !bands && (!colormap.empty() || !stretch.empty() || nodata || band > 0);
+  }
+};
+
+/// Adds --bands and --stretch. `options` must outlive the parse, which checks them. thread: main
+void add_stretch_options(CLI::App& command, NumberOptions& options);
+
+/// Adds --colormap, after add_stretch_options(). thread: main
+void add_colormap_option(CLI::App& command, NumberOptions& options);
+
+/// Adds all of these for a raster that is shown, and --band, --nodata. --band was the width of paper 1's pole bands
+/// before it was a band of a raster: a fraction goes to `pole_band`, a whole number is a band. thread: main
+void add_number_options(CLI::App& command, NumberOptions& options, double& pole_band);
+
+/// A band's number, a whole number from 1 on. thread: any
+[[nodiscard]] std::optional<int> band_number(std::string_view text);
+
+/// True if the raster is read as numbers: the options ask for it, or holds_numbers(). Blocks. thread: any
+[[nodiscard]] bool reads_numbers(const NumberOptions& options, const std::filesystem::path& raster);
+
+/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for, or to the
+/// reader of a raster that is shown directly. Blocks. thread: any
+void set_numbers(CutOptions& cut, const NumberOptions& options, const std::filesystem::path& raster);
+void set_numbers(RasterOptions& reading, const NumberOptions& options, const std::filesystem::path& raster);
+
+}  // namespace terrella

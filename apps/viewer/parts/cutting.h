@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "apps/viewer/parts/part.h"
+#include "streaming/cut/growing/growing_cut.h"
+
+namespace terrella {
+
+/// Shows how far the cuts in the background are, and how each ended. thread: main for every call
+class Cutting : public Part {
+ public:
+  Cutting(const ViewerContext& context, std::vector<std::shared_ptr<GrowingCut>> cuts);
+
+  void draw(float foot) override;
+  [[nodiscard]] bool changed() const override;
+
+ private:
+  struct Row {
+    std::shared_ptr<GrowingCut> cut;
+    int percent = -1;  ///< as drawn
+  };
+  std::vector<Row> rows_;  ///< cuts that have not ended
+};
+
+}  // namespace terrella

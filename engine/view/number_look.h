@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "view/color_map.h"
+
+namespace terrella {
+
+/// How a layer of numbers is coloured: a stretch and a colour map. A change of it loads and uploads no tile. Values are
+/// in the unit of the numbers (NumberInfo), after scale and offset.
+struct NumberLook {
+  double low = 0.0;   ///< value at the map's position 0; values below it have the colour of `low`
+  double high = 1.0;  ///< value at position 1, above `low`; values above it have the colour of `high`
+  /// Value at position 0.5, for maps with a middle: both halves are stretched by themselves. If it lies outside
+  /// [low, high], only the half of the map on the stretch's side is used. None: the middle of low and high.
+  std::optional<double> center = {};
+  ColorMap colors = {.stops = {{0.0, {0, 0, 0}}, {1.0, {255, 255, 255}}}};
+  bool operator==(const NumberLook&) const = default;
+};
+
+/// Colours of a look as a texture has them: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
+inline constexpr int kBakedColors = 1024;
+
+/// Fails if low and high are not finite with low < high, or if the map has no stops or stops out of order. The error
+/// says what is wrong. thread: any
+[[nodiscard]] Status check_look(const NumberLook& look);
+/// The colour of a value, not rounded to a texel of bake(). `look` has passed check_look(). thread: any
+[[nodiscard]] Rgba8 color_of(const NumberLook& look, double value);
+/// The texture of a look: kBakedColors RGBA texels, premultiplied by alpha. thread: any
+[[nodiscard]] std::vector<std::uint8_t> bake(const NumberLook& look);
+
+}  // namespace terrella

@@ -1,0 +1,109 @@
+// Antialiases the limb of a globe with light and air. A pixel on the limb has three parts: the ground's colour, the air
+// beside the limb, and what shines through that air. The air may be thinner than a pixel, so its light is summed over
+// the part of the pixel outside the limb (SkyColors of engine/sky/air_colors.h).
+layout(binding = 0) uniform sampler2D frame_srgb;
+layout(binding = 2) uniform sampler2D limb_light;    // sums outwards from the limb, by azimuth and distance
+layout(binding = 3) uniform sampler2D limb_through;
+layout(binding = 7) uniform sampler2D ground_through;  // GroundColors
+layout(binding = 8) uniform sampler2D ground_light;
+// 2: the rows between belong to the other eye; 0: frame_srgb contains the limb.
+layout(location = 0) uniform int rows_apart;
+layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
+layout(location = 2) uniform mat3 horizon_from_px;   // axes: x towards the Sun's azimuth, z up
+// Distance of the limb, the height that a pixel of the tables covers, both in radii; steps of the tables in a pixel; 0
+// without air or with air that is many pixels thick.
+layout(location = 3) uniform vec3 limb;
+in vec2 outward;
+in float outside_px;
+layout(location = 0) out vec4 color_srgb;
+
+const int kSlices = 4;                         // the pixel's square as strips along the limb
+const float kInside_px = 0.22;                 // a pixel this far inside is ground, whatever the mesh's error
+
+struct Air {
+  float azimuth;
+  float pixel;                                 // a pixel's height in units of the tables' pixel
+};
+
+Air air_here() {
+  vec2 at = gl_FragCoord.xy - vec2(part_px.x, 0);
+  vec3 ray = horizon_from_px * vec3(at, 1.0);
+  vec3 step = horizon_from_px[0] * outward.x + horizon_from_px[1] * outward.y;
+  vec3 across = cross(ray, step);
+  return Air(atan(abs(ray.y), ray.x) / 3.14159265, limb.x * length(across) / dot(ray, ray) / limb.y);
+}
+
+// Sum of a table from the limb to a distance in pixels.
+vec3 sum_to(sampler2D table, Air air, float distance_px) {
+  vec2 size = vec2(textureSize(table, 0));
+  vec2 at = vec2(air.azimuth * (size.x - 1.0), max(0.0, distance_px) * air.pixel * limb.z);
+  return textureLod(table, (at + 0.5) / size, 0.0).rgb;
+}
+
+vec3 mean_over(sampler2D table, Air air, float from_px, float to_px) {
+  return (sum_to(table, air, to_px) - sum_to(table, air, from_px)) / air.pixel;
+}
+
+// Air before the ground at a distance inside the limb: `through` and light, as in air.glsl. The cosine at which a ray
+// meets the ground follows from the height of its lowest point, under the ground.
+void ground_air(Air air, float inside_px, out vec3 through, out vec3 light) {
+  float depth = max(0.0, inside_px) * air.pixel * limb.y;
+  float down = sqrt(clamp(depth * (2.0 - depth), 0.0, 1.0));
+  vec2 size = vec2(textureSize(ground_through, 0));
+  vec2 at = (vec2(air.azimuth, sqrt(1.0 - sqrt(1.0 - down))) * (size - 1.0) + 0.5) / size;
+  through = textureLod(ground_through, at, 0.0).rgb;
+  light = textureLod(ground_light, at, 0.0).rgb;
+}
+
+// The pixel that many steps outwards along a row or a column; `apart` is the distance of a step from the limb.
+float step_px(out ivec2 step) {
+  bool along_row = abs(outward.x) >= abs(outward.y) || rows_apart > 1;
+  if (along_row && outward.x == 0.0) along_row = false;
+  step = along_row ? ivec2(int(sign(outward.x)), 0) : ivec2(0, rows_apart * int(sign(outward.y)));
+  return dot(vec2(step), outward);
+}
+
+vec3 color_at(ivec2 off) {
+  return texelFetch(frame_srgb, clamp(ivec2(gl_FragCoord.xy) + off, part_px.xy, part_px.zw), 0).rgb;
+}
+
+void main() {
+  if (rows_apart == 0) {
+    color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
+    return;
+  }
+  ivec2 step;
+  float apart = step_px(step);
+  int inwards = int(ceil(max(0.0, outside_px + kInside_px) / apart));
+  int outwards = int(ceil(max(0.0, 0.8 - outside_px) / apart));
+  vec3 ground = color_at(-inwards * step), beyond = color_at(outwards * step);
+  vec2 sides = abs(outward);
+  float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
+  bool has_air = limb.z > 0.0;
+  Air air = has_air ? air_here() : Air(0.0, 1.0);
+  float covered = 0.0;
+  vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);
+  vec3 thin, thin_light;
+  if (has_air) ground_air(air, float(inwards) * apart - outside_px, thin, thin_light);
+  for (int k = 0; k < kSlices; ++k) {
+    float from_px = outside_px + (float(k) - 0.5 * float(kSlices - 1)) * offset - 0.5 * width;
+    float part = clamp(-from_px / width, 0.0, 1.0);
+    covered += part;
+    if (!has_air) continue;
+    vec3 thick, thick_light;
+    ground_air(air, -from_px - 0.5 * part * width, thick, thick_light);
+    ground_sum += part * sqrt(max(vec3(0.0), (ground * ground - thin_light) * min(thick / max(thin, 1e-4), 2.0) + thick_light));
+    light += mean_over(limb_light, air, from_px, from_px + width) / width;
+    through += mean_over(limb_through, air, from_px, from_px + width) / width;
+  }
+  float slices = float(kSlices);
+  covered /= slices;
+  if (has_air) {
+    float d = outside_px + float(outwards) * apart;
+    vec3 own = mean_over(limb_light, air, d - 0.5, d + 0.5), passed = mean_over(limb_through, air, d - 0.5, d + 0.5);
+    vec3 background = clamp((beyond - own) / max(passed, 0.01), 0.0, 1.0);
+    color_srgb = vec4((ground_sum + light) / slices + background * (through / slices), 1.0);
+  } else {
+    color_srgb = vec4(mix(beyond, ground, covered), 1.0);
+  }
+}

@@ -1,0 +1,69 @@
+// Look-ups of texels. Taps return Texels, which can be added and weighed; seen() makes imagery of their mean. Texels are
+// colours or, with NUMBERS, numbers, which are filtered first and coloured by seen().
+layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
+
+#if defined(NUMBERS)
+layout(binding = 4) uniform sampler2D number_colors;        // premultiplied; 0 to 1 is the stretch
+// Texel without data; how far other texels are from it at least; position in the stretch = texel * z + w.
+layout(location = 0) uniform vec4 number_look;
+
+#define Texels vec2                                         // sum of texel times weight, sum of weights; known texels only
+
+vec2 known(vec4 texel, vec4 weight) {
+  vec4 share = weight * vec4(greaterThan(abs(texel - number_look.x), vec4(number_look.y)));
+  return vec2(dot(texel, share), dot(vec4(1.0), share));
+}
+
+// Weights of the texels of textureGather().
+vec4 bilinear(vec2 f) {
+  return vec4(1.0 - f.x, f.x, f.x, 1.0 - f.x) * vec4(f.y, f.y, 1.0 - f.y, 1.0 - f.y);
+}
+
+// Gathers at the corner that four texels share, so that no rounding can choose others.
+vec2 tap(Cell cell, vec2 p) {
+  vec3 at = slot_point(cell, p);
+  vec2 texel = at.xy * texels.y - 0.5, first = floor(texel);
+  return known(textureGather(tiles, vec3((first + 1.0) / texels.y, at.z)), bilinear(texel - first));
+}
+
+#define precise_tap tap
+
+vec2 level_tap(vec3 at, int level) {
+  ivec2 last = ivec2((int(texels.y) >> level) - 1);  // textureSize() may take one level for several fragments
+  vec2 texel = at.xy * vec2(last + 1) - 0.5, first = floor(texel);
+  ivec2 a = clamp(ivec2(first), ivec2(0), last), b = clamp(ivec2(first) + 1, ivec2(0), last);
+  int slot = int(at.z);
+  vec4 four = vec4(texelFetch(tiles, ivec3(a.x, b.y, slot), level).r, texelFetch(tiles, ivec3(b, slot), level).r,
+                   texelFetch(tiles, ivec3(b.x, a.y, slot), level).r, texelFetch(tiles, ivec3(a, slot), level).r);
+  return known(four, bilinear(texel - first));
+}
+
+vec2 mip_tap(Cell cell, vec2 p, float level) {
+  vec3 at = slot_point(cell, p);
+  int finer = int(level);
+  return mix(level_tap(at, finer), level_tap(at, min(finer + 1, int(texels.z) - 1)), fract(level));
+}
+
+// Nothing is seen where less than half of the weight has data.
+Imagery seen(vec2 mean) {
+  float position = mean.x / max(mean.y, 1e-6) * number_look.z + number_look.w;
+  vec4 color = textureLod(number_colors, vec2(position, 0.5), 0.0) * step(0.5, mean.y);
+#if defined(UPPER_LAYER)
+  return color;
+#else
+  return color.rgb + (1.0 - color.a) * vec3(30.0, 38.0, 52.0) / 255.0;  // the plain colour of tile_textures.cpp
+#endif
+}
+#else
+layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
+layout(binding = 3) uniform sampler2DArray tiles_precise;
+
+#define Texels Imagery
+#define seen(mean) (mean)
+
+Texels tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles, slot_point(cell, p), 0.0)); }
+Texels precise_tap(Cell cell, vec2 p) { return IMAGERY(textureLod(tiles_precise, slot_point(cell, p), 0.0)); }
+Texels mip_tap(Cell cell, vec2 p, float level) {
+  return IMAGERY(textureLod(tiles_mipmapped, slot_point(cell, p), level));
+}
+#endif

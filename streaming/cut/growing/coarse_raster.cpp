@@ -1,0 +1,189 @@
+#include "streaming/cut/growing/coarse_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "codecs/image.h"
+#include "streaming/cut/input/row_formats.h"
+#include "streaming/file_bytes.h"
+#include "streaming/other_formats.h"
+#include "streaming/raster/in_parallel.h"
+#include "streaming/raster/row_raster.h"
+#include "streaming/raster/tiff_coding.h"
+#include "streaming/raster/tiff_level.h"
+#include "streaming/tiff_open.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+using Coarse = std::unique_ptr<RasterSource>;
+
+/// Longest side that is wished for, pixels.
+constexpr std::int64_t kCoarseSide_px = 1400;
+/// Most tiles that are decoded, one for a pixel.
+constexpr std::int64_t kSampledTiles = 512;
+
+/// A picture of fewer pixels that covers the same area.
+struct CoarseShape {
+  std::int64_t width_px, height_px;    ///< of the picture
+  std::int64_t columns = 0, rows = 0;  ///< of the coarse one
+  /// First pixel of a coarse column or row.
+  [[nodiscard]] static std::int64_t begin(std::int64_t at, std::int64_t size, std::int64_t count) {
+    return at * size / count;
+  }
+};
+
+/// Place of the coarse picture of a picture of this size.
+CrsPlace shrunk(const CrsPlace& place, std::int64_t width_px, std::int64_t height_px, const CoarseShape& shape) {
+  CrsPlace coarse = place;
+  const double across = static_cast<double>(width_px) / static_cast<double>(shape.columns);
+  const double down = static_cast<double>(height_px) / static_cast<double>(shape.rows);
+  coarse.to_crs.x_per_column *= across;
+  coarse.to_crs.y_per_column *= across;
+  coarse.to_crs.x_per_row *= down;
+  coarse.to_crs.y_per_row *= down;
+  return coarse;
+}
+
+Coarse make_coarse(const fs::path& path, const CrsPlace& place, const CoarseShape& shape,
+                   BlockStore::NextRow next_row) {
+  RowPicture picture{.name = path.stem().string(),
+                     .pixels = {.width_px = shape.columns, .height_px = shape.rows, .pixel_bytes = 4},
+                     .is_numbers = false,
+                     .next_row = std::move(next_row)};
+  return make_row_raster(std::move(picture), place, {});
+}
+
+/// Mean of pixels by alpha.
+void put_mean(const std::uint8_t* rgba, std::int64_t count, std::uint8_t* to) {
+  std::array<std::uint64_t, 4> sums{};
+  for (std::int64_t i = 0; i < count; ++i, rgba += 4) {
+    for (std::size_t c = 0; c < 3; ++c) sums[c] += std::uint64_t{rgba[c]} * rgba[3];
+    sums[3] += rgba[3];
+  }
+  for (std::size_t c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(sums[3] > 0 ? sums[c] / sums[3] : 0);
+  to[3] = static_cast<std::uint8_t>(sums[3] / static_cast<std::uint64_t>(count));
+}
+
+/// Some of a TIFF's rows, or of its tiles.
+struct CoarseTiff {
+  CoarseShape shape;
+  ColourConverter colours;
+  std::unique_ptr<TiffRowLevel> by_rows;
+  std::unique_ptr<TiffTileLevel> by_tiles;
+  std::vector<std::uint8_t> row{};
+  std::int64_t next = 0;
+
+  /// One row in the middle, or the first one of a strip: strips are decoded from the top.
+  [[nodiscard]] Status put_rows(std::span<std::uint8_t> to) {
+    const std::int64_t first = CoarseShape::begin(next, shape.height_px, shape.rows);
+    const std::int64_t end = std::max(first + 1, CoarseShape::begin(next + 1, shape.height_px, shape.rows));
+    const std::int64_t strip = by_rows->picture().tiled ? 1 : by_rows->picture().rows_per_strip;
+    const std::int64_t start = (first + end) / 2 / strip * strip;
+    const std::int64_t y = start >= first ? start : (first + end) / 2;
+    row.resize(static_cast<std::size_t>(shape.width_px) * 4);
+    if (Status read = by_rows->colours(y, colours, row.data()); !read) return read;
+    for (std::int64_t x = 0; x < shape.columns; ++x) {
+      const std::int64_t left = CoarseShape::begin(x, shape.width_px, shape.columns);
+      const std::int64_t right = CoarseShape::begin(x + 1, shape.width_px, shape.columns);
+      put_mean(row.data() + left * 4, std::max<std::int64_t>(1, right - left), to.data() + x * 4);
+    }
+    return Done{};
+  }
+
+  /// A pixel for each of some tiles. A tile that cannot be read is transparent; the cut will tell.
+  void put_tiles(std::span<std::uint8_t> to) {
+    const TiffPicture& picture = by_tiles->picture();
+    const std::int64_t tile_row = (2 * next + 1) * picture.tile_rows() / (2 * shape.rows);
+    in_parallel(thread_count(0), shape.columns, [&](std::int64_t x) {
+      const std::int64_t column = (2 * x + 1) * picture.tile_columns() / (2 * shape.columns);
+      const auto tile = by_tiles->colours(column, tile_row, colours);
+      // A row through the middle is a fair mean, and inside the picture at its lower edge.
+      const std::int64_t high = std::min(picture.tile_height_px, picture.height_px - tile_row * picture.tile_height_px);
+      const std::int64_t wide = std::min(picture.tile_width_px, picture.width_px - column * picture.tile_width_px);
+      if (tile) put_mean(tile->rgba.data() + high / 2 * picture.tile_width_px * 4, wide, to.data() + x * 4);
+    });
+  }
+};
+
+Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place) {
+  auto pyramid = read_pyramid(path);
+  if (!pyramid) return pyramid.error();
+  auto colours = colours_of(*pyramid, {});
+  if (!colours) return colours.error();
+  const TiffLevel& level = pyramid->levels.front();
+  const TiffPicture& picture = level.part.picture;
+  const double by = std::max(1.0, static_cast<double>(std::max(picture.width_px, picture.height_px)) / kCoarseSide_px);
+  CoarseShape shape{.width_px = picture.width_px, .height_px = picture.height_px};
+  shape.columns = std::max<std::int64_t>(1, std::llround(static_cast<double>(picture.width_px) / by));
+  shape.rows = std::max<std::int64_t>(1, std::llround(static_cast<double>(picture.height_px) / by));
+  // A long compressed strip would be decoded as a whole.
+  if (!picture.tiled && picture.compression != COMPRESSION_NONE &&
+      picture.rows_per_strip > std::max<std::int64_t>(64, 4 * shape.height_px / shape.rows)) {
+    return Coarse{};
+  }
+  auto tiff = std::make_shared<CoarseTiff>(CoarseTiff{shape, *std::move(colours), {}, {}});
+  const bool tiled = picture.tiled && (!level.mask || level.mask->picture.tiled);
+  const bool many = tiled && picture.tile_columns() * picture.tile_rows() > kSampledTiles;
+  if (many) {
+    const auto columns = static_cast<double>(picture.tile_columns()), rows = static_cast<double>(picture.tile_rows());
+    const double part = std::sqrt(static_cast<double>(kSampledTiles) / (columns * rows));
+    tiff->shape.columns = std::max<std::int64_t>(1, std::llround(columns * part));
+    tiff->shape.rows = std::max<std::int64_t>(1, std::llround(rows * part));
+    tiff->by_tiles = std::make_unique<TiffTileLevel>(level);
+  } else {
+    tiff->by_rows = std::make_unique<TiffRowLevel>(level, 0);
+  }
+  const CrsPlace at =
+      shrunk(place, pyramid->whole().part.picture.width_px, pyramid->whole().part.picture.height_px, tiff->shape);
+  return make_coarse(path, at, tiff->shape, [tiff](std::span<std::uint8_t> row) -> Status {
+    Status read = Done{};
+    if (tiff->by_rows) {
+      read = tiff->put_rows(row);
+    } else {
+      tiff->put_tiles(row);
+    }
+    ++tiff->next;
+    return read;
+  });
+}
+
+Result<Coarse> open_coarse_jpeg(const fs::path& path, const CrsPlace& place) {
+  const auto open = [&](int eighths) -> Result<std::unique_ptr<RowReader>> {
+    File file(std::fopen(path.c_str(), "rb"));
+    if (!file) return Error{fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno))};
+    return open_jpeg_rows(std::move(file), path.string(), eighths);
+  };
+  const auto whole = open(8);
+  if (!whole) return whole.error();
+  const PictureInfo& info = (*whole)->info();
+  const std::int64_t side = std::max(info.width_px, info.height_px);
+  auto opened = open(side >= 8 * kCoarseSide_px   ? 1
+                     : side >= 4 * kCoarseSide_px ? 2
+                     : side >= 2 * kCoarseSide_px ? 4
+                                                  : 8);
+  if (!opened) return opened.error();
+  const PictureInfo& small = (*opened)->info();
+  const CoarseShape shape{info.width_px, info.height_px, small.width_px, small.height_px};
+  return make_coarse(path, shrunk(place, info.width_px, info.height_px, shape), shape,
+                     [rows = std::shared_ptr<RowReader>(*std::move(opened))](std::span<std::uint8_t> row) {
+                       return rows->read_row(row);
+                     });
+}
+
+}  // namespace
+
+Result<Coarse> open_coarse_raster(const fs::path& path, const CrsPlace& place) {
+  const auto head = read_head(path, kFormatHeadBytes);
+  if (!head) return Error{head.error().message};
+  if (begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return open_coarse_tiff(path, place);
+  if (sniff_format(*head) == ImageFormat::jpeg) return open_coarse_jpeg(path, place);
+  return Coarse{};
+}
+
+}  // namespace terrella

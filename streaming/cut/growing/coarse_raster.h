@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "base/result.h"
+#include "streaming/raster/raster_source.h"
+
+namespace terrella {
+
+/// Opens a small version of a large picture that takes at most about a second to read: a JPEG by scaled decoding, a
+/// TIFF by some of its rows or tiles. Null for other pictures. `place` is that of the whole picture. Blocks.
+/// thread: any
+[[nodiscard]] Result<std::unique_ptr<RasterSource>> open_coarse_raster(const std::filesystem::path& path,
+                                                                       const CrsPlace& place);
+
+}  // namespace terrella

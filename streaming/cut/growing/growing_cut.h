@@ -1,0 +1,94 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/cut.h"
+#include "streaming/cut/cut_plan.h"
+#include "streaming/cut/growing/coarse_canvas.h"
+#include "tiles/tile_source.h"
+
+namespace terrella {
+
+/// Tiles of a picture while it is cut into the cache on a thread of its own. Until a tile is cut, coarse levels are
+/// made from a small version of the picture (coarse_raster), which the cut's rows replace. Finer tiles are `remote` and
+/// arrive when the cut comes to them. Afterwards the finished set is read. thread: any
+class GrowingCut : public TileSource, private RemoteTiles {
+ public:
+  /// Starts the cut of one picture into `folder`, which exists. Fails as cut() would before it reads a pixel.
+  [[nodiscard]] static Result<std::shared_ptr<GrowingCut>> start(CutOptions options,
+                                                                 const std::filesystem::path& folder);
+  /// Stops the cut. The next one goes on from there.
+  ~GrowingCut() override;
+  GrowingCut(const GrowingCut&) = delete;
+  GrowingCut& operator=(const GrowingCut&) = delete;
+
+  struct State {
+    double share = 0.0;            ///< of the rows, [0, 1]
+    bool ended = false;            ///< cut, or failed
+    std::optional<Error> error{};  ///< why the cut failed
+  };
+  [[nodiscard]] State state() const;
+  [[nodiscard]] const std::filesystem::path& picture() const { return options_.images.front(); }
+
+  [[nodiscard]] const TileSetInfo& info() const override { return planned_.info; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
+  [[nodiscard]] RemoteTiles* remote() override { return this; }
+  [[nodiscard]] std::uint64_t edition() const override { return edition_; }
+  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override {
+    return id.level <= coarsest_cut_ ? edition_.load() : 0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Answer = Result<EncodedTile, TileFailure>;
+  struct Stored {
+    std::size_t log = 0;  ///< index in logs_
+    std::uint64_t offset = 0;
+    std::size_t size = 0;
+  };
+
+  GrowingCut(CutOptions options, PlannedCut planned);
+  void fetch(const TileId& id, double priority, Done done) override;
+  void set_priority(const TileId&, double) override {}
+  void cancel(const TileId& id) override;
+
+  void run(const std::filesystem::path& folder);
+  void paint_coarse();
+  void watch();
+  void renew(bool now);
+  void keep(const CutTile& tile);
+  void finish(Result<std::shared_ptr<TileSource>> whole);
+  /// Reads a tile that is there; nothing if the cut has not come to it, or the finished set replaces its file just now.
+  [[nodiscard]] std::optional<Answer> find(const TileId& id) const;
+
+  CutOptions options_;
+  const PlannedCut planned_;
+  CoarseCanvas canvas_;
+  const int coarsest_cut_;  ///< finer tiles are cut before the end, and are not made from the canvas
+  std::atomic<bool> stop_ = false;
+  std::atomic<std::uint64_t> edition_ = 1;
+  std::atomic<double> share_ = 0.0;
+  std::atomic<bool> dirty_ = false;  ///< the canvas or a coarse tile has changed since the last edition
+  Clock::time_point renewed_{};
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::vector<std::filesystem::path> logs_;
+  std::unordered_map<TileId, Stored, TileIdHash> stored_;
+  std::unordered_map<TileId, Done, TileIdHash> waiting_;
+  std::shared_ptr<TileSource> whole_;
+  std::optional<Error> error_;
+
+  std::thread thread_;  ///< last: it uses all others
+};
+
+}  // namespace terrella

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/georeference/placement.h"
+#include "streaming/raster/open_raster.h"
+#include "streaming/raster/raster_source.h"
+#include "tiles/tile_source.h"
+
+namespace terrella {
+
+/// The user's statements about a raster that is shown without being cut.
+struct DirectOptions {
+  std::string body{};                         ///< preset name or "A,F"; empty: the Earth
+  std::optional<LatitudeKind> latitude = {};  ///< counted by the rows; default: as the raster states, else graphic
+  PlaceWords place{};
+  /// Grid of the raster's own pixels, so that tiles are copies of them; default: warp_grid().
+  std::optional<TileGrid> grid = {};
+  RasterOptions reading = {};  ///< what is read: a picture, numbers of a band, three bands
+};
+
+/// Place of a raster on the globe.
+struct RasterPlace {
+  CrsPlace at;  ///< for open_raster()
+  LatitudeKind latitude = LatitudeKind::graphic;
+  std::vector<std::string> remarks{};  ///< statements of the raster that the user's words overrule, for the user
+};
+
+/// Turns a checked place into the place of a raster. A raster that states nothing is the whole planet from -180° on, if
+/// it is 2:1; otherwise nothing. The error is that of check_figure(). thread: any
+[[nodiscard]] Result<std::optional<RasterPlace>> place_raster(PlacedPicture placed, const PictureFile& picture,
+                                                              const DirectOptions& options);
+
+/// True if coarse tiles of the raster are quick to make: it has overviews down to a small one, or is small, and its
+/// blocks can be read by themselves. thread: any
+[[nodiscard]] bool shows_at_once(const RasterInfo& raster);
+
+/// Makes tiles from a raster as they are asked for (warp_source()): from its own overviews, in any coordinate system,
+/// from a file or a server. Nothing is stored. The error begins with `where`. thread: any
+[[nodiscard]] Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> raster,
+                                                               const RasterPlace& place, const DirectOptions& options,
+                                                               const std::string& where);
+
+/// Tiles of a file, and what to tell the user.
+struct DirectFile {
+  std::unique_ptr<TileSource> tiles;  ///< null: the file must be cut
+  std::vector<std::string> remarks{};
+};
+
+/// Opens a TIFF or BigTIFF directly if shows_at_once(). No tiles for other files, which are cut. Blocks. thread: any
+[[nodiscard]] Result<DirectFile> open_direct(const std::filesystem::path& path, const DirectOptions& options);
+
+}  // namespace terrella

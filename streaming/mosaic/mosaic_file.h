@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/georeference/affine.h"
+#include "streaming/georeference/georeference.h"
+#include "streaming/raster/open_raster.h"
+
+namespace terrella {
+
+/// How the files of a mosaic are measured and opened. The defaults read TIFFs.
+struct MosaicReading {
+  /// Size of a picture that is no TIFF. Reads the header alone.
+  std::function<Result<PictureFile>(const std::filesystem::path&)> measure = {};
+  std::function<Result<std::unique_ptr<RasterSource>>(const std::filesystem::path&, const CrsPlace&,
+                                                      const RasterOptions&)>
+      open = open_raster;
+};
+
+/// Facts from the header of a file. They are kept in the cache, so that a second start opens no file.
+struct MosaicFile {
+  std::filesystem::path path;
+  std::int64_t bytes = 0;
+  std::int64_t changed_ns = 0;                               ///< time of the last change, nanoseconds since 1970
+  std::vector<std::pair<std::int64_t, std::int64_t>> sizes;  ///< of the levels, pixels, the coarsest first
+  CrsPlace place;
+  bool is_numbers = false;  ///< one band of other than 8 bits; shown as numbers by default
+  bool one_band = false;    ///< can be read as numbers
+  bool by_rows = false;     ///< has no tiles: the whole level is decoded when it is first needed
+  std::string unit;
+  double scale = 1.0, offset = 0.0;   ///< value = stored number · scale + offset
+  std::optional<double> nodata = {};  ///< replaces the file's own
+
+  [[nodiscard]] std::int64_t width_px() const { return sizes.back().first; }
+  [[nodiscard]] std::int64_t height_px() const { return sizes.back().second; }
+};
+
+/// Reads a file's header; `file` has its path. The place is not read. The error names the file. Blocks. thread: any
+[[nodiscard]] Status read_header(MosaicFile& file, const MosaicReading& reading);
+
+/// Sets size and time of a file; fails if it is no regular file. Blocks. thread: any
+[[nodiscard]] Status look_at(MosaicFile& file);
+
+}  // namespace terrella

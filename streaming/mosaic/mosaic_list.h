@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "streaming/georeference/place_words.h"
+
+namespace terrella {
+
+/// A file of a mosaic, and what the description says about it.
+struct MosaicEntry {
+  std::filesystem::path path;
+  PlaceWords words{};                 ///< replaces the place that the file states
+  std::optional<double> nodata = {};  ///< replaces the file's own
+  std::optional<double> scale = {};   ///< the same; value = stored number · scale + offset
+  std::optional<double> offset = {};
+};
+
+/// The files of a mosaic in the order given: a later file lies over an earlier one of the same resolution.
+struct MosaicList {
+  std::string name;
+  std::string attribution;
+  std::vector<MosaicEntry> entries;
+};
+
+/// True for a folder with rasters that is no tile set, for a list of files (*.txt, *.lst), and for a JSON file with the
+/// field "mosaic". Reads no raster. thread: any
+[[nodiscard]] bool is_mosaic(const std::filesystem::path& path);
+
+/// Reads the names (streaming/mosaic/README.md). Folders are searched with all folders inside them; their files are in
+/// the order of their names. Paths are relative to the list. The error names the list. Blocks. thread: any
+[[nodiscard]] Result<MosaicList> read_mosaic_list(const std::filesystem::path& path);
+
+}  // namespace terrella

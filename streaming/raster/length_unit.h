@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace terrella {
+
+/// Metres in a unit as files name it: "m", "metre", "ft", "US survey foot", "cm", "km", … An empty name counts as
+/// metres. None for a name that is no known length. thread: any
+[[nodiscard]] std::optional<double> metres_of_unit(std::string_view unit);
+
+/// Why numbers in such a unit are no heights, and what helps. thread: any
+[[nodiscard]] std::string no_length(std::string_view unit);
+
+}  // namespace terrella

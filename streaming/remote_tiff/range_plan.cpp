@@ -1,0 +1,58 @@
+#include "streaming/remote_tiff/range_plan.h"
+
+#include <set>
+#include <utility>
+
+#include "streaming/warp/make_warp_source.h"
+
+namespace terrella {
+namespace {
+
+class RangeOrigin : public TileOrigin {
+ public:
+  RangeOrigin(const FileAddress& file, const HttpOptions& options, std::shared_ptr<const SpanList> spans,
+              ReplyQueue& answers)
+      : spans_(std::move(spans)), fetcher_(file, options, answers) {}
+
+  void ask(TileQuestion question) override { fetcher_.fetch(question.number, spans_->at(question.id), 0.0); }
+  void withdraw(std::uint64_t number) override { fetcher_.cancel(number); }
+  [[nodiscard]] HttpCounts counts() const override { return fetcher_.counts(); }
+
+ private:
+  const std::shared_ptr<const SpanList> spans_;
+  SpanFetcher fetcher_;
+};
+
+}  // namespace
+
+Result<SpanList> spans_of_tiles(RemoteTiff& raster, const WarpFigure& figure, const TileGrid& grid,
+                                const TilePlan& tiles, const std::function<bool()>& go_on) {
+  const auto planner = TilePlanner::open(raster.info(), figure, grid, Overviews::made);
+  if (!planner) return planner.error();
+  const std::vector<WarpLevel>& levels = (*planner)->frame().levels;
+  std::set<TileId> blocks;
+  const auto feed = tiles.walk();
+  for (auto run = feed->next(); run; run = feed->next()) {
+    for (std::int64_t y = run->first_y; y <= run->last_y; ++y) {
+      if (!go_on()) return Error{"stopped before the tiles were found"};
+      for (const WarpPiece& piece : (*planner)->plan({.level = run->level, .x = run->x, .y = y}).pieces) {
+        const int stored = levels[static_cast<std::size_t>(piece.id.level)].stored;
+        blocks.insert({.level = stored, .x = piece.id.x, .y = piece.id.y});
+      }
+    }
+  }
+  SpanList spans;
+  for (const TileId& block : blocks) {
+    const auto found = raster.spans(block);
+    if (!found) return Error{found.error().why};
+    for (const ByteRange& span : *found) spans.emplace(RangeCache::span_id(span), span);
+  }
+  return spans;
+}
+
+std::unique_ptr<TileOrigin> range_origin(const FileAddress& file, const HttpOptions& options,
+                                         std::shared_ptr<const SpanList> spans, ReplyQueue& answers) {
+  return std::make_unique<RangeOrigin>(file, options, std::move(spans), answers);
+}
+
+}  // namespace terrella

@@ -1,0 +1,116 @@
+// Slopes of heights, against the analytic normals of the ground that the heights are samples of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+#include "geo/body.h"
+#include "surface/height_field.h"
+
+namespace terrella {
+namespace {
+
+constexpr double kSlopesRadian = std::numbers::pi / 180.0;
+const TileGrid kSlopesGrid{.root_span_deg = 180.0, .tile_px = 32, .max_level = 2};
+constexpr double kSlopesWave_m = 3.0e5, kSlopesWaves = 20.0;  // slopes up to 43°; 13 heights of the finest level a wave
+
+double slopes_wave_m(double lat, double lon) {
+  return kSlopesWave_m * std::sin(kSlopesWaves * lat) * std::cos(kSlopesWaves * lon);
+}
+
+glm::dvec3 slope_normal(double east, double north) { return glm::normalize(glm::dvec3(-east, -north, 1.0)); }
+
+HeightTile slopes_waves(const TileId& id) {
+  const TileBounds b = tile_bounds(kSlopesGrid, id);
+  const double pixel_deg = (b.east_deg - b.west_deg) / kSlopesGrid.tile_px;
+  HeightTile tile{.id = id, .side_px = kSlopesGrid.tile_px, .heights_m = {}};
+  for (int k = 0; k < kSlopesGrid.tile_px * kSlopesGrid.tile_px; ++k) {
+    const double lat = b.north_deg - (k / kSlopesGrid.tile_px + 0.5) * pixel_deg;
+    const double lon = b.west_deg + (k % kSlopesGrid.tile_px + 0.5) * pixel_deg;
+    tile.heights_m.push_back(static_cast<float>(slopes_wave_m(lat * kSlopesRadian, lon * kSlopesRadian)));
+  }
+  return tile;
+}
+
+/// Mean angle between the normals of a tile's slopes and the true ones, degrees.
+double mean_slope_error_deg(const HeightField& field, const TileId& id, int border_px) {
+  const double a_m = earth().ellipsoid.a_m();
+  const TileBounds b = tile_bounds(kSlopesGrid, id);
+  const double pixel_deg = (b.east_deg - b.west_deg) / kSlopesGrid.tile_px;
+  const std::vector<glm::vec2> slopes = field.slopes(id, border_px);
+  const int side = kSlopesGrid.tile_px + 2 * border_px;
+  EXPECT_EQ(slopes.size(), static_cast<std::size_t>(side * side));
+  double sum = 0.0;
+  int n = 0;
+  for (int k = 0; k < side * side; ++k) {
+    const double lat = (b.north_deg - (k / side - border_px + 0.5) * pixel_deg) * kSlopesRadian;
+    const double lon = (b.west_deg + (k % side - border_px + 0.5) * pixel_deg) * kSlopesRadian;
+    if (std::abs(lat) > 60.0 * kSlopesRadian) continue;
+    const double east = -kSlopesWave_m * kSlopesWaves * std::sin(kSlopesWaves * lat) * std::sin(kSlopesWaves * lon) /
+                        (a_m * std::cos(lat));
+    const double north =
+        kSlopesWave_m * kSlopesWaves * std::cos(kSlopesWaves * lat) * std::cos(kSlopesWaves * lon) / a_m;
+    const glm::vec2 slope = slopes[static_cast<std::size_t>(k)];
+    const double cosine =
+        std::min(1.0, glm::dot(slope_normal(east, north), slope_normal(double(slope.x), double(slope.y))));
+    sum += std::acos(cosine) / kSlopesRadian;
+    ++n;
+  }
+  return sum / n;
+}
+
+TEST(HeightSlopes, AreThoseOfTheNormalsAlsoInTheBorderAndRoundThePlanet) {
+  constexpr double kMean_deg = 3.0;
+  HeightField field(earth().ellipsoid, kSlopesGrid);
+  for (std::int64_t y = 0; y < rows(kSlopesGrid, 2); ++y) {
+    for (std::int64_t x = 0; x < columns(kSlopesGrid, 2); ++x) field.add(slopes_waves({.level = 2, .x = x, .y = y}));
+  }
+  for (const std::int64_t x : {0, 3, 7}) {
+    for (const std::int64_t y : {1, 2})
+      EXPECT_LE(mean_slope_error_deg(field, {.level = 2, .x = x, .y = y}, 2), kMean_deg);
+  }
+}
+
+TEST(HeightSlopes, TakeCoarserHeightsWhereANeighbourIsMissing) {
+  HeightField field(earth().ellipsoid, kSlopesGrid);
+  for (std::int64_t x = 0; x < 4; ++x) {
+    for (std::int64_t y = 0; y < 2; ++y) field.add(slopes_waves({.level = 1, .x = x, .y = y}));
+  }
+  const TileId alone{.level = 2, .x = 3, .y = 1};
+  field.add(slopes_waves(alone));
+  // Heights of two pixels' distance stray in two rings of 32 pixels.
+  EXPECT_LE(mean_slope_error_deg(field, alone, 0), 5.0);
+}
+
+TEST(HeightSlopes, BeyondTheFinestLevelBendEvenlyBetweenTheHeights) {
+  HeightField field(earth().ellipsoid, kSlopesGrid);
+  for (std::int64_t y = 0; y < rows(kSlopesGrid, 2); ++y) {
+    for (std::int64_t x = 0; x < columns(kSlopesGrid, 2); ++x) {
+      field.add(slopes_waves({.level = 2, .x = x, .y = y}));
+    }
+  }
+  for (const std::int64_t x : {0, 26, 63})
+    EXPECT_LE(mean_slope_error_deg(field, {.level = 5, .x = x, .y = 14}, 1), 3.0);
+  // Eight slopes to a height: neighbours differ by a fraction of what heights' slopes do, also at the tiles' borders.
+  const std::vector<glm::vec2> slopes = field.slopes({.level = 5, .x = 31, .y = 15}, 1);
+  float most = 0.0F;
+  for (std::size_t k = 2; k < 34; ++k) {
+    most = std::max(most, std::abs(slopes[k].x - 2.0F * slopes[k - 1].x + slopes[k - 2].x));
+  }
+  EXPECT_LT(most, 0.01F);
+}
+
+TEST(HeightSlopes, OfLevelGroundAreZeroAndFiniteAtThePoles) {
+  HeightField field(earth().ellipsoid, kSlopesGrid);
+  HeightTile tile = slopes_waves({.level = 2, .x = 5, .y = 0});
+  field.add(tile);
+  for (const glm::vec2& slope : field.slopes(tile.id, 2)) EXPECT_TRUE(std::isfinite(slope.x + slope.y));
+  tile.heights_m.assign(tile.heights_m.size(), 0.0F);
+  field.add(tile);
+  for (const glm::vec2& slope : field.slopes(tile.id, 2)) EXPECT_EQ(slope, glm::vec2(0.0F));
+}
+
+}  // namespace
+}  // namespace terrella
