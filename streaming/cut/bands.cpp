@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// Most memory for all strips together, bytes, if the picture's width permits. The strips in progress always get their
 /// memory.
-constexpr std::size_t kStripBytes = 190UL << 20;
+constexpr std::size_t kStripBytes = 160UL << 20;
 /// Number of strips that wait for an encoder while the next ones are filled.
 constexpr std::size_t kStripsAhead = 2;
 /// Small pictures may run further ahead, bytes.

@@ -71,7 +71,7 @@ Strip squeezed_tile(const Strip& strip, std::int64_t x) {
              .tile_x0 = x,
              .tiles = 1,
              .tile_px = strip.tile_px,
-             .rgba = RowBytes(side * side * 4)};
+             .rgba = StripPixels(side * side * 4)};
   const std::int64_t from = (x * strip.tile_px - kMargin_px) * (std::int64_t{1} << strip.squeeze);
   RowBytes row(((side + 2 * kMargin_px) << strip.squeeze) * 4);
   std::vector<float> pixels, half;

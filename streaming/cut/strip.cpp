@@ -1,9 +1,20 @@
 #include "streaming/cut/strip.h"
 
+#include <sys/mman.h>
+
 #include <iterator>
+#include <new>
 #include <utility>
 
 namespace terrella {
+
+void* take_pages(std::size_t bytes) {
+  void* pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (pages == MAP_FAILED) throw std::bad_alloc();
+  return pages;
+}
+
+void give_pages_back(void* pages, std::size_t bytes) { munmap(pages, bytes); }
 
 std::shared_ptr<Strip> StripPool::lend(const Strip& shape) {
   const std::size_t bytes = shape.stride_bytes() * static_cast<std::size_t>(shape.tile_px);

@@ -10,6 +10,25 @@
 
 namespace terrella {
 
+/// Pages of the system, which go back to it. malloc() would keep blocks of this size, and the more of other memory the
+/// larger they are.
+/// Throws std::bad_alloc. thread: any
+[[nodiscard]] void* take_pages(std::size_t bytes);
+/// thread: any
+void give_pages_back(void* pages, std::size_t bytes);
+
+template <class T>
+struct PageAllocator {
+  using value_type = T;
+  PageAllocator() = default;
+  template <class U>
+  explicit PageAllocator(const PageAllocator<U>&) {}
+  [[nodiscard]] T* allocate(std::size_t count) { return static_cast<T*>(take_pages(count * sizeof(T))); }
+  void deallocate(T* pages, std::size_t count) { give_pages_back(pages, count * sizeof(T)); }
+  bool operator==(const PageAllocator&) const = default;
+};
+using StripPixels = std::vector<std::uint8_t, PageAllocator<std::uint8_t>>;
+
 /// One row of tiles of a level, as one picture: RGBA8, `tiles` · tile_px wide, tile_px high.
 struct Strip {
   int level = 0;
@@ -19,7 +38,7 @@ struct Strip {
   int tile_px = 0;
   int squeeze = 0;           ///< each squeezed tile of this row spans 2^squeeze columns; 0: no squeezed tiles
   std::int64_t turn_px = 0;  ///< pixels round the planet; 0: the strip does not wrap
-  std::vector<std::uint8_t> rgba = {};
+  StripPixels rgba = {};
 
   [[nodiscard]] std::size_t stride_bytes() const {
     return static_cast<std::size_t>(tiles) * static_cast<std::size_t>(tile_px) * 4;
@@ -42,7 +61,7 @@ class StripPool {
   [[nodiscard]] std::size_t held_bytes() const;
 
  private:
-  using Pixels = std::vector<std::uint8_t>;
+  using Pixels = StripPixels;
   void take_back(Strip* strip);
   [[nodiscard]] std::vector<Pixels> drop_free();
 

@@ -55,6 +55,7 @@ class PictureTags {
     const auto kind = tiff_tag<std::uint32_t>(tiff_, TIFFTAG_SUBFILETYPE, 0);
     picture_.reduced = (kind & FILETYPE_REDUCEDIMAGE) != 0;
     picture_.mask = (kind & FILETYPE_MASK) != 0;
+    picture_.orientation = tiff_tag<std::uint16_t>(tiff_, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     const std::string& name = reader_.bytes().name();
     if (picture_.width_px < 1 || picture_.height_px < 1)
       return Error{fmt::format("{}: the picture has no pixels", name)};

@@ -16,8 +16,9 @@ struct TiffPicture {
   std::uint64_t directory = 0;  ///< offset of the directory in the file, bytes
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  bool reduced = false;  ///< a smaller version of another picture in the file
-  bool mask = false;     ///< transparency of another picture in the file
+  bool reduced = false;                   ///< a smaller version of another picture in the file
+  bool mask = false;                      ///< transparency of another picture in the file
+  int orientation = ORIENTATION_TOPLEFT;  ///< the Orientation tag: another value turns the stored rows
   bool tiled = false;
   bool separate = false;            ///< each sample has a plane of blocks of its own
   std::int64_t tile_width_px = 0;   ///< 0: strips

@@ -21,8 +21,8 @@ SAME_PICTURE = 3.0
 OTHER_PICTURE = 12.0
 
 
-def run(*command):
-    subprocess.run([*map(str, command)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def run(*command, cwd=None):
+    subprocess.run([*map(str, command)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=cwd)
 
 
 class PictureTest(ProgramTest):
@@ -196,6 +196,43 @@ class OrientationTest(PictureTest):
         self.write("placed.jgw", f"{step}\n0\n0\n{-step}\n{-180 + step / 2}\n{90 - step / 2}\n".encode())
         self.assertLess(self.difference(self.shot("placed.jpg"), self.shot(self.marble)), SAME_PICTURE)
         self.assertNotIn("EXIF", self.assert_done("info", "placed.jpg").stdout)
+
+    def test_webp_is_turned_too(self):
+        """By its EXIF chunk, which other programs write with and without the head of a JPEG's marker."""
+        for orientation in (2, 3, 6):
+            for head in (4, 10):
+                with self.subTest(orientation=orientation, head=head):
+                    run("convert", self.marble, *STORED[orientation], self.folder / "plain.png")
+                    run("cwebp", "-quiet", "-lossless", self.folder / "plain.png", "-o", self.folder / "plain.webp")
+                    self.write("exif.bin", exif(orientation)[head:])
+                    run("webpmux", "-set", "exif", self.folder / "exif.bin", self.folder / "plain.webp",
+                        "-o", self.folder / "turned.webp")
+                    self.assertLess(self.difference(self.shot("turned.webp"), self.shot(self.marble)), SAME_PICTURE)
+        told = self.assert_done("info", "turned.webp").stdout
+        self.assertIn("512x256, turned upright by its EXIF orientation 6", told)
+        # With transparency: the corner of the stored picture becomes the corner that it is upright.
+        run("convert", "-size", "64x32", "xc:none", "-fill", "red", "-draw", "rectangle 0,0 7,7", self.folder / "plain.png")
+        run("cwebp", "-quiet", "-lossless", "-exact", self.folder / "plain.png", "-o", self.folder / "plain.webp")
+        self.write("exif.bin", exif(3)[10:])
+        run("webpmux", "-set", "exif", self.folder / "exif.bin", self.folder / "plain.webp", "-o", self.folder / "clear.webp")
+        self.assert_done("cut", "clear.webp", "-o", "clear.gpkg", "--format", "png", "--tile-size", 32)
+        shown = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", str(self.folder / "clear.gpkg")],
+                               input="170 -80\n-170 80\n", capture_output=True, text=True, timeout=60).stdout.split()
+        self.assertEqual(shown[:4], ["255", "0", "0", "255"])
+        self.assertEqual(shown[7], "0")
+
+    def test_a_turned_tiff_is_refused_with_the_command_that_turns_it(self):
+        run("convert", self.marble, *STORED[6], "-orient", "RightTop", self.folder / "turned.tif")
+        error = self.assert_fails(FAILED, "cut", "turned.tif", "-o", "x.gpkg", says=["turned.tif", "Orientation tag (6)"]).stderr
+        self.assert_fails(FAILED, "info", "turned.tif", says=["Orientation tag (6)"])
+        command = error.split("upright: ")[1].strip().splitlines()[0]
+        run(*shlex.split(command), cwd=self.folder)
+        self.assertLess(self.difference(self.shot("upright.tif"), self.shot(self.marble)), SAME_PICTURE)
+        # A place is that of the stored rows: GDAL ignores the tag.
+        run("convert", self.marble, "-orient", "BottomRight", self.folder / "placed.tif")
+        step = 360 / 512
+        self.write("placed.tfw", f"{step}\n0\n0\n{-step}\n{-180 + step / 2}\n{90 - step / 2}\n".encode())
+        self.assertLess(self.difference(self.shot("placed.tif"), self.shot(self.marble)), SAME_PICTURE)
 
     def test_broken_exif_turns_nothing(self):
         run("convert", self.marble, "-quality", 98, self.folder / "plain.jpg")

@@ -139,6 +139,28 @@ TEST_P(WidePictureTest, FitsInto300Megabytes) {
   EXPECT_LT(*peak, std::max(0L, own_peak() - kProgram_KiB) + kMost_KiB);
 }
 
+/// A UTM picture of 40,000 columns becomes 59,400 columns of degrees; the blocks of the warp come in addition.
+TEST(MemoryTest, AResampledPictureFitsInto300Megabytes) {
+  constexpr int kWidth_px = 40000;
+  constexpr int kHeight_px = 300;
+  constexpr double kPixel_m = 10.0, kWest_m = 300e3, kNorth_m = 5300e3;
+  constexpr long kProgram_KiB = 16L << 10;
+  // A picture of 40,000 rows holds some 50 MB more: each thread's part of the heap grows with the time.
+  constexpr long kMost_KiB = 240'000'000L / 1024;
+  const ScratchFolder folder;
+  write_wide_bigtiff(folder / "utm.tif", kWidth_px, kHeight_px, 256);
+  const auto peak = peak_of_cut({.images = {folder / "utm.tif"},
+                                 .output = folder / "out.gpkg",
+                                 .crs = "EPSG:32632",
+                                 .crs_bounds = CrsBounds{.west = kWest_m,
+                                                         .south = kNorth_m - kHeight_px * kPixel_m,
+                                                         .east = kWest_m + kWidth_px * kPixel_m,
+                                                         .north = kNorth_m}});
+  ASSERT_TRUE(peak);
+  RecordProperty("peak_KiB", static_cast<int>(*peak));
+  EXPECT_LT(*peak, std::max(0L, own_peak() - kProgram_KiB) + kMost_KiB);
+}
+
 /// A row of tiles that is too large to be held is read a part of its rows at a time.
 TEST(MemoryTest, PartsOfTilesAreTheRowsThatTheyWere) {
   constexpr int kWidth_px = 86400;

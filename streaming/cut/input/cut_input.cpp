@@ -150,7 +150,7 @@ Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
     images.clear();
     for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
   }
-  const auto planned = options.elevation ? plan_heights(images, *options.elevation)
+  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
                                          : plan_numbers(images, *options.numbers, may_have_gaps(options));
   if (!planned) return planned.error();
   return std::optional(*planned);
@@ -184,8 +184,8 @@ Result<CutInput> open_input(const CutOptions& options) {
   if (!planned) return planned.error();
   const std::optional<HeightPlan>& heights = *planned;
   const CodingOptions choice = choice_of(options);
-  const OpenRows open = [heights, choice](const fs::path& image) {
-    return heights ? open_height_rows(image, heights->coding) : open_rows(image, choice);
+  const OpenRows open = [heights, choice, jobs = options.jobs](const fs::path& image) {
+    return heights ? open_height_rows(image, heights->coding, jobs) : open_rows(image, choice, jobs);
   };
   const bool several = !options.raster && (options.images.size() > 1 || options.mosaic);
   auto input = is_many(options) ? open_resampled(options, heights)

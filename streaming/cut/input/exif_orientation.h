@@ -10,4 +10,7 @@ namespace terrella {
 /// libexif can read. thread: any
 [[nodiscard]] int exif_orientation(std::span<const std::byte> block);
 
+/// The same of the EXIF chunk of a WebP file. thread: any
+[[nodiscard]] int exif_orientation_of_webp(std::span<const std::byte> file);
+
 }  // namespace terrella

@@ -70,8 +70,8 @@ struct Range {
 };
 
 /// Widens the range by the raw samples, with scale 1 and offset 0.
-Status widen(const fs::path& image, const HeightCoding& coding, Range& range) {
-  auto reader = open_height_rows(image, coding);
+Status widen(const fs::path& image, const HeightCoding& coding, int jobs, Range& range) {
+  auto reader = open_height_rows(image, coding, jobs);
   if (!reader) return reader.error();
   const auto width = static_cast<std::size_t>((*reader)->info().width_px);
   std::vector<std::uint8_t> row(width * 4);
@@ -88,14 +88,15 @@ Status widen(const fs::path& image, const HeightCoding& coding, Range& range) {
   return Done{};
 }
 
-Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, HeightPlan plan) {
+Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, int jobs,
+                               HeightPlan plan) {
   if (options.scale || options.offset) {
     plan.numbers.scale = options.scale.value_or(1.0);
     plan.numbers.offset = options.offset.value_or(0.0);
   } else {
     Range range;
     for (const fs::path& image : images) {
-      if (Status widened = widen(image, plan.coding, range); !widened) return widened.error();
+      if (Status widened = widen(image, plan.coding, jobs, range); !widened) return widened.error();
     }
     if (range.least > range.most) {
       return Error{
@@ -181,7 +182,7 @@ Result<Probe> probe_all(const std::vector<fs::path>& images, std::optional<std::
 
 }  // namespace
 
-Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options) {
+Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options, int jobs) {
   HeightPlan plan;
   plan.numbers.unit = "m";
   plan.numbers.quantity = "height";
@@ -194,7 +195,7 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
   if (first->kind == HeightKind::float32) {
     plan.coding.sample_scale = first->scale;
     plan.coding.sample_offset = first->offset;
-    return plan_floats(images, options, plan);
+    return plan_floats(images, options, jobs, plan);
   }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
   plan.numbers.scale = options.scale.value_or(first->scale);

@@ -20,7 +20,7 @@ struct HeightPlan {
 /// Chooses how tiles store the heights of the pictures. Reads all pixels once if the samples are 32-bit floats and the
 /// options do not give the coding. All pictures must have the same kind of sample. thread: any
 [[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
-                                              const CutElevation& options);
+                                              const CutElevation& options, int jobs);
 
 /// Chooses how tiles keep the numbers of a band: whole numbers of at most 16 bits as they are, with the metadata's
 /// scale and offset; others as 32-bit floats with both applied. Numbers of 16 bits without nodata, of which

@@ -13,7 +13,6 @@
 #include "streaming/cut/input/exif_orientation.h"
 #include "streaming/cut/input/row_formats.h"
 #include "streaming/cut/input/turned_rows.h"
-#include "streaming/georeference/side_files.h"
 
 namespace terrella {
 namespace {
@@ -181,24 +180,11 @@ class JpegRows : public RowReader {
 
 }  // namespace
 
-namespace {
-
-/// True if a file beside the picture places its stored rows, as a world file does. GDAL and other writers of such files
-/// ignore EXIF.
-bool is_placed_as_stored(const std::string& name) {
-  const auto claims = read_side_files(name);
-  return claims && std::ranges::any_of(
-                       *claims, [](const SideClaim& claim) { return claim.transform || claim.has_control_points; });
-}
-
-}  // namespace
-
 Result<std::unique_ptr<RowReader>> open_jpeg_rows(File file, std::string name, int eighths) {
   auto rows = std::make_unique<JpegRows>(std::move(file), name, eighths);
   if (Status opened = rows->open(); !opened) return opened.error();
   const int orientation = rows->orientation();
-  if (orientation == 1 || is_placed_as_stored(name)) return std::unique_ptr<RowReader>(std::move(rows));
-  return turned_rows(std::move(rows), orientation, name);
+  return upright_rows(std::move(rows), orientation, name);
 }
 
 }  // namespace terrella

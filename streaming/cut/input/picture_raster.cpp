@@ -14,11 +14,12 @@ namespace {
 Result<std::unique_ptr<RowReader>> open_picture_rows(const std::filesystem::path& path, const RasterOptions& options) {
   if (!options.heights) {
     return open_rows(path,
-                     {.nodata = options.nodata, .scale = {}, .offset = {}, .band = {}, .composite = options.composite});
+                     {.nodata = options.nodata, .scale = {}, .offset = {}, .band = {}, .composite = options.composite},
+                     options.jobs);
   }
   HeightCoding coding;
   coding.nodata = options.nodata;
-  return open_height_rows(path, coding);
+  return open_height_rows(path, coding, options.jobs);
 }
 
 /// Applies the scale and the offset to a row of stored numbers.

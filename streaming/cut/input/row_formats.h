@@ -26,7 +26,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
                                                                const std::optional<HeightCoding>& heights);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
                                                                 const std::optional<HeightCoding>& heights,
-                                                                const CodingOptions& choice);
+                                                                const CodingOptions& choice, int jobs);
 
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);

@@ -101,7 +101,8 @@ Error refuse_heights(const std::string& name) {
 namespace {
 
 Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
-                                            const std::optional<HeightCoding>& heights, const CodingOptions& choice) {
+                                            const std::optional<HeightCoding>& heights, const CodingOptions& choice,
+                                            int jobs) {
   const std::string name = path.string();
   if (Status regular = check_regular(path); !regular) return regular.error();
   File file(std::fopen(name.c_str(), "rb"));
@@ -122,7 +123,7 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   if (format != ImageFormat::unknown && heights) return refuse_heights(name);
   if (format == ImageFormat::jpeg) return open_jpeg_rows(std::move(file), name);
   if (format == ImageFormat::webp) return open_webp_rows(name);
-  if (begins_as_tiff(head)) return open_tiff_rows(name, heights, choice);
+  if (begins_as_tiff(head)) return open_tiff_rows(name, heights, choice, jobs);
   const std::string hint = convert_hint(path, head);
   return Error{
       fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, WebP, TIFF or BigTIFF" : hint)};
@@ -130,12 +131,13 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
 
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path, const CodingOptions& choice) {
-  return open_any(path, {}, choice);
+Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path, const CodingOptions& choice, int jobs) {
+  return open_any(path, {}, choice, jobs);
 }
 
-Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path, const HeightCoding& coding) {
-  return open_any(path, coding, {});
+Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path, const HeightCoding& coding,
+                                                    int jobs) {
+  return open_any(path, coding, {}, jobs);
 }
 
 }  // namespace terrella

@@ -44,15 +44,16 @@ class RowReader {
 /// reader then reports it.
 [[nodiscard]] Status check_regular(const std::filesystem::path& path);
 
-/// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. The error names the file, the fault and a
-/// cure. `choice` says how a TIFF is shown; other pictures refuse a composite.
+/// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. `choice` says how a TIFF is shown; other
+/// pictures refuse a composite. `jobs` threads decode a row of a TIFF's tiles; 0: one for each core. The error names
+/// the file, the fault and a cure.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_rows(const std::filesystem::path& path,
-                                                           const CodingOptions& choice = {});
+                                                           const CodingOptions& choice = {}, int jobs = 0);
 
 struct HeightCoding;
 /// Like open_rows(), for heights: rows of 32-bit floats instead of RGBA8 (streaming/cut/input/heights.h). Accepts a
 /// one-channel 16-bit PNG, or a TIFF with samples of the coding's kind.
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_height_rows(const std::filesystem::path& path,
-                                                                  const HeightCoding& coding);
+                                                                  const HeightCoding& coding, int jobs = 0);
 
 }  // namespace terrella

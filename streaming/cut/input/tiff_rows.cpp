@@ -12,12 +12,13 @@ namespace {
 /// Rows of the first picture in a TIFF, with its mask.
 class TiffRows : public RowReader {
  public:
-  TiffRows(const TiffLevel& level, ColourConverter colours) : rows_(level, 0), colours_(std::move(colours)) {
+  TiffRows(const TiffLevel& level, ColourConverter colours, int jobs)
+      : rows_(level, jobs), colours_(std::move(colours)) {
     set_size();
     info_.has_alpha = level.mask.has_value() || colours_->samples().may_be_clear();
   }
-  TiffRows(const TiffLevel& level, const HeightCoding& heights)
-      : rows_(level, 0), heights_(heights), numbers_(static_cast<std::size_t>(level.part.picture.width_px)) {
+  TiffRows(const TiffLevel& level, const HeightCoding& heights, int jobs)
+      : rows_(level, jobs), heights_(heights), numbers_(static_cast<std::size_t>(level.part.picture.width_px)) {
     set_size();
   }
 
@@ -58,13 +59,13 @@ class TiffRows : public RowReader {
 }  // namespace
 
 Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name, const std::optional<HeightCoding>& heights,
-                                                  const CodingOptions& choice) {
+                                                  const CodingOptions& choice, int jobs) {
   const auto pyramid = read_pyramid(name);
   if (!pyramid) return pyramid.error();
-  if (heights) return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *heights));
+  if (heights) return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *heights, jobs));
   auto colours = colours_of(*pyramid, choice);
   if (!colours) return colours.error();
-  return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *std::move(colours)));
+  return std::unique_ptr<RowReader>(std::make_unique<TiffRows>(pyramid->whole(), *std::move(colours), jobs));
 }
 
 }  // namespace terrella

@@ -14,7 +14,7 @@
 namespace terrella {
 namespace {
 
-constexpr std::int64_t kMostHeldRowBytes = 48LL << 20;
+constexpr std::int64_t kMostHeldRowBytes = 24LL << 20;
 /// Part of a pixel that counts as rounding in the bounds.
 constexpr double kPixelRounding = 1e-3;
 

@@ -26,7 +26,7 @@ struct TileRowsInput {
 [[nodiscard]] Result<TileRowsInput> open_tile_rows(std::unique_ptr<TileSource> tiles, int jobs,
                                                    const std::optional<NumberInfo>& numbers, const std::string& where);
 
-/// Side of the tiles of which a row is held in at most 48 MiB, for a picture of that width: 256 px, or less for wide
+/// Side of the tiles of which a row is held in at most 24 MiB, for a picture of that width: 256 px, or less for wide
 /// pictures. thread: any
 [[nodiscard]] int tile_side_for_rows(std::int64_t width_px);
 

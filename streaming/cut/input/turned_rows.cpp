@@ -8,12 +8,11 @@
 #include <cstring>
 #include <vector>
 
+#include "streaming/georeference/side_files.h"
 #include "streaming/other_formats.h"
 
 namespace terrella {
 namespace {
-
-constexpr std::uint64_t kHeldPixelBytes = 3;
 
 /// Stored position of the upright picture's pixel: mirrored stored columns or rows, and rows that become columns.
 struct Turn {
@@ -31,6 +30,9 @@ constexpr std::array<Turn, 8> kTurns = {{{false, false, false, ""},
                                          {false, true, true, "-rotate 90"},
                                          {true, true, true, "-transverse"},
                                          {true, false, true, "-rotate 270"}}};
+
+/// An opaque picture is held without its alpha.
+std::size_t held_bytes(const PictureInfo& info) { return info.has_alpha ? 4 : 3; }
 
 PictureInfo turned_info(PictureInfo info, int orientation, const Turn& turn) {
   if (turn.transpose) std::swap(info.width_px, info.height_px);
@@ -59,7 +61,11 @@ class MirroredRows : public RowReader {
 class TurnedRows : public RowReader {
  public:
   TurnedRows(std::unique_ptr<RowReader> reader, const PictureInfo& info, const Turn& turn)
-      : reader_(std::move(reader)), stored_(reader_->info()), info_(info), turn_(turn) {}
+      : reader_(std::move(reader)),
+        stored_(reader_->info()),
+        info_(info),
+        turn_(turn),
+        pixel_bytes_(held_bytes(info)) {}
 
   [[nodiscard]] const PictureInfo& info() const override { return info_; }
 
@@ -69,8 +75,8 @@ class TurnedRows : public RowReader {
     }
     for (std::int64_t x = 0; x < info_.width_px; ++x) {
       std::uint8_t* to = &rgba[static_cast<std::size_t>(x) * 4];
-      std::memcpy(to, stored_pixel(turn_.transpose ? row_ : x, turn_.transpose ? x : row_), kHeldPixelBytes);
       to[3] = 255;
+      std::memcpy(to, stored_pixel(turn_.transpose ? row_ : x, turn_.transpose ? x : row_), pixel_bytes_);
     }
     ++row_;
     return Done{};
@@ -84,12 +90,12 @@ class TurnedRows : public RowReader {
  private:
   [[nodiscard]] Status hold() {
     const auto width = static_cast<std::size_t>(stored_.width_px);
-    held_.resize(width * static_cast<std::size_t>(stored_.height_px) * kHeldPixelBytes);
+    held_.resize(width * static_cast<std::size_t>(stored_.height_px) * pixel_bytes_);
     std::vector<std::uint8_t> row(width * 4);
     std::uint8_t* to = held_.data();
     for (std::int64_t y = 0; y < stored_.height_px; ++y) {
       if (Status read = reader_->read_row(row); !read) return read;
-      for (std::size_t x = 0; x < width; ++x, to += kHeldPixelBytes) std::memcpy(to, &row[x * 4], kHeldPixelBytes);
+      for (std::size_t x = 0; x < width; ++x, to += pixel_bytes_) std::memcpy(to, &row[x * 4], pixel_bytes_);
     }
     reader_.reset();
     return Done{};
@@ -98,27 +104,37 @@ class TurnedRows : public RowReader {
   [[nodiscard]] const std::uint8_t* stored_pixel(std::int64_t column, std::int64_t row) const {
     if (turn_.mirror_columns) column = stored_.width_px - 1 - column;
     if (turn_.mirror_rows) row = stored_.height_px - 1 - row;
-    return &held_[static_cast<std::size_t>(row * stored_.width_px + column) * kHeldPixelBytes];
+    return &held_[static_cast<std::size_t>(row * stored_.width_px + column) * pixel_bytes_];
   }
 
   std::unique_ptr<RowReader> reader_;  ///< null once the picture is held
   PictureInfo stored_;
   PictureInfo info_;
   Turn turn_;
+  std::size_t pixel_bytes_;
   std::vector<std::uint8_t> held_;
   std::int64_t row_ = 0;
 };
 
+/// True if a file beside the picture places its stored rows, as a world file does. GDAL and other writers of such files
+/// ignore EXIF.
+bool is_placed_as_stored(const std::string& name) {
+  const auto claims = read_side_files(name);
+  return claims && std::ranges::any_of(
+                       *claims, [](const SideClaim& claim) { return claim.transform || claim.has_control_points; });
+}
+
 }  // namespace
 
-Result<std::unique_ptr<RowReader>> turned_rows(std::unique_ptr<RowReader> stored, int orientation,
-                                               const std::string& name) {
-  assert(orientation >= 2 && orientation <= 8 && !stored->info().has_alpha);
+Result<std::unique_ptr<RowReader>> upright_rows(std::unique_ptr<RowReader> stored, int orientation,
+                                                const std::string& name) {
+  assert(orientation >= 1 && orientation <= 8);
+  if (orientation == 1 || is_placed_as_stored(name)) return stored;
   const Turn& turn = kTurns.at(static_cast<std::size_t>(orientation - 1));
   const PictureInfo from = stored->info();
   const PictureInfo info = turned_info(from, orientation, turn);
   if (orientation == 2) return std::unique_ptr<RowReader>(std::make_unique<MirroredRows>(std::move(stored), info));
-  const std::uint64_t held = static_cast<std::uint64_t>(from.width_px * from.height_px) * kHeldPixelBytes;
+  const std::uint64_t held = static_cast<std::uint64_t>(from.width_px * from.height_px) * held_bytes(from);
   if (held > kMaxHeldBytes) {
     return Error{
         fmt::format("{}: its EXIF orientation turns it, which needs {} MiB of memory; turn the file first: jpegtran {} "

@@ -3,7 +3,9 @@
 
 #include "codecs/image.h"
 #include "codecs/webp_codec.h"
+#include "streaming/cut/input/exif_orientation.h"
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/cut/input/turned_rows.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {
@@ -58,7 +60,8 @@ Result<std::unique_ptr<RowReader>> open_webp_rows(const std::string& name) {
   if (!bytes) return Error{bytes.error().message};
   const Result<WebpHeader> header = webp_header(*bytes);
   if (!header) return Error{fmt::format("{}: is not a WebP that can be read: {}", name, header.error().message)};
-  return std::unique_ptr<RowReader>(std::make_unique<WebpRows>(name, *std::move(bytes), *header));
+  const int orientation = exif_orientation_of_webp(*bytes);
+  return upright_rows(std::make_unique<WebpRows>(name, *std::move(bytes), *header), orientation, name);
 }
 
 }  // namespace terrella
