@@ -12,6 +12,7 @@
 #include "streaming/cache/cache_report.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/remote/describe_remote.h"
+#include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote_tiff/waiting_raster.h"
 #include "streaming/tiff_open.h"
@@ -66,6 +67,7 @@ Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish)
 
 bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, const HttpOptions& http) {
   if (is_tiff_address(url)) return true;
+  if (is_pmtiles_address(url)) return false;
   const auto address = parse_address(url);
   if (!address || (address->scheme != "http" && address->scheme != "https") || names_its_kind(url)) return false;
   RangeReader reader(url, headers, http, [] { return !StopSignals::came(); });
