@@ -134,14 +134,15 @@ TEST_P(Paper2Sky, IsUnderWhatIsOverTheGroundAndTranslucent) {
   const Picture with = look(*globe, 0.5, true), without = look(*globe, 0.5, false);
   const std::vector<EyeSight> lit = eye_sights(*globe, with), dark = eye_sights(*globe, without);
   const Ecef place = earth().ellipsoid.to_ecef(glass.place);
+  const Ellipsoid beside_limb(earth().ellipsoid.a_m() * (1.0 + kBesideTheLimb), earth().ellipsoid.f());
   for (std::size_t k = 0; k < lit.size(); ++k) {
     const auto px = lit[k].pixel_of(place);
     ASSERT_TRUE(px);
     EXPECT_TRUE(dark[k].sees(dark[k].at(*px), kShadedGlass, 2)) << words_of(dark[k], *px, dark[k].at(*px));
     int brighter = 0;
     for (const glm::ivec2 at : square_around(lit[k], *px)) {
-      // The ground behind is darker through the air.
-      if (pick(lit[k].view, earth().ellipsoid, glm::dvec2(at) + 0.5)) continue;
+      // The ground behind is darker through the air, and so is the limb.
+      if (pick(lit[k].view, beside_limb, glm::dvec2(at) + 0.5)) continue;
       const Color a = lit[k].at(at), b = dark[k].at(at);
       for (std::size_t c = 0; c < 3; ++c) {
         if (!lit[k].channels[c]) continue;
