@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <array>
-#include <iterator>
 #include <utility>
 
 #include "apps/setup/data_dir.h"
@@ -99,9 +98,8 @@ std::optional<NamedPlace> Search::draw_field() {
 std::optional<NamedPlace> Search::draw_found(bool entered) const {
   std::optional<NamedPlace> chosen;
   const auto found = places_->find(text_, kMostFound);
-  for (const NamedPlace* place : found) {
-    const auto number = std::distance(found.data(), &place);
-    if (ImGui::Selectable(fmt::format("{}##{}", full_name(*place), number).c_str())) chosen = *place;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (ImGui::Selectable(fmt::format("{}##{}", full_name(*found[k]), k).c_str())) chosen = *found[k];
   }
   if (found.empty() && !text_.empty()) {
     ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one by --places"

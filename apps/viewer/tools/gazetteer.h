@@ -11,10 +11,10 @@
 namespace terrella {
 
 struct NamedPlace {
-  std::string name;     ///< UTF-8
-  std::string country;  ///< may be empty
-  std::string folded;   ///< name as used in searches: without case and accents
-  Geodetic place;
+  std::string name;          ///< UTF-8
+  std::string country = {};  ///< may be empty
+  std::string folded = {};   ///< name as used in searches: without case and accents
+  Geodetic place = {};
   double people = 0.0;
 };
 
