@@ -210,8 +210,11 @@ Result<MosaicIndex> index_mosaic(const MosaicList& list, const std::string& wher
   MosaicIndex index;
   read_files(list, options, store, index);
   if (index.files.empty()) {
-    return Error{fmt::format("{}: none of its {} files can be shown; the first: {}", where, list.entries.size(),
-                             index.left_out.empty() ? std::string("-") : index.left_out.front())};
+    return Error{
+        fmt::format("{}: none of the {} files that it names can be shown; the first: {}. A folder or a text "
+                    "file must name pictures, one a line: JPEG, PNG, WebP, TIFF; tile sets are folders with "
+                    "tileset.json, GeoPackages, MBTiles and PMTiles",
+                    where, list.entries.size(), index.left_out.empty() ? std::string("-") : index.left_out.front())};
   }
   index.latitude = index.files.front().place.latitude;
   if (Status chosen = choose_pixels(where, options.pixels, index); !chosen) return chosen.error();

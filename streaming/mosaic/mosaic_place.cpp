@@ -22,15 +22,30 @@ constexpr std::array kTurns = {-360.0, 0.0, 360.0};
 
 double overlap(double a0, double a1, double b0, double b1) { return std::min(a1, b1) - std::max(a0, b0); }
 
-/// The outline of a file, as coordinates of its system.
-std::vector<CrsPoint> outline(const MosaicFile& file, const Affine& to_crs) {
-  const auto width = static_cast<double>(file.width_px()), height = static_cast<double>(file.height_px());
+/// The outline of a file, `inset` pixels inside, as coordinates of its system.
+std::vector<CrsPoint> outline(const MosaicFile& file, const Affine& to_crs, double inset) {
+  const double right = static_cast<double>(file.width_px()) - inset,
+               foot = static_cast<double>(file.height_px()) - inset;
+  const auto on_way = [inset](double end, int i) { return inset + (end - inset) * i / kProbes; };
   std::vector<CrsPoint> points;
-  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(width * i / kProbes, 0.0));
-  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(width, height * i / kProbes));
-  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(width * (kProbes - i) / kProbes, height));
-  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(0.0, height * (kProbes - i) / kProbes));
+  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(on_way(right, i), inset));
+  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(right, on_way(foot, i)));
+  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(on_way(right, kProbes - i), foot));
+  for (int i = 0; i < kProbes; ++i) points.push_back(to_crs.at(inset, on_way(foot, kProbes - i)));
   return points;
+}
+
+bool has_place(const RowPlace& place) { return std::isfinite(place.lon_deg) && std::isfinite(place.row_deg); }
+
+/// Places of the outline. Pixels whose middle is a pole reach half a pixel beyond it; there the middle counts.
+std::vector<RowPlace> places_of_outline(const GroundMap& map, const MosaicFile& file, const Affine& to_crs) {
+  std::vector<RowPlace> places = map.places(outline(file, to_crs, 0.0));
+  if (std::ranges::all_of(places, has_place)) return places;
+  const std::vector<RowPlace> middles = map.places(outline(file, to_crs, 0.5));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!has_place(places[k])) places[k] = middles[k];
+  }
+  return places;
 }
 
 bool is_inside(CrsPoint point, const MosaicFile& file, const Affine& t) {
@@ -55,11 +70,10 @@ void add_poles(MosaicBox& box, const GroundMap& map, const MosaicFile& file, con
 }
 
 std::optional<MosaicBox> footprint(const GroundMap& map, const MosaicFile& file, const Affine& to_crs) {
-  const std::vector<RowPlace> places = map.places(outline(file, to_crs));
   MosaicBox box{.west = 1e9, .south = 1e9, .east = -1e9, .north = -1e9};
   std::optional<double> before;
-  for (const RowPlace& place : places) {
-    if (!std::isfinite(place.lon_deg) || !std::isfinite(place.row_deg)) continue;
+  for (const RowPlace& place : places_of_outline(map, file, to_crs)) {
+    if (!has_place(place)) continue;
     double lon = place.lon_deg;
     if (before) lon -= 360.0 * std::round((lon - *before) / 360.0);
     before = lon;

@@ -27,6 +27,7 @@ struct NumberStatistics {
 };
 
 /// Sums up `numbers`, in any order; NaN and infinite numbers have no data. A value is number · scale + offset.
+/// thread: any
 [[nodiscard]] NumberStatistics statistics_of(std::vector<float> numbers, double scale = 1.0, double offset = 0.0);
 
 }  // namespace terrella

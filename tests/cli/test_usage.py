@@ -38,11 +38,14 @@ class Program(ProgramTest):
         self.assert_fails(WRONG_USAGE, "view", "--exageration=2",
                           says=["there is no option --exageration; did you mean --exaggeration?"])
 
-    def test_a_picture_or_tile_set_without_a_subcommand(self):
+    def test_a_picture_or_tile_set_without_a_subcommand_is_viewed(self):
         (self.folder / "tiles").mkdir()
-        for shown in ("picture.jpg", "planet.gpkg", "tiles", "https://tiles.example/{z}/{x}/{y}.jpg"):
+        for shown in ("picture.jpg", "planet.gpkg"):
             with self.subTest(shown):
-                self.assert_fails(WRONG_USAGE, shown, says=[f"to show it: terrella view {shown}"])
+                self.assert_fails(FAILED, shown, says=[f"terrella view: {shown}: no such file"])
+        for shown in ("tiles", "https://tiles.example/{z}/{x}/{y}.jpg"):
+            with self.subTest(shown):
+                self.assert_fails(FAILED, shown, says=["terrella view: cannot open a window: no display"])
 
     def test_an_argument_too_many(self):
         self.assert_fails(WRONG_USAGE, "info", "a.gpkg", "b.gpkg", says=["unexpected argument b.gpkg"])

