@@ -46,7 +46,7 @@ class Light(ProgramTest):
                           says=["--inner-sphere-color", "darkish", "#"])
 
     def test_an_unlit_picture_is_magnified_bilinearly_unless_told_otherwise(self):
-        near = ("--camera", "10,20,50000", "--unlit")
+        near = ("--unlit",)
         self.assertEqual(self.picture(*near), self.picture(*near, "--magnify", "bilinear"))
         self.assert_fails(WRONG_USAGE, "render", "sea.gpkg", *SMALL, "--magnify", "sharp", says=["--magnify", "bicubic"])
         self.assert_fails(WRONG_USAGE, "render", "sea.gpkg", *SMALL, "--cloud-height", "-1", says=["--cloud-height"])

@@ -154,7 +154,7 @@ class ProgramKeepsSecretsTest(SecretsTest):
         self.keeps(WRONG_USAGE, "render", source, "-o", "a.png", "--heder", f"X-Key: {HEADER}", says=["--heder"])
         self.keeps(WRONG_USAGE, "render", source, "-o", "a.png", f"--heder=X-Key: {HEADER}", says=["--heder"])
         self.keeps(WRONG_USAGE, "render", "-o", "a.png", "--overlay", f"{source}:7", says=["opacity"])
-        self.keeps(WRONG_USAGE, source)
+        self.keeps(FAILED, source)
         self.keeps(WRONG_USAGE, "render", source, "-o", "a.png", "--header", f"X Key: {HEADER}", says=["Name: value"])
         self.keeps(FAILED, "render", source.replace("{z}", ""), "-o", "a.png", says=["{z}"])
         self.keeps(FAILED, "render", source.replace(PASSWORD, f"a/{PASSWORD}?{PASSWORD}"), "-o", "a.png")

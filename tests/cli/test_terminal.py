@@ -96,7 +96,7 @@ class TerminalTest(ProgramTest):
         self.speaks("info", name, codes=(1,))
         self.speaks("cut", name, "-o", "a.gpkg", codes=(1,))
         self.speaks("render", name, name, "-o", "a.png", codes=(2,))
-        self.speaks(name, codes=(2,))
+        self.speaks(name, codes=(1,))
         (self.folder / "\x1b[2J.jpg").symlink_to(SOURCE / "data/earth/blue_marble_4096x2048.jpg")
         self.speaks("render", "\x1b[2J.jpg", "-o", "\x1b[3J.png", *VIEW)
         self.speaks("cut", "\x1b[2J.jpg", "-o", "\x1b[3J.gpkg", "--quality", "30")
