@@ -15,9 +15,11 @@ using GeographicLib::DMS;
 
 std::optional<double> read_degrees(std::string_view text, DMS::flag axis) {
   if (const auto plain = read_number(text)) return plain;
+  std::string packed(text);
+  std::erase(packed, ' ');
   try {
     DMS::flag found = DMS::NONE;
-    const double degrees = DMS::Decode(std::string(trimmed(text)), found);
+    const double degrees = DMS::Decode(packed, found);
     const bool fits = std::isfinite(degrees) && (found == DMS::NONE || found == axis);
     return fits ? std::optional(degrees) : std::nullopt;
   } catch (const GeographicLib::GeographicErr&) {
@@ -63,7 +65,8 @@ std::optional<Geodetic> read_place(std::string_view text) {
   const auto parts = halves(text);
   if (!parts) return {};
   auto lat = read_latitude_deg(parts->first), lon = read_longitude_deg(parts->second);
-  if (!lat || !lon) lat = read_latitude_deg(parts->second), lon = read_longitude_deg(parts->first);
+  const bool named = text.find_first_of("NSEWnsew") != text.npos;
+  if (named && (!lat || !lon)) lat = read_latitude_deg(parts->second), lon = read_longitude_deg(parts->first);
   if (!lat || !lon) return {};
   return Geodetic{.lat = Angle::degrees(*lat), .lon = Angle::degrees(std::remainder(*lon, 360.0))};
 }

@@ -208,10 +208,10 @@ class HeightsFromServer(ProgramTest):
             self.assert_fails(FAILED, "render", "sea.gpkg", "--elevation", heights, *self.VIEW, says=[heights, *cure])
             self.assertEqual(server.requests(), [])
 
-    def test_heights_named_as_imagery_are_refused(self):
+    def test_heights_named_as_imagery_are_drawn_in_colours(self):
         with servers.nginx(self.relief) as server:
-            self.assert_fails(FAILED, "render", self.describe(server.template), "-o", "out.png",
-                              says=["heights.json", "heights, not pictures", "--elevation"])
+            drawn = self.assert_done("render", self.describe(server.template), "-o", "out.png")
+        self.assertIn("heights.json: numbers in the colours of viridis", drawn.stderr)
 
     def test_missing_tiles_are_counted_and_named(self):
         finest = max(int(folder.name) for folder in self.relief.iterdir() if folder.is_dir())

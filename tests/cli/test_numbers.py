@@ -179,7 +179,8 @@ class Kept(NumbersTest):
         self.assertIn("statistics   -2.02", text)
         self.raster("in.tif", "Int16", lambda x, y, b: 10 * (b + 1), "-a_scale", "0.5", bands=3)
         told = json.loads(self.assert_done("info", "in.tif", "--band", "2", "--json").stdout)
-        self.assertEqual((told["scale"], told["statistics"]["mean"]), (0.5, 10.0))
+        self.assertEqual(told["scale"], 0.5)
+        self.assertAlmostEqual(told["statistics"]["mean"], 10.0, places=9)
 
 
 class Refused(NumbersTest):

@@ -113,7 +113,9 @@ TEST_F(Elevation, GdalReadsTheHeightsOfA16BitPng) {
   const auto heights = random_heights<std::uint16_t>(64, 32, 0, 65535);
   write_gray_png(folder_ / "in.png", heights);
   ASSERT_TRUE(must_cut(options("in.png", {.scale = 0.5, .offset = -10000.0})));
-  EXPECT_EQ(described(), (NumberInfo{.scale = 0.5, .offset = -10000.0, .nodata = {}, .whole = k16Bits}));
+  EXPECT_EQ(described(),
+            (NumberInfo{
+                .scale = 0.5, .offset = -10000.0, .nodata = {}, .whole = k16Bits, .unit = "m", .quantity = "height"}));
   for (const auto& [x, y] : {std::pair{0, 0}, std::pair{63, 31}, std::pair{17, 20}, std::pair{40, 3}}) {
     EXPECT_EQ(by_gdal(x, y), heights.at(x, y) * 0.5 - 10000.0) << x << " " << y;
   }
@@ -140,7 +142,10 @@ TEST_F(Elevation, SignedAndFloatTiffsGiveMetres) {
   for (const bool tiled : {false, true}) {
     write_height_tiff(folder_ / "in.tif", whole, SAMPLEFORMAT_INT, tiled);
     ASSERT_TRUE(must_cut(options("in.tif")));
-    EXPECT_EQ(described(), (NumberInfo{.scale = 1.0, .offset = -32768.0, .nodata = {}, .whole = k16Bits}));
+    EXPECT_EQ(
+        described(),
+        (NumberInfo{
+            .scale = 1.0, .offset = -32768.0, .nodata = {}, .whole = k16Bits, .unit = "m", .quantity = "height"}));
     EXPECT_EQ(by_gdal(40, 3), whole.at(40, 3));
   }
   const auto real = random_heights<float>(64, 32, -11000.0, 8848.0);
@@ -202,7 +207,8 @@ TEST_F(Elevation, FoldersSayTheSame) {
   EXPECT_EQ(described(), described("tiles"));
   std::ifstream text(folder_ / "tiles/tileset.json");
   const auto json = nlohmann::json::parse(text);
-  EXPECT_EQ(json["elevation"], (nlohmann::json{{"scale", 0.1}, {"offset", -500.0}, {"nodata", 7}}));
+  EXPECT_EQ(json["elevation"],
+            (nlohmann::json{{"scale", 0.1}, {"offset", -500.0}, {"nodata", 7}, {"unit", "m"}, {"quantity", "height"}}));
   EXPECT_EQ(json["format"], "png");
   EXPECT_TRUE(all_tiles(folder_ / "out.gpkg") == all_tiles(folder_ / "tiles"));
 }

@@ -63,7 +63,7 @@ TEST(HeightDecoder, ColoursAreTerrainRgbOrTerrarium) {
   ASSERT_TRUE(mapbox) << mapbox.error().why;
   EXPECT_NEAR(mapbox->heights_m[0], 0.0F, 1e-3);
   EXPECT_NEAR(mapbox->heights_m[1], 0.1F, 1e-3);
-  EXPECT_NEAR(mapbox->heights_m[2], 8770.0F, 1e-3);  // 2 · 65536 + 221 · 256 + 60 = 187708
+  EXPECT_NEAR(mapbox->heights_m[2], 8770.8F, 1e-3);  // 2 · 65536 + 221 · 256 + 60 = 187708
   EXPECT_EQ(mapbox->unknown, 1U);
   for (int i = 0; i < kSide_px * kSide_px; ++i) paint(i, {128, 0, 0, 255});
   paint(1, {162, 145, 128, 255});

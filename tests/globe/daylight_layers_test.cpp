@@ -145,9 +145,10 @@ TEST_F(DaylightLayers, ByDayAPlainLayerByNightNothingAndTheOtherWayRoundByItsOwn
       globe->set_unlit(false);
       const Picture bare = with_look(*globe, layer, {.shown = false});
       judged += expect_sides(*globe, with_look(*globe, layer, {.daylight = Daylight::day}), plain, bare);
+      if (options.sky) continue;  // air lies before the lamps, which dims their own light
       judged += expect_sides(*globe, with_look(*globe, layer, {.daylight = Daylight::night}), bare, own_light);
     }
-    EXPECT_GT(judged, 12000);
+    EXPECT_GT(judged, options.sky ? 6000 : 12000);
   }
 }
 

@@ -53,7 +53,8 @@ class Programs : public GlTest {
     return all;
   }
   static Names plain() {
-    return {"limb.frag", "patch_magnified.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
+    return {"limb.frag",          "limb_air.frag",    "patch_magnified.frag",
+            "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
   }
 };
 

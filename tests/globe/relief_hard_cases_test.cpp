@@ -181,13 +181,14 @@ TEST_F(ReliefHardCases, TwoSurfacesAMetreApartSeenFromAThousandKilometresDoNotFl
   }
 }
 
-TEST_F(ReliefHardCases, SkyAndStarsChangeNothingOfWhatStandsBeforeThem) {
+TEST_F(ReliefHardCases, StarsChangeNothingOfWhatStandsBeforeThem) {
   constexpr Viewport kSize{128, 128};
-  const auto draw_with_sky = [&](bool sky, const Camera& camera) {
+  // Air lies before all, in both pictures; stars lie behind all.
+  const auto draw = [&](bool sky, bool stars, const Camera& camera) {
     GlobeOptions options;
     options.exaggeration = kExaggeration;
     options.sky = sky;
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; stars && k < 2000; ++k) {
       const double z = 1.0 - 2.0 * (k + 0.5) / 2000.0, turn = 2.4 * k, r = std::sqrt(1.0 - z * z);
       options.stars.push_back({.direction_j2000 = {r * std::cos(turn), r * std::sin(turn), z},
                                .magnitude = 1.0F,
@@ -209,22 +210,23 @@ TEST_F(ReliefHardCases, SkyAndStarsChangeNothingOfWhatStandsBeforeThem) {
     return picture();
   };
   for (const Camera& camera : {camera_at(12, 25, 1.2 * kTop_m, 90, -8, 60), camera_at(12, 25, 2.0e6, 90, -50, 60)}) {
-    const Picture without = draw_with_sky(false, camera), with = draw_with_sky(true, camera);
+    const Picture bare = draw(false, false, camera), without = draw(true, false, camera),
+                  with = draw(true, true, camera);
     int before_sky = 0, changed = 0, sky = 0;
     for (int y = 1; y + 1 < kSize.height_px; ++y) {
       for (int x = 1; x + 1 < kSize.width_px; ++x) {
         const Color a = without.at(x, y), b = with.at(x, y);
-        const bool something = a != Color{0, 0, 0};
+        const bool something = bare.at(x, y) != Color{0, 0, 0};
         // The soft edge of a sphere takes a part of what lies behind it.
         bool inside = something;
-        for (int n = 0; n < 9; ++n) inside = inside && without.at(x + n % 3 - 1, y + n / 3 - 1) != Color{0, 0, 0};
+        for (int n = 0; n < 9; ++n) inside = inside && bare.at(x + n % 3 - 1, y + n / 3 - 1) != Color{0, 0, 0};
         before_sky += inside ? 1 : 0;
         changed += inside && a != b ? 1 : 0;
-        sky += !something && b != Color{0, 0, 0} ? 1 : 0;
+        sky += !something && a != b ? 1 : 0;
       }
     }
     EXPECT_GT(before_sky, 3000);
-    EXPECT_GT(sky, 500) << "no sky in the picture: nothing was tested";
+    EXPECT_GT(sky, 100) << "no stars in the picture: nothing was tested";
     EXPECT_EQ(changed, 0);
   }
 }

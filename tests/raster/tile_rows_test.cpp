@@ -179,7 +179,7 @@ TEST(WidePictureTest, RowsOfTilesFitIntoTheirPart) {
   constexpr long kMost_KiB = 64L << 10;
   TileSetInfo info = half_degree(rect(-180.0, 88.0, 180.0, 90.0));
   info.grid.tile_px = tile_side_for_rows(kPlanetWidth);
-  EXPECT_EQ(info.grid.tile_px, 128);
+  EXPECT_EQ(info.grid.tile_px, 64);
   info.grid.max_level = 10;
   info.grid.root_span_deg = 360.0 / kPlanetWidth * info.grid.tile_px * 1024;
   const pid_t child = fork();

@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 TEST(LegendTicks, AreRoundAndInside) {
-  EXPECT_EQ(legend_ticks(-1.8, 28.9, 6), (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(legend_ticks(-1.8, 28.9, 6), (std::vector<double>{0, 5, 10, 15, 20, 25}));
   EXPECT_EQ(legend_ticks(0.0, 1.0, 6), (std::vector<double>{0.0, 0.2, 0.4, 0.2 * 3, 0.8, 1.0}));
   EXPECT_EQ(legend_ticks(1000.0, 3520.0, 6), (std::vector<double>{1000, 1500, 2000, 2500, 3000, 3500}));
   for (const double size : {1e-9, 0.03, 7.0, 123456.0, 4e12}) {
