@@ -201,9 +201,10 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option("image", command->images,
-                 "A picture, the parts of one, a folder or list of rasters, or the address of a tiled TIFF. Pictures are "
-                 "JPEG, PNG, WebP, TIFF or BigTIFF")
+  sub.add_option(
+         "image", command->images,
+         "A picture, the parts of one, a folder or list of rasters, or the address of a tiled TIFF. Pictures are "
+         "JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")

@@ -147,7 +147,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("info", "Show a tile set's contents or a picture's georeference, and check them");
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("TILESET", options->tile_set, "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles or a picture")
+  command
+      ->add_option("TILESET", options->tile_set,
+                   "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles or a picture")
       ->required();
   add_place_options(*command, options->place);
   command->add_option("--band", options->band.band, "Describe this band of a TIFF, counted from 1")
