@@ -49,8 +49,9 @@ void sum_rows(const Canvas<kChannels>& canvas, const Taps& taps, std::vector<flo
 /// `kTaps` is the number of taps, if the compiler is to know it; otherwise 0.
 template <std::size_t kChannels, std::size_t kTaps>
 void sum_column(const std::vector<float>& sums, const Taps& taps, float* out) {
-  const float* from = sums.data() + static_cast<std::size_t>(taps.first) * kChannels;
   const std::size_t count = kTaps > 0 ? kTaps : taps.weights.size();
+  // Taps of a column beside the raster are none, and begin anywhere.
+  const float* from = sums.data() + (count > 0 ? static_cast<std::size_t>(taps.first) * kChannels : 0);
   typename Lanes<kChannels>::Vector sum{};
   for (std::size_t k = 0; k < count; ++k) sum += taps.weights[k] * load<kChannels>(from + k * kChannels);
   std::memcpy(out, &sum, sizeof(sum));
