@@ -148,8 +148,8 @@ Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOpt
   const bool needed = needs_statistics(options);
   if (needed || wants_statistics) {
     auto sampled = sample_tiles(*layer.tiles);
-    if (sampled) facts.statistics = *std::move(sampled);
     if (!sampled && needed) return Error{fmt::format("{}: {}", name, sampled.error().message)};
+    if (sampled) facts.statistics = *std::move(sampled);
   }
   const NumberStatistics known = facts.statistics.value_or(NumberStatistics{});
   const StretchRule rule = options.stretch.empty() ? StretchRule{} : options.stretch.front();
