@@ -48,6 +48,8 @@ struct CutBands {
   std::array<std::optional<StretchRule>, 3> stretch{};  ///< none: 8 bits as they are, else percent:2,98
   std::optional<double> nodata = {};                    ///< transparent where all three bands have it
 };
+/// The same bands as a raster's reader takes them. thread: any
+[[nodiscard]] BandComposite composite_of(const CutBands& bands);
 
 /// One of `count` machines that cut the same picture together.
 struct CutShard {

@@ -16,6 +16,7 @@
 #include "base/number.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
+#include "streaming/remote/web_address.h"
 
 namespace terrella {
 namespace {
@@ -89,11 +90,10 @@ void print_summary(const CutCommand& command, const CutSummary& summary) {
                grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6);
 }
 
-bool is_web_address(const std::string& image) { return image.starts_with("http://") || image.starts_with("https://"); }
-
 /// Replaces the address of a TIFF on a server by its raster.
 Status open_address(CutCommand& command) {
-  if (std::ranges::none_of(command.images, is_web_address)) return Done{};
+  const auto is_address = [](const std::string& image) { return is_from_network(Url(image)); };
+  if (std::ranges::none_of(command.images, is_address)) return Done{};
   const Url url(command.images.front());
   if (command.images.size() > 1) return Error{"an address is cut alone; download the parts of a picture first"};
   if (command.elevation) {

@@ -58,7 +58,7 @@ std::string system_text(const PictureFacts& facts) {
 std::string said_text(const PictureFacts& facts) {
   std::string text = fmt::format("raster type  {}\n", facts.said->pixel_is_point ? "pixel is point" : "pixel is area");
   if (const auto& t = facts.said->transform) {
-    text += fmt::format("transform    corner at ({:.12g}, {:.12g}), pixels of {:.7g} by {:.7g}{}\n", t->x0, t->y0,
+    text += fmt::format("transform    corner at ({:.12g}, {:.12g}), pixels of {:.9g} by {:.9g}{}\n", t->x0, t->y0,
                         std::hypot(t->x_per_column, t->y_per_column), std::hypot(t->x_per_row, t->y_per_row),
                         t->is_turned() ? ", turned" : "");
   }
@@ -79,7 +79,7 @@ std::string place_lines(const PictureFacts& facts) {
         fmt::format("corners      {:.12g} to {:.12g}, {:.12g} to {:.12g} {}\n", b.west, b.east, b.south, b.north, unit);
   }
   if (const auto& b = facts.bounds_deg) {
-    text += fmt::format("bounds       west {:.7g}°, south {:.7g}°, east {:.7g}°, north {:.7g}°\n",
+    text += fmt::format("bounds       west {:.9g}°, south {:.9g}°, east {:.9g}°, north {:.9g}°\n",
                         without_dust(b->west), without_dust(b->south), without_dust(b->east), without_dust(b->north));
   }
   if (const auto& p = facts.pixel) {
@@ -105,9 +105,9 @@ std::string raster_lines(const RasterFacts& raster) {
   }
   text += fmt::format("overviews    {}\n", sizes.empty() ? "(none)" : sizes);
   if (raster.has_mask) text += "mask         yes\n";
-  if (raster.nodata) text += fmt::format("no data      {:.7g}\n", *raster.nodata);
+  if (raster.nodata) text += fmt::format("no data      {:.9g}\n", *raster.nodata);
   if (raster.scale != 1.0 || raster.offset != 0.0 || !raster.unit.empty()) {
-    text += fmt::format("values       number * {:.7g} + {:.7g}{}{}\n", raster.scale, raster.offset,
+    text += fmt::format("values       number * {:.9g} + {:.9g}{}{}\n", raster.scale, raster.offset,
                         raster.unit.empty() ? "" : " ", one_line(raster.unit));
   }
   if (raster.statistics) text += statistics_line(*raster.statistics);

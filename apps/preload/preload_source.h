@@ -26,7 +26,7 @@ struct PreloadSource {
   std::function<Result<std::shared_ptr<const TilePlan>>(const TilePlan& tiles)> plan_parts = {};
 };
 
-/// What a TIFF on a server needs besides the options of other sources.
+/// Options of a TIFF on a server, besides those of all sources.
 struct PreloadTiff {
   std::filesystem::path cache;    ///< keeps the directories; empty: none
   std::size_t cache_size_mb = 0;  ///< 0: no limit

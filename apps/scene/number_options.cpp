@@ -65,8 +65,7 @@ void add_colormap_option(CLI::App& command, NumberOptions& options) {
             options.colormap = text;
           },
           "Colour a raster of numbers: viridis, magma, cividis, grey, terrain, diverging, or a file in the text form "
-          "of "
-          "gdaldem color-relief. NAME:CENTRE sets the value in the middle of terrain and diverging (default: 0). "
+          "of gdaldem color-relief. NAME:CENTRE sets the value in the middle of terrain and diverging (default: 0). "
           "Rasters of 16 bits and of floats are coloured anyway, others if this is given (default: viridis)")
       ->type_name("NAME|FILE")
       ->excludes(command.get_option("--bands"));
@@ -86,17 +85,12 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
             }
           },
           "Show the numbers of this band of a TIFF, counted from 1. With --texturing paper, a fraction from 0.001 to "
-          "0.5 "
-          "is the width b of the pole bands (default: 0.05)")
+          "0.5 is the width b of the pole bands (default: 0.05)")
       ->type_name("N");
   add_stretch_options(command, options);
   add_colormap_option(command, options);
   command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
       ->type_name("VALUE");
-}
-
-bool reads_numbers(const NumberOptions& options, const std::filesystem::path& raster) {
-  return !options.bands && (options.ask_for_numbers() || holds_numbers(raster));
 }
 
 void set_numbers(CutOptions& cut, const NumberOptions& options, const std::filesystem::path& raster) {
@@ -110,21 +104,17 @@ void set_numbers(CutOptions& cut, const NumberOptions& options, const std::files
   }
 }
 
-void set_numbers(RasterOptions& reading, const NumberOptions& options, const std::filesystem::path& raster) {
-  CutOptions cut;
-  set_numbers(cut, options, raster);
-  reading.nodata = options.nodata;
+void set_numbers(RasterOptions& reading, const CutOptions& cut) {
   if (cut.numbers) {
+    reading.nodata = cut.numbers->nodata;
     reading.heights = true;
     reading.stored = true;
     // Several bands are gray pictures too, and the first of them is shown.
     reading.band = cut.numbers->band;
   }
   if (!cut.composite) return;
-  reading.composite = BandComposite{.bands = {}, .stretch = cut.composite->stretch};
-  for (std::size_t c = 0; c < 3; ++c) {
-    reading.composite->bands[c] = static_cast<std::size_t>(cut.composite->bands[c] - 1);
-  }
+  reading.nodata = cut.composite->nodata;
+  reading.composite = composite_of(*cut.composite);
 }
 
 }  // namespace terrella

@@ -43,12 +43,10 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
 /// A band's number, a whole number from 1 on. thread: any
 [[nodiscard]] std::optional<int> band_number(std::string_view text);
 
-/// True if the raster is read as numbers: the options ask for it, or holds_numbers(). Blocks. thread: any
-[[nodiscard]] bool reads_numbers(const NumberOptions& options, const std::filesystem::path& raster);
-
-/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for, or to the
-/// reader of a raster that is shown directly. Blocks. thread: any
+/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for. Blocks.
+/// thread: any
 void set_numbers(CutOptions& cut, const NumberOptions& options, const std::filesystem::path& raster);
-void set_numbers(RasterOptions& reading, const NumberOptions& options, const std::filesystem::path& raster);
+/// Makes the reader of a raster that is shown directly read what a cut would. thread: any
+void set_numbers(RasterOptions& reading, const CutOptions& cut);
 
 }  // namespace terrella

@@ -16,7 +16,7 @@
 
 namespace terrella {
 
-/// What a layer of numbers shows, beside its look: for legends and panels.
+/// Facts about a layer of numbers for legends and panels, beside its look.
 struct NumberFacts {
   std::string colormap;                        ///< as --colormap states it
   std::string unit, quantity;                  ///< empty: unknown
@@ -50,13 +50,6 @@ struct ImageryLayer {
 /// Makes the layer of tiles that are open already. `wants_statistics`: for a panel with a histogram. thread: any
 [[nodiscard]] Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOptions& options,
                                             const std::string& name, bool wants_statistics);
-
-/// A layer of numbers by its name, for a legend.
-struct NamedNumbers {
-  std::string name;
-  NumberFacts facts;
-  NumberLook look;
-};
 
 /// Makes a globe with the layer at the bottom. thread: that of the OpenGL context
 [[nodiscard]] Result<std::unique_ptr<Globe>> create_globe(const GlobeOptions& options, const ImageryLayer& base,

@@ -118,7 +118,7 @@ Result<DirectFile> open_in_place(const fs::path& picture, const SceneOptions& op
   if (!grid) return grid.error();
   if (*grid) (*grid)->reduced = false;
   DirectOptions direct{cut.body, options.latitude, options.place, *grid, {}};
-  set_numbers(direct.reading, options.numbers, picture);
+  set_numbers(direct.reading, cut);
   return open_direct(picture, direct);
 }
 

@@ -57,7 +57,7 @@ class ImageLayer {
   [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
   [[nodiscard]] bool has_numbers() const { return gpu_.numbers.has_value(); }
-  /// Where its tiles come from; null: plain.
+  /// The source of the tiles; null: plain.
   [[nodiscard]] const std::shared_ptr<TileSource>& source() const { return source_; }
   /// See Globe::value_at(); only for a layer of numbers.
   [[nodiscard]] std::optional<LayerValue> value_at(const Geodetic& place) const;

@@ -112,17 +112,26 @@ RowRange rows_of_band(const BandWork& work, std::int64_t band) {
   return {std::max(px.y0, top) - px.y0, std::min(px.y1, top + work.layout.band_rows) - px.y0};
 }
 
-/// Tells of the tiles of a finished band.
-Status tell_tiles(const BandWork& work, const fs::path& path) {
-  if (!work.tile_made) return Done{};
+/// Calls `visit` for each record of a file, until one fails.
+template <class Visit>
+Status for_each_record(const fs::path& path, const Visit& visit) {
   auto log = RecordLogReader::open(path);
   if (!log) return log.error();
   while (true) {
     const auto record = log->next();
     if (!record) return record.error();
     if (!*record) return Done{};
-    work.tile_made({(*record)->id, path, (*record)->offset, (*record)->bytes.size()});
+    if (Status visited = visit(**record); !visited) return visited;
   }
+}
+
+/// Tells of the tiles of a finished band.
+Status tell_tiles(const BandWork& work, const fs::path& path) {
+  if (!work.tile_made) return Done{};
+  return for_each_record(path, [&](const auto& record) -> Status {
+    work.tile_made({record.id, path, record.offset, record.bytes.size()});
+    return Done{};
+  });
 }
 
 Status make_band(const BandWork& work, RowReader& reader, std::int64_t band, StripPool& strips, const fs::path& files) {
@@ -157,15 +166,11 @@ bool is_made(const fs::path& files) {
 }
 
 Status copy_tiles(const fs::path& path, TileWriter& writer, TileCounts& counts) {
-  auto log = RecordLogReader::open(path);
-  if (!log) return log.error();
-  while (true) {
-    const auto record = log->next();
-    if (!record) return record.error();
-    if (!*record) return Done{};
-    if (Status put = writer.put((*record)->id, (*record)->bytes); !put) return put;
-    counts.add((*record)->id, (*record)->bytes.size());
-  }
+  return for_each_record(path, [&](const auto& record) -> Status {
+    if (Status put = writer.put(record.id, record.bytes); !put) return put;
+    counts.add(record.id, record.bytes.size());
+    return Done{};
+  });
 }
 
 Status put_rows(const fs::path& path, const std::vector<std::unique_ptr<Pyramid>>& pyramids,

@@ -16,9 +16,9 @@
 
 namespace terrella {
 
-/// What is kept of a mosaic in the cache folder: facts from the headers of its files, and the overview of the whole.
-/// Several processes may use one file. Whatever cannot be read or written counts as missing, because everything in it
-/// can be made again. thread: any, several at once
+/// The part of a mosaic that the cache folder keeps: facts from the headers of its files, and the overview of the
+/// whole. Several processes may use one file. Whatever cannot be read or written counts as missing, because everything
+/// in it can be made again. thread: any, several at once
 class MosaicStore {
  public:
   /// The error says why the file can neither be opened nor made.

@@ -55,11 +55,6 @@ Kind kind_of_document(std::string_view text) {
   return root == "Capabilities" || root == "ExceptionReport" ? Kind::wmts : Kind::unknown;
 }
 
-bool is_from_network(const Url& address) {
-  const std::string lowered = lower_case(address.with_secrets().substr(0, 8));
-  return lowered.starts_with("http://") || lowered.starts_with("https://");
-}
-
 /// True if `other` has the scheme, host and port for which headers were given. Another port may belong to another
 /// owner.
 bool may_have_headers(const Url& given_for, const Url& other) {

@@ -54,6 +54,11 @@ bool has_scheme(std::string_view text) {
                      [](char c) { return is_plain(c) || c == '+'; });
 }
 
+bool is_from_network(const Url& address) {
+  const std::string lowered = lower_case(address.with_secrets().substr(0, 8));
+  return lowered.starts_with("http://") || lowered.starts_with("https://");
+}
+
 bool same_letters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
 }

@@ -23,6 +23,9 @@ struct WebAddress {
 /// True for text that begins like "scheme://". thread: any
 [[nodiscard]] bool has_scheme(std::string_view text);
 
+/// True for an address of http:// or https://. thread: any
+[[nodiscard]] bool is_from_network(const Url& address);
+
 /// Compares two texts, ignoring the case of ASCII letters. thread: any
 [[nodiscard]] bool same_letters(std::string_view a, std::string_view b);
 [[nodiscard]] std::string lower_case(std::string_view text);

@@ -1,4 +1,4 @@
-// What a layer of numbers costs beside the picture of the same numbers: frames in turn in one run, and bytes.
+// Measures a layer of numbers beside the picture of the same numbers: frames in turn in one run, and bytes.
 
 #include <fmt/format.h>
 

@@ -98,7 +98,7 @@ class ManyFiles(ProgramTest):
 
     def test_nothing_that_can_be_read(self):
         (self.cells / "readme.tif").write_text("no raster")
-        self.assert_fails(FAILED, "render", "cells", "-o", "out.png", says=["cells: none of its 1 files", "readme.tif"])
+        self.assert_fails(FAILED, "render", "cells", "-o", "out.png", says=["cells: none of the 1 files", "readme.tif"])
         self.assert_nothing_but("base.ppm", "cells", "whole.tif")
 
     def test_a_place_for_many_files_is_refused(self):

@@ -40,7 +40,7 @@ Image waves(int width_px, int height_px) {
   });
 }
 
-/// Of the colours as they show: where nothing shows, any colour is stored.
+/// RMS difference of two pictures as they show. Transparent pixels count as equal, whatever colour they store.
 double rms(const Image& a, const Image& b) {
   EXPECT_EQ(a.rgba.size(), b.rgba.size());
   double sum = 0.0;
@@ -72,7 +72,7 @@ class GrowingCutTest : public testing::Test {
     while (!cut.state().ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_FALSE(cut.state().error) << cut.state().error->message;
   }
-  /// What an earlier cut has left beside its output.
+  /// The unfinished work of an earlier cut, beside its output.
   [[nodiscard]] fs::path left_over() const {
     for (const std::string& name : folder_.names()) {
       if (name.starts_with(".") && name.ends_with(".part")) return folder_ / name;

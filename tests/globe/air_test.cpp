@@ -16,11 +16,11 @@ namespace {
 
 constexpr Viewport kSize{96, 72};
 constexpr const char* kTime = "2026-03-20T14:46:00Z";  // the Sun stands over the equator
-// What a viewer can just tell, over all pixels of all views. Of one view, four times that.
+// Limits of the RMS difference: over all views, the least that a person can tell, and in one view.
 constexpr double kAll_levels = 2.0, kOne_levels = 5.0;
 constexpr double kSunGlow_rad = 0.055;  // ten radii of the Sun's disc, and a pixel
 
-/// Where an eye is, which way it looks, and how high the Sun stands over it.
+/// An eye's height and direction, and the height of the Sun over it.
 struct AirView {
   double height_m, sun_deg, azimuth_deg, pitch_deg, fov_deg;
 };

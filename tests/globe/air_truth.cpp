@@ -20,7 +20,7 @@ struct Crossing {
   double first, last;
 };
 
-// Where a ray crosses the ellipsoid raised by a height: distances, which may be negative.
+// Crossings of a ray with the ellipsoid raised by a height: distances, which may be negative.
 std::optional<Crossing> crossing(const Ellipsoid& e, double height_m, const glm::dvec3& from, const glm::dvec3& ray) {
   const glm::dvec3 axes(e.a_m() + height_m, e.a_m() + height_m, e.b_m() + height_m);
   const glm::dvec3 p = from / axes, d = ray / axes;

@@ -20,7 +20,8 @@ class AirTruth {
  public:
   AirTruth(const Atmosphere& air, const Ellipsoid& body);
 
-  /// What an eye sees along a ray, stored colour 0...255: sky on black, or ground of that stored colour in full light.
+  /// The colour that an eye sees along a ray, as stored, 0...255: sky on black, or ground of that stored colour in full
+  /// light.
   [[nodiscard]] glm::dvec3 color(const glm::dvec3& eye_m, const glm::dvec3& ray, const glm::dvec3& sun,
                                  double ground_srgb) const;
 

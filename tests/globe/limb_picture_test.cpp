@@ -65,7 +65,7 @@ LimbRows left_limb(const Levels& p, const std::vector<int>& begins, int channel)
   return rows;
 }
 
-/// Where the globe begins in the rows of a picture.
+/// The first column of the globe in each row of a picture.
 std::vector<int> begins_of(const Levels& p) {
   std::vector<int> begins;
   for (int y = p.height / 5; y < p.height * 4 / 5; ++y) {

@@ -73,8 +73,7 @@ class Paper2Sky : public GlTest, public testing::WithParamInterface<Stereo> {
   }
   [[nodiscard]] static Viewport size() { return picture_size(GetParam(), kSkyPicture); }
 
-  /// How many pixels of the globe its stars change, for each eye. The air before the ground changes them too, so that
-  /// the other globe has air and no stars.
+  /// Counts the pixels of the globe that its stars change, for each eye. The other globe has air too, and no stars.
   std::vector<int> changed_inside(Globe& globe, Globe& starless, double alpha) {
     const Picture with = look(globe, alpha, true), without = look(starless, alpha, true);
     const std::vector<EyeSight> lit = eye_sights(globe, with), dark = eye_sights(globe, without);

@@ -93,7 +93,7 @@ TEST_F(SurfaceLight, TheSeaMirrorsTheSunWhereAMirrorWouldAndLandDoesNot) {
     draw(*globe, kLightPicture);
     const Picture without = picture();
     const View view = globe->view(kLightPicture);
-    // Where the normal halves the angle between Sun and eye.
+    // The glint is brightest where the normal halves the angle between Sun and eye.
     const glm::dvec3 sun = almanac_at(noon())->sun.xyz;
     int most = 0;
     double tilt_deg = 180.0;

@@ -47,7 +47,7 @@ std::vector<Place> places() {
   return made;
 }
 
-/// What GDAL reads at each place; NaN beside the raster.
+/// GDAL's value at each place; NaN beside the raster.
 std::vector<double> by_gdal(const fs::path& raster, const std::vector<Place>& at, const fs::path& folder) {
   std::ofstream points(folder / "points.txt");
   for (const Place& place : at) points << fmt::format("{:.12f} {:.12f}\n", place.lon_deg, place.lat_deg);

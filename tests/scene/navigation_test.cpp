@@ -7,58 +7,13 @@
 #include <limits>
 
 #include "geo/body.h"
+#include "tests/scene/navigation_hand.h"
 #include "tests/scene/patch_test_support.h"
 #include "view/ground_frame.h"
 #include "view/view_limits.h"
 
-namespace terrella {
+namespace terrella::test {
 namespace {
-
-using test::camera_at;
-
-constexpr double kHeld_px = 0.05;      // a twentieth of what the issue asks
-constexpr double kArrived_deg = 1e-6;  // 0.1 m on Earth
-constexpr double kFrame_s = 1.0 / 60.0;
-constexpr Viewport kViewport{1024, 768};
-constexpr glm::dvec2 kCentre(512.0, 384.0);
-
-/// A navigator of Earth with a hand and a clock.
-struct Hand {
-  explicit Hand(const Camera& start) : navigator(start, earth().ellipsoid, kViewport) {}
-
-  Ecef under(glm::dvec2 px) const {
-    const Grab held = grab(make_view(navigator.camera(), earth().ellipsoid, kViewport), earth().ellipsoid, px);
-    EXPECT_TRUE(held.on_surface);
-    return held.point;
-  }
-  double miss_px(const Ecef& point, glm::dvec2 px) const {
-    const auto seen = project(make_view(navigator.camera(), earth().ellipsoid, kViewport), point);
-    return seen ? glm::distance(*seen, px) : HUGE_VAL;
-  }
-  /// Drags in 20 steps and rests before letting go, so that nothing glides on.
-  void drag(glm::dvec2 from, glm::dvec2 to, PointerButton button = PointerButton::left, bool ctrl = false) {
-    navigator.pointer_down(button, ctrl, from, now);
-    for (int i = 1; i <= 20; ++i) {
-      now += Seconds(kFrame_s);
-      navigator.pointer_move(from + (to - from) * (i / 20.0), now);
-    }
-    now += Seconds(0.5);
-    navigator.pointer_up(button, now);
-  }
-  /// Runs frames until nothing moves; returns how long that took.
-  Seconds settle() {
-    const Seconds start = now;
-    while (navigator.animating() && now - start < Seconds(20.0)) {
-      now += Seconds(kFrame_s);
-      navigator.advance(now);
-    }
-    EXPECT_TRUE(navigator.at_rest());
-    return now - start;
-  }
-
-  Navigator navigator;
-  Seconds now{100.0};
-};
 
 struct DragCase {
   const char* what;
@@ -179,105 +134,6 @@ TEST(Glide, IsCaughtByAPress) {
   ASSERT_TRUE(hand.navigator.animating());
   hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
   EXPECT_FALSE(hand.navigator.animating());
-}
-
-TEST(Wheel, KeepsThePointUnderTheCursor) {
-  for (const Camera& start :
-       {camera_at(46.0, 7.0, 3.0e6), camera_at(46.0, 179.9, 3.0e5, 30.0, -40.0), camera_at(89.0, 0.0, 4.0e6)}) {
-    for (const double steps : {1.0, 5.0, -2.0}) {
-      Hand hand(start);
-      const glm::dvec2 px(650.0, 500.0);
-      const Ecef held = hand.under(px);
-      hand.navigator.wheel(px, steps, hand.now);
-      while (hand.navigator.animating()) {
-        hand.navigator.advance(hand.now += Seconds(kFrame_s));
-        ASSERT_LT(hand.miss_px(held, px), kHeld_px);
-      }
-      EXPECT_NEAR(hand.navigator.camera().eye.height_m / (start.eye.height_m * std::pow(0.8, steps)), 1.0, 1e-9);
-    }
-  }
-}
-
-TEST(Wheel, StepsAddUpWhileTheZoomStillRuns) {
-  Hand hand(camera_at(46.0, 7.0, 1.0e6));
-  for (int i = 0; i < 3; ++i) hand.navigator.wheel(kCentre, 1.0, hand.now += Seconds(0.01));
-  hand.settle();
-  EXPECT_NEAR(hand.navigator.camera().eye.height_m, 1.0e6 * 0.512, 1.0);
-}
-
-TEST(Wheel, StaysBetweenTheGroundAndFiftyRadii) {
-  Hand hand(camera_at(46.0, 7.0, 1.0e3));
-  for (int i = 0; i < 40; ++i) hand.navigator.wheel(kCentre, 10.0, hand.now);
-  hand.settle();
-  EXPECT_DOUBLE_EQ(hand.navigator.camera().eye.height_m, 1.0);
-  for (int i = 0; i < 40; ++i) hand.navigator.wheel({10.0, 10.0}, -10.0, hand.now);
-  hand.settle();
-  EXPECT_DOUBLE_EQ(hand.navigator.camera().eye.height_m, 50.0 * earth().ellipsoid.a_m());
-}
-
-// It went down to 2.5 m over texels of 10 km: a flat blue screen.
-TEST(Wheel, StopsAtTheFinestTexelsAndGoesOnAfterASecondPush) {
-  constexpr double kTexel_m = 1.0e4;
-  for (const bool by_key : {false, true}) {
-    Hand hand(camera_at(46.0, 7.0, 1.0e7));
-    hand.navigator.set_finest_texel(kTexel_m);
-    const auto push = [&] {
-      for (int i = 0; i < 60; ++i) {
-        hand.now += Seconds(0.05);
-        by_key ? hand.navigator.key(NavigationKey::zoom_in, hand.now) : hand.navigator.wheel(kCentre, 1.0, hand.now);
-      }
-      hand.settle();
-    };
-    const auto texel_px = [&] {
-      const View view = make_view(hand.navigator.camera(), earth().ellipsoid, kViewport);
-      return view.pixels_per_radian() * kTexel_m / hand.navigator.camera().eye.height_m;
-    };
-    push();
-    EXPECT_NEAR(texel_px(), 8.0, 0.01);
-    EXPECT_TRUE(hand.navigator.is_at_texels());
-    hand.now += Seconds(1.0);
-    push();
-    EXPECT_GT(texel_px(), 1000.0) << "a second push goes on";
-    EXPECT_FALSE(hand.navigator.is_at_texels());
-  }
-}
-
-TEST(Wheel, OutFromATiltedViewKeepsTheGlobeInThePicture) {
-  Hand hand(camera_at(46.0, 7.0, 1.0e4, 0.0, -5.0));
-  for (int i = 0; i < 60; ++i) {
-    hand.navigator.wheel(kCentre, -2.0, hand.now);
-    hand.settle();
-  }
-  EXPECT_TRUE(project(make_view(hand.navigator.camera(), earth().ellipsoid, kViewport), Ecef{}).has_value());
-  const glm::dvec2 middle = *project(make_view(hand.navigator.camera(), earth().ellipsoid, kViewport), Ecef{});
-  EXPECT_GT(middle.y, 0.0);
-  EXPECT_LT(middle.y, 768.0);
-}
-
-TEST(Pinch, KeepsThePointBetweenTheFingersAndIsThereAtOnce) {
-  for (const Camera& start :
-       {camera_at(46.0, 7.0, 3.0e6), camera_at(46.0, 179.9, 3.0e5, 30.0, -40.0), camera_at(89.0, 0.0, 4.0e6)}) {
-    Hand hand(start);
-    const glm::dvec2 px(650.0, 500.0);
-    const Ecef held = hand.under(px);
-    double height_m = start.eye.height_m;
-    for (const double factor : {1.05, 1.2, 0.9, 2.0}) {
-      hand.navigator.pinch(px, factor, hand.now += Seconds(kFrame_s));
-      height_m /= factor;
-      EXPECT_TRUE(hand.navigator.at_rest());
-      EXPECT_LT(hand.miss_px(held, px), kHeld_px);
-      EXPECT_NEAR(hand.navigator.camera().eye.height_m / height_m, 1.0, 1e-9);
-    }
-  }
-}
-
-TEST(Pinch, WithNonsenseOrAHeldButtonDoesNothing) {
-  Hand hand(camera_at(46.0, 7.0, 1.0e6));
-  for (const double factor : {0.0, -1.0, std::nan(""), HUGE_VAL}) hand.navigator.pinch(kCentre, factor, hand.now);
-  EXPECT_EQ(hand.navigator.camera().eye.height_m, 1.0e6);
-  hand.navigator.pointer_down(PointerButton::left, false, kCentre, hand.now);
-  hand.navigator.pinch(kCentre, 2.0, hand.now);
-  EXPECT_EQ(hand.navigator.camera().eye.height_m, 1.0e6);
 }
 
 TEST(FlyTo, ArrivesWhereItWasToldOverAPoleToo) {
@@ -500,4 +356,4 @@ TEST(Robustness, AOnePixelWindowAndACentreOfTheEarthCameraStayFinite) {
 }
 
 }  // namespace
-}  // namespace terrella
+}  // namespace terrella::test

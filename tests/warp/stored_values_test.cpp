@@ -94,7 +94,7 @@ class StoredValues : public testing::TestWithParam<Placed> {
                         GDAL_TRANSLATE, sample.type, placed.crs, placed.to_crs.x0, placed.to_crs.y0, lower.x, lower.y,
                         sample.nodata, layout)));
   }
-  /// What GDAL prints for the places: a line each, empty beside the raster.
+  /// GDAL's output for the places: a line each, empty beside the raster.
   [[nodiscard]] std::vector<std::string> by_gdal(const std::vector<Geodetic>& places) const {
     std::ofstream file(folder_ / "places.txt");
     for (const Geodetic& place : places) file << fmt::format("{:.17g} {:.17g}\n", place.lon.deg(), place.lat.deg());

@@ -11,7 +11,7 @@ import png
 from real_window import SIZE, WindowTest, wait_until
 
 MARBLE = pathlib.Path(os.environ["TERRELLA_SOURCE"]) / "data/earth/blue_marble_4096x2048.jpg"
-PICTURE = (16384, 8192)  # four bands of 2048 rows: a cut of some seconds
+PICTURE = (32768, 16384)  # eight bands of 2048 rows: a cut of many seconds, so that it can be met halfway
 BAR = (SIZE[0] // 2 - 100, SIZE[0] // 2 + 100, 30)  # columns and row of the progress bar's panel
 SAHARA = (SIZE[0] // 2, SIZE[1] // 2)
 
@@ -60,7 +60,6 @@ class Cutting(WindowTest):
         self.assert_coarse_picture_and_bar(killed)
         self.wait_for_bands(1)
         earlier = self.logs()
-        time.sleep(0.3)
         killed.program.send_signal(signal.SIGKILL)
         killed.program.wait()
         self.assert_goes_on_from(earlier)  # nothing of what was there before the kill is lost

@@ -7,7 +7,7 @@
 
 namespace terrella {
 
-/// What a legend says of one layer of numbers.
+/// The entry of one layer of numbers in a legend.
 struct LegendItem {
   std::string title;  ///< quantity or name of the layer
   std::string unit;   ///< empty: unknown

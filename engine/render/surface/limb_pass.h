@@ -19,7 +19,7 @@ struct LimbPicture {
   int rows_apart = 1;
 };
 
-/// What the ground's colours at the limb contain.
+/// The content of the ground's colours at the limb.
 enum class LimbLook {
   imagery,  ///< imagery alone: shaders/surface/limb.frag
   lit       ///< light, and air if there is any: shaders/surface/limb_air.frag

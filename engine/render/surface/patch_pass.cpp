@@ -59,7 +59,7 @@ Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& option
 }
 
 Status PatchPass::prepare(LayerRole role, bool numbers) {
-  ProgramSet& set = sets_[static_cast<int>(role)][numbers ? 1 : 0][which()][light_.index()];
+  ProgramSet& set = sets_[set_index(role, numbers)];
   if (!set.made) {
     if (Status built = build_programs(set.programs, role, numbers); !built) return built;
     set.made = true;
@@ -216,7 +216,7 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  const ProgramSet& set = sets_[static_cast<int>(role)][layer.numbers ? 1 : 0][which()][light_.index()];
+  const ProgramSet& set = sets_[set_index(role, layer.numbers.has_value())];
   assert(set.made);
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());

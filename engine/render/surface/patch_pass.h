@@ -30,6 +30,7 @@ struct PatchLight {
   bool relief = false;   ///< slopes are lit; the caller uploads and binds them (SlopeTextures)
   bool bicubic = false;  ///< magnified pictures are filtered bicubically
   bool glint = false;    ///< the sea mirrors the Sun
+  static constexpr std::size_t kCount = 8;
   [[nodiscard]] int index() const { return (relief ? 1 : 0) + (bicubic ? 2 : 0) + (glint ? 4 : 0); }
 };
 
@@ -97,6 +98,11 @@ class PatchPass {
       : options_(options), has_relief_(has_relief), light_(options.light) {}
   /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
   [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
+  /// Place in sets_ of the programs for a role, for pictures or numbers, in the present air and light.
+  [[nodiscard]] std::size_t set_index(LayerRole role, bool numbers) const {
+    const std::size_t layers = 2 * static_cast<std::size_t>(role) + (numbers ? 1 : 0);
+    return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light_.index());
+  }
   Status build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const;
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
                bool numbers) const;
@@ -115,7 +121,8 @@ class PatchPass {
     gl::Program programs[kPrograms];
     bool made = false;
   };
-  ProgramSet sets_[3][2][3][8];
+  static constexpr std::size_t kRoles = 3, kAirs = 3;
+  ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
   const AirTextures* air_ = nullptr;
   PatchLight light_;
   double paper_band_ = 0.05;

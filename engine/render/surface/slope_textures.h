@@ -55,7 +55,7 @@ class SlopeTextures {
   std::unordered_map<TileId, Slot, TileIdHash> slots_;
 };
 
-/// Where a patch lies in the windows of slopes, as the shader programs take it.
+/// The place of a patch in the windows of slopes, as the shader programs take it.
 struct SlopeDraw {
   glm::vec4 center_and_scale;
   glm::uvec4 window;  ///< as PatchDraw::window

@@ -168,14 +168,18 @@ bool is_many(const CutOptions& options) {
 
 }  // namespace
 
+BandComposite composite_of(const CutBands& bands) {
+  BandComposite composite{.bands = {}, .stretch = bands.stretch};
+  std::ranges::transform(bands.bands, composite.bands.begin(),
+                         [](int counted_from_1) { return static_cast<std::size_t>(counted_from_1 - 1); });
+  return composite;
+}
+
 CodingOptions choice_of(const CutOptions& options) {
   CodingOptions choice;
   if (!options.composite) return choice;
   choice.nodata = options.composite->nodata;
-  choice.composite = BandComposite{.bands = {}, .stretch = options.composite->stretch};
-  for (std::size_t c = 0; c < 3; ++c) {
-    choice.composite->bands[c] = static_cast<std::size_t>(options.composite->bands[c] - 1);
-  }
+  choice.composite = composite_of(*options.composite);
   return choice;
 }
 

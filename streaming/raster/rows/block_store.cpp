@@ -20,21 +20,11 @@ constexpr std::uint64_t kMaxBandBytes = 32ULL << 20;
 constexpr std::int64_t kMostBlockHeight_px = 256;
 constexpr std::int64_t kLeastBlockHeight_px = 16;
 
-bool write_all(int file, const std::uint8_t* bytes, std::size_t size, std::uint64_t offset) {
+/// Calls pread or pwrite until all bytes have been moved. False on a fault, and where the file ends.
+template <class Byte, class Call>
+bool move_all(Call call, int file, Byte* bytes, std::size_t size, std::uint64_t offset) {
   while (size > 0) {
-    const ssize_t done = ::pwrite(file, bytes, size, static_cast<off_t>(offset));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    bytes += done;
-    size -= static_cast<std::size_t>(done);
-    offset += static_cast<std::uint64_t>(done);
-  }
-  return true;
-}
-
-bool read_all(int file, std::uint8_t* bytes, std::size_t size, std::uint64_t offset) {
-  while (size > 0) {
-    const ssize_t done = ::pread(file, bytes, size, static_cast<off_t>(offset));
+    const ssize_t done = call(file, bytes, size, static_cast<off_t>(offset));
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) return false;
     bytes += done;
@@ -105,7 +95,7 @@ Result<std::vector<std::uint8_t>> BlockStore::read(std::int64_t column, std::int
     stored.resize(block_bytes());
     const std::uint64_t offset =
         static_cast<std::uint64_t>(row * columns()) * block_bytes() + static_cast<std::uint64_t>(index);
-    if (!read_all(file_, stored.data(), stored.size(), offset)) {
+    if (!move_all(::pread, file_, stored.data(), stored.size(), offset)) {
       return Error{
           fmt::format("{}: a temporary file in it cannot be read: {}", folder_.string(), std::strerror(errno))};
     }
@@ -159,7 +149,7 @@ Status BlockStore::write_band(std::int64_t row) {
     return Done{};
   }
   const std::uint64_t offset = static_cast<std::uint64_t>(row * columns()) * block_bytes();
-  if (write_all(file_, band_.data(), band_.size(), offset)) return Done{};
+  if (move_all(::pwrite, file_, band_.data(), band_.size(), offset)) return Done{};
   return Error{
       fmt::format("{}: a temporary file in it cannot be written: {}", folder_.string(), why_not_written(errno))};
 }
