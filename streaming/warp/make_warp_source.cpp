@@ -57,18 +57,18 @@ class WarpSource : public TileSource, public RemoteTiles {
 }  // namespace
 
 TilePlanner::TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
-                         Overviews overviews)
+                         Overviews overviews, Detail detail)
     : raster_(raster),
       figure_(figure),
-      frame_{.grid = grid, .levels = warp_levels(raster, map.turn_px(), grid.tile_px, overviews)} {
+      frame_{.grid = grid, .levels = warp_levels(raster, map.turn_px(), grid.tile_px, overviews), .detail = detail} {
   idle_.push_back(std::move(map));
 }
 
 Result<std::shared_ptr<TilePlanner>> TilePlanner::open(const RasterInfo& raster, const WarpFigure& figure,
-                                                       const TileGrid& grid, Overviews overviews) {
+                                                       const TileGrid& grid, Overviews overviews, Detail detail) {
   auto map = GroundMap::open(raster, figure);
   if (!map) return map.error();
-  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews));
+  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews, detail));
 }
 
 std::optional<GroundMap> TilePlanner::take_map() {

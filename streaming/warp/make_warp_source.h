@@ -15,7 +15,8 @@ class TilePlanner {
  public:
   /// Fails as GroundMap::open() does.
   [[nodiscard]] static Result<std::shared_ptr<TilePlanner>> open(const RasterInfo& raster, const WarpFigure& figure,
-                                                                 const TileGrid& grid, Overviews overviews);
+                                                                 const TileGrid& grid, Overviews overviews,
+                                                                 Detail detail = Detail::usual);
   [[nodiscard]] const WarpFrame& frame() const { return frame_; }
   [[nodiscard]] WarpPlan plan(const TileId& id);
   /// The pixel of the raster's finest level under a place; infinite if there is none (GroundMap::pixels()).
@@ -26,7 +27,7 @@ class TilePlanner {
   [[nodiscard]] std::optional<GroundMap> take_map();
   void put_back(GroundMap map);
   TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
-              Overviews overviews);
+              Overviews overviews, Detail detail);
 
   const RasterInfo raster_;
   const WarpFigure figure_;

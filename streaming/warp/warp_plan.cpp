@@ -45,7 +45,21 @@ PatchScale scale_of(const Patch& patch, const TileGrid& grid, const TileBounds& 
   return {longest > 0.0 ? det / std::sqrt(longest) : 0.0, area * cosine, area * under};
 }
 
-int level_for(const WarpFrame& frame, const TileId& id, const std::vector<Patch>& patches) {
+/// True if the tile's pixels are those of a level.
+bool are_copies(const std::vector<Patch>& patches, const WarpLevel& level) {
+  constexpr double kSame_px = 1e-3;
+  const auto near = [](double a, double b) { return std::abs(a - b) < kSame_px; };
+  const auto is_whole = [&](double a) { return near(a, std::round(a)); };
+  return std::ranges::all_of(patches, [&](const Patch& given) {
+    const Patch patch = given.in(level.from_finest);
+    const CrsPoint first = patch.at(-1.0, -1.0), end = patch.at(1.0, 1.0);
+    return is_whole(first.x) && is_whole(first.y) && near(end.x - first.x, patch.x1 - patch.x0) &&
+           near(end.y - first.y, patch.y1 - patch.y0);
+  });
+}
+
+/// `finer_by` is the factor by which the level is to be finer than the tile.
+int level_for(const WarpFrame& frame, const TileId& id, const std::vector<Patch>& patches, double finer_by) {
   const TileBounds bounds = tile_bounds(frame.grid, id);
   std::vector<PatchScale> scales;
   double weight = 0.0, under = 0.0;
@@ -63,7 +77,7 @@ int level_for(const WarpFrame& frame, const TileId& id, const std::vector<Patch>
   for (int i = 1; i < static_cast<int>(frame.levels.size()); ++i) {
     const double size = frame.levels[static_cast<std::size_t>(i - 1)].pixel_size;
     const double finer = frame.levels[static_cast<std::size_t>(i)].pixel_size;
-    if (size > needed->fewest * kLevelSlack && under / (finer * finer) <= most) level = i;
+    if (size * finer_by > needed->fewest * kLevelSlack && under / (finer * finer) <= most) level = i;
   }
   return level;
 }
@@ -192,7 +206,10 @@ WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& i
   WarpPlan plan{.tile_px = frame.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
   std::vector<Patch> patches = tile_patches(map, frame.levels.back().area, frame.grid, id);
   if (patches.empty()) return plan;
-  plan.level = level_for(frame, id, patches);
+  plan.level = level_for(frame, id, patches, 1.0);
+  if (frame.detail == Detail::full && !are_copies(patches, frame.levels[static_cast<std::size_t>(plan.level)])) {
+    plan.level = level_for(frame, id, patches, std::numbers::sqrt2);
+  }
   const Affine& from_finest = frame.levels[static_cast<std::size_t>(plan.level)].from_finest;
   for (Patch& patch : patches) patch = patch.in(from_finest);
   Planner planner(frame, plan);

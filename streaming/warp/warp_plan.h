@@ -9,10 +9,17 @@
 
 namespace terrella {
 
+/// Detail of tiles that are coarser than the raster. A level of about the tile's own resolution loses the shortest
+/// waves when it is resampled. `full` reads a level that is finer by at least √2, so that the filter does the rest of
+/// the reduction: two to four times the pixels. Tiles that are copies of a level's pixels lose nothing and remain
+/// copies.
+enum class Detail { usual, full };
+
 /// A raster and the grid of the tiles that are made of it.
 struct WarpFrame {
   TileGrid grid;
   std::vector<WarpLevel> levels;
+  Detail detail = Detail::usual;
 };
 
 /// A block that contributes to a tile.
@@ -44,8 +51,8 @@ struct WarpPlan {
 
 /// Plans a tile.
 /// The level is the coarsest whose pixels are no larger than the tile's, both measured along the meridian, in three
-/// quarters of the tile. Tiles near the poles have more columns than a view needs, so that columns do not count.
-/// thread: one at a time for a map
+/// quarters of the tile, or a finer one (Detail). Tiles near the poles have more columns than a view needs, so that
+/// columns do not count. thread: one at a time for a map
 [[nodiscard]] WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id);
 
 }  // namespace terrella

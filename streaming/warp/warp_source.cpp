@@ -107,7 +107,9 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   const auto grid = options.grid ? Result<TileGrid>(*options.grid) : warp_grid(from, options, where);
   if (!grid) return grid.error();
   if (Status good = check_raster(from, where); !good) return good.error();
-  auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made);
+  // Blocks of a server cost requests.
+  const Detail detail = raster->remote() == nullptr ? Detail::full : Detail::usual;
+  auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made, detail);
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
   info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // of tiles inside the raster

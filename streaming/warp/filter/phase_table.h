@@ -21,7 +21,7 @@ class PhaseTable {
       double all = 0.0;
       for (int i = 0; i < taps_; ++i) {
         const double at = i - std::ldexp(phase, -bits) - 2.0 * length + 1.0;
-        weights_.push_back(static_cast<float>(catmull_rom(at / length)));
+        weights_.push_back(static_cast<float>(cubic(at, length)));
         all += weights_.back();
       }
       for (std::size_t k = first; k < weights_.size(); ++k) weights_[k] = static_cast<float>(weights_[k] / all);

@@ -46,7 +46,7 @@ void fill(const Patch& patch, const Square& square, const RasterArea& area, bool
       const CrsPoint at = row.at(first + i * step);
       const double u = at.x + square.shift.x, v = at.y + square.shift.y;
       float* sum = sums.data() + static_cast<std::size_t>(i) * kChannels;
-      two_passes ? two_passes->sum(i, sampler.rows_at(v), sum) : sampler.sum(u, v, sum);
+      two_passes ? two_passes->sum(u, y, sum) : sampler.sum(u, v, sum);
       if (!Tile::is_whole(sum)) sampler.sum_positive(u, v, sum);
     }
     const auto line =

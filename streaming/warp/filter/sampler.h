@@ -53,30 +53,32 @@ class Sampler {
     std::memcpy(out, &all, sizeof(all));
   }
 
-  /// The weighted sums along a row of the canvas, at `count` columns that a row of a patch has from `s` on.
-  void sum_row(const PatchRow& columns, double s, double step, std::int64_t row, int count, Vector* out) const {
-    const std::int64_t width = canvas_.rect.width();
-    with_taps(by_u_->taps(), [&](auto taps) {
+  /// The weighted sums along columns of the canvas, `count` from `column` on, at rows that a row of a patch has from
+  /// `s` on.
+  void sum_rows(const PatchRow& rows, double s, double step, std::int64_t column, int count, Vector* out) const {
+    const std::int64_t height = canvas_.rect.height();
+    const std::ptrdiff_t stride = canvas_.rect.width() * std::ptrdiff_t{kChannels};
+    with_taps(by_v_->taps(), [&](auto taps) {
       for (int x = 0; x < count; ++x) {
-        const PhaseTable::Taps at = by_u_->at(columns.at(s + x * step).x, width);
-        out[x] = this->row<taps>(at, canvas_.at(at.first, row));
+        const PhaseTable::Taps at = by_v_->at(rows.at(s + x * step).y, height);
+        out[x] = strided<taps>(at.weights, canvas_.at(column + x, at.first), stride);
       }
     });
   }
-  /// The weighted sum of `rows()` vectors, `stride` apart.
-  [[nodiscard]] Vector sum_weighted(const float* weights, const Vector* from, std::ptrdiff_t stride) const {
+  /// The weighted sum of vectors side by side.
+  [[nodiscard]] Vector sum_columns(const PhaseTable::Taps& columns, const Vector* from) const {
     Vector all{};
-    with_taps(by_v_->taps(), [&](auto taps) {
-      const int count = taps > 0 ? taps : by_v_->taps();
-      for (int j = 0; j < count; ++j, from += stride) all += weights[j] * *from;
+    with_taps(by_u_->taps(), [&](auto taps) {
+      const int count = taps > 0 ? taps : by_u_->taps();
+      for (int i = 0; i < count; ++i) all += columns.weights[i] * from[i];
     });
     return all;
   }
-  /// The rows around a place, and their number.
-  [[nodiscard]] PhaseTable::Taps rows_at(double v) const { return by_v_->at(v, canvas_.rect.height()); }
+  /// The columns around a place of a filter without shear, and their number.
+  [[nodiscard]] PhaseTable::Taps columns_at(double u) const { return by_u_->at(u, canvas_.rect.width()); }
+  [[nodiscard]] int columns() const { return by_u_->taps(); }
   /// Columns by which the filter moves from row to row.
   [[nodiscard]] double shear() const { return shear_; }
-  [[nodiscard]] int rows() const { return by_v_->taps(); }
 
  private:
   [[nodiscard]] PhaseTable::Taps columns_at(double u, double v, std::int64_t row) const {
@@ -108,6 +110,14 @@ class Sampler {
       if (shear_ != 0.0 && j > 0) columns = columns_at(u, v, rows.first + j);
       all += rows.weights[j] * row<kTaps>(columns, canvas_.at(columns.first, rows.first + j));
     }
+    return all;
+  }
+
+  template <int kTaps>
+  [[nodiscard]] Vector strided(const float* weights, const float* from, std::ptrdiff_t stride) const {
+    const int taps = kTaps > 0 ? kTaps : by_v_->taps();
+    Vector all{};
+    for (int j = 0; j < taps; ++j, from += stride) all += weights[j] * load<kChannels>(from);
     return all;
   }
 

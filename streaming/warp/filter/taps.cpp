@@ -59,10 +59,11 @@ double positive_side(double distance, double by_x, double by_y) {
 
 }  // namespace
 
-double catmull_rom(double distance) {
-  const double t = std::abs(distance);
-  if (t < 1.0) return (1.5 * t - 2.5) * t * t + 1.0;
-  if (t < 2.0) return ((-0.5 * t + 2.5) * t - 4.0) * t + 2.0;
+double cubic(double distance, double length) {
+  const double t = std::abs(distance) / length;
+  const double b = 0.25 - 0.25 / (length * length), c = 0.5 - 0.5 * b;
+  if (t < 1.0) return ((2.0 - 1.5 * b - c) * t - 3.0 + 2.0 * b + c) * t * t + 1.0 - b / 3.0;
+  if (t < 2.0) return (((-b / 6.0 - c) * t + b + 5.0 * c) * t - 2.0 * b - 8.0 * c) * t + 4.0 / 3.0 * b + 4.0 * c;
   return 0.0;
 }
 
@@ -73,7 +74,7 @@ Taps cubic_taps(double centre, double length) {
   std::vector<double> weights(static_cast<std::size_t>(end - first));
   double all = 0.0;
   for (std::int64_t i = first; i < end; ++i) {
-    const double weight = catmull_rom((static_cast<double>(i) + 0.5 - centre) / scale);
+    const double weight = cubic(static_cast<double>(i) + 0.5 - centre, scale);
     weights[static_cast<std::size_t>(i - first)] = weight;
     all += weight;
   }

@@ -13,12 +13,14 @@ struct Taps {
   std::vector<float> weights;
 };
 
-/// Catmull-Rom's cubic (Mitchell and Netravali 1988, B = 0, C = 1/2) around `centre`, in pixels from the outer edge of
-/// the first. A `length` over one pixel makes it a low-pass filter of that many pixels. Weights of 0 at the ends are
-/// left out. thread: any
+/// A cubic of Mitchell and Netravali (1988) around `centre`, in pixels from the outer edge of the first. For a `length`
+/// up to one pixel it is Catmull-Rom's (B = 0, C = 1/2). A larger length makes it a low-pass filter of that many
+/// pixels. Weights of 0 at the ends are left out. thread: any
 [[nodiscard]] Taps cubic_taps(double centre, double length);
-/// The cubic itself, at a distance from its middle.
-[[nodiscard]] double catmull_rom(double distance);
+/// The cubic itself, at a distance from its middle; `length` ≥ 1. Its second moment, B · length² / 3, is that of a mean
+/// over `length` pixels less that of a source pixel, which already is a mean: B = (1 - 1 / length²) / 4, C = (1 - B)
+/// / 2. The result therefore droops as the mean of the tile's pixel does.
+[[nodiscard]] double cubic(double distance, double length);
 
 /// Taps of a column or row of a tile, and the fraction of it that lies on the source, [0, 1].
 struct LineTaps {
