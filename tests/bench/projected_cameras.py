@@ -15,22 +15,25 @@ import tempfile
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 SIZE = (4096, 2048)
 HALF = math.pi * 6378137.0
-# Half the original's pixel: the tiles of all levels then have pixels of nearly the same size.
+# Half the original's pixel, so that the tiles of all levels have pixels of nearly the same size. Larger ones would show
+# less than the original's.
 PIXEL_M = HALF / SIZE[0]
+# The same at a pole: a degree of the meridian is 111,694 m there, and these maps have a scale of 0.9728.
+CAP_PIXEL_M = 111694 * 0.9728 * 180 / SIZE[0]
 # Metres of the ground a pixel of the views has below the eye: about four pixels of the original, so that its views too
 # show tiles that were rounded once more than the truth.
 GROUND_M = 40e3
-# Name: system, west, south, east, north; cameras whose whole view lies on the mosaic.
+# Name: system, west, south, east, north, pixel; cameras whose whole view lies on the mosaic.
 MOSAICS = {
-    "sinusoidal": ("+proj=sinu +datum=WGS84", -HALF, -HALF / 2, HALF, HALF / 2,
+    "sinusoidal": ("+proj=sinu +datum=WGS84", -HALF, -HALF / 2, HALF, HALF / 2, PIXEL_M,
                    ["30,20,6000000", "0,180,6000000", "46,7,3000000,30,-70", "-50,-100,3500000", "10,-140,4500000",
                     "65,60,3000000"]),
-    "utm": ("EPSG:32632", -1200e3, 2200e3, 2200e3, 8000e3,
+    "utm": ("EPSG:32632", -1200e3, 2200e3, 2200e3, 8000e3, PIXEL_M,
             ["45,9,2700000", "50,6,2500000", "40,12,2300000", "46,7,2000000,30,-80", "35,9,2600000", "55,10,2500000"]),
-    "north cap": ("EPSG:3995", -4e6, -4e6, 4e6, 4e6,
+    "north cap": ("EPSG:3995", -4e6, -4e6, 4e6, 4e6, CAP_PIXEL_M,
                   ["90,0,6000000", "89.9,0,3000000", "88,10,3000000", "80,180,2500000,0,-75", "78,40,3000000",
                    "74,-100,2500000"]),
-    "south cap": ("EPSG:3031", -4e6, -4e6, 4e6, 4e6,
+    "south cap": ("EPSG:3031", -4e6, -4e6, 4e6, 4e6, CAP_PIXEL_M,
                   ["-90,0,6000000", "-89.9,0,3000000", "-88,10,3000000", "-80,180,2500000,0,-75", "-78,40,3000000",
                    "-74,-100,2500000"]),
 }
@@ -71,10 +74,10 @@ if __name__ == "__main__":
         make_original(folder)
         cut(folder, folder / "original.tif")
         print("mosaic       camera                    original  mosaic  ratio")
-        for kind, (system, west, south, east, north, cameras) in MOSAICS.items():
+        for kind, (system, west, south, east, north, pixel_m, cameras) in MOSAICS.items():
             mosaic = folder / "mosaic.tif"
             run("gdalwarp", "-q", "-overwrite", "-r", "cubic", "-et", "0", "-dstalpha", "-t_srs", system, "-te", west, south,
-                east, north, "-tr", PIXEL_M, PIXEL_M, folder / "original.tif", mosaic)
+                east, north, "-tr", pixel_m, pixel_m, folder / "original.tif", mosaic)
             cut(folder, mosaic)
             for camera in cameras:
                 plain, warped = error(folder, "original.gpkg", camera), error(folder, "mosaic.gpkg", camera)
