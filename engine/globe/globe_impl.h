@@ -97,6 +97,7 @@ struct Globe::Impl {
   bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
+  std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
   Status status = Done{};  ///< of the last frame
