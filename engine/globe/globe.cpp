@@ -233,6 +233,10 @@ bool Globe::needs_frame() const {
   return std::ranges::any_of(impl_->images, [](const auto& layer) { return layer->has_news(); });
 }
 
+bool Globe::needs_frame(unsigned framebuffer, Viewport viewport) const {
+  return impl_->drawn != viewport || impl_->drawn_into != framebuffer || needs_frame();
+}
+
 bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
   if (!impl_->may_draw("Globe::render_until_settled")) return false;
   for (;;) {

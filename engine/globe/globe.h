@@ -238,6 +238,8 @@ class Globe {
   /// False if another frame would be the same as the last one: nothing was set, and nothing has arrived. Costs a few
   /// comparisons. A settled globe changes by itself only when it retries a source.
   [[nodiscard]] bool needs_frame() const;
+  /// The same for a frame in this framebuffer with this viewport: also true if the last one had others.
+  [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
   /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers

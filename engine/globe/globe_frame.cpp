@@ -161,6 +161,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   changed = false;
   if (viewport != drawn) restore_detail();
   drawn = viewport;
+  drawn_into = framebuffer;
   stats.uploaded_bytes = take_finished();
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();

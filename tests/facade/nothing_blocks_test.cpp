@@ -160,5 +160,17 @@ TEST_F(NothingBlocks, AnInvalidLayerIsReadAgainAndShowsTheEarlierTilesMeanwhile)
   EXPECT_FALSE(globe->invalidate(static_cast<LayerId>(99)));
 }
 
+// After a resize, or for another framebuffer, nothing has been drawn yet.
+TEST_F(NothingBlocks, AnotherPictureNeedsAFrame) {
+  const auto globe = make_globe(unlit_options(), land());
+  settle(*globe, kSmall);
+  const OffscreenTarget target(kSmall);
+  globe->render(target.framebuffer(), kSmall);
+  EXPECT_FALSE(globe->needs_frame());
+  EXPECT_FALSE(globe->needs_frame(target.framebuffer(), kSmall));
+  EXPECT_TRUE(globe->needs_frame(target.framebuffer(), {65, 64}));
+  EXPECT_TRUE(globe->needs_frame(target.framebuffer() + 1, kSmall));
+}
+
 }  // namespace
 }  // namespace terrella::test
