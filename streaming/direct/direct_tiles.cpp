@@ -15,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Most pixels of the coarsest level. The first tile reads all of them, in about 0.2 s on two cores.
-constexpr std::int64_t kMostCoarsestPixels = 1LL << 24;
-
 Result<Body> body_of(const DirectOptions& options) {
   return options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
 }

@@ -131,7 +131,8 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
 /// True if tiles need a number that means "no data": pixels may lie beside the picture.
 bool may_have_gaps(const CutOptions& options) {
   if (options.images.size() > 1 || options.mosaic || is_mosaic(options.images.front())) return true;
-  const auto picture = measure_picture(options.images.front());
+  const auto picture =
+      options.raster ? Result<PictureFile>(options.raster->picture) : measure_picture(options.images.front());
   const auto place = picture ? find_place(options, *picture) : Result<PicturePlace>(picture.error());
   if (!place) return true;  // open_one() says why
   const bool whole = place->kind == PlaceKind::planet || place->kind == PlaceKind::nodes || !place->bounds;
@@ -143,15 +144,16 @@ Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
   if (options.format && options.format != ImageFormat::png) {
     return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
   }
-  std::vector<fs::path> images = options.images;
-  if (is_mosaic(images.front())) {
+  HeightPictures pictures{.images = options.images};
+  if (options.raster) pictures.remote = options.raster->pyramid.get();
+  if (is_mosaic(options.images.front())) {
     const auto list = list_of(options);
     if (!list) return list.error();
-    images.clear();
-    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+    pictures.images.clear();
+    for (const MosaicEntry& entry : list->entries) pictures.images.push_back(entry.path);
   }
-  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
-                                         : plan_numbers(images, *options.numbers, may_have_gaps(options));
+  const auto planned = options.elevation ? plan_heights(pictures, *options.elevation, options.jobs)
+                                         : plan_numbers(pictures, *options.numbers, may_have_gaps(options));
   if (!planned) return planned.error();
   return std::optional(*planned);
 }
