@@ -167,8 +167,10 @@ void add_input_options(CLI::App& app, CutCommand& command) {
       ->type_name("COLSxROWS");
   CLI::Option* elevation =
       app.add_flag("--elevation", command.elevation, "Read the picture as heights and write 16-bit tiles");
-  app.add_option("--scale", command.heights.scale,
-                 "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range)")
+  app.add_option(
+         "--scale", command.heights.scale,
+         "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range, and from a server "
+         "as Float32)")
       ->needs(elevation);
   app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
       ->needs(elevation);
@@ -203,10 +205,9 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option(
-         "image", command->images,
-         "A picture, the parts of one, a folder or list of rasters, or the address of a tiled TIFF. Pictures are "
-         "JPEG, PNG, WebP, TIFF or BigTIFF")
+  sub.add_option("image", command->images,
+                 "A picture, the parts of one, a folder or list of rasters, or the address of a TIFF. Pictures are "
+                 "JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")

@@ -106,6 +106,7 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
   // "--body mars", after a space
   if (wish.any_body) direct.body = placed->crs ? std::string(body_option(*placed->crs)) : std::string();
   if (const std::size_t name = direct.body.rfind(' '); name != std::string::npos) direct.body.erase(0, name + 1);
+  const bool placeless = !placed->projected;
   auto place = place_raster(*std::move(placed), picture, direct);
   if (!place) return place.error();
   if (!*place) {
@@ -114,6 +115,7 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
                     "pixels are no whole planet (2:1); say it with --crs CRS and --bounds W,S,E,N",
                     tiff->file->name(), picture.width_px, picture.height_px)};
   }
+  if (placeless) (*place)->remarks.push_back(taken_for_planet(tiff->file->name()));
   auto raster = RemoteTiff::make(tiff->file, *tiff->pyramid, (*place)->at, reading_of(*tiff->pyramid, wish.numbers));
   if (!raster) return raster.error();
   return OpenedRemoteTiff{*std::move(tiff), *std::move(raster), **std::move(place), direct.body};

@@ -46,6 +46,12 @@ Result<std::optional<RasterPlace>> place_raster(PlacedPicture placed, const Pict
   return std::optional(RasterPlace{*std::move(placed.projected), *latitude, std::move(placed.remarks)});
 }
 
+std::string taken_for_planet(const std::string& name) {
+  return name +
+         ": nothing in it says where it lies, so it is taken for a whole planet from -180 degrees; files beside "
+         "it on the server are not read; --bounds W,S,E,N says another place";
+}
+
 bool shows_at_once(const RasterInfo& raster) {
   const RasterLevel& coarsest = raster.levels.front();
   return !raster.by_rows && coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels;

@@ -98,7 +98,12 @@ class Described(RemoteNumbersTest):
         gdal("gdal_translate", "-q", "-co", "PROFILE=BASELINE", "-co", "TILED=YES", self.folder / "plain.tif",
              self.folder / "a.tif")
         with range_server((self.folder / "a.tif").read_bytes(), name="a.tif") as (url, _):
-            self.assert_fails(FAILED, "render", url, *LOOK, says=["files beside it", "--bounds"])
+            for command in ("render", url, *LOOK), ("cut", url, "-o", "out.gpkg"):
+                self.assert_fails(FAILED, *command, says=[url, "files beside it", "--bounds"])
+        gdal("gdal_translate", "-q", "-co", "PROFILE=BASELINE", "-co", "TILED=YES", TEMPERATURE, self.folder / "b.tif")
+        with range_server((self.folder / "b.tif").read_bytes(), name="b.tif") as (url, _):
+            for command in ("render", url, *LOOK), ("cut", url, "-o", "out.gpkg"):
+                self.assertIn("taken for a whole planet", self.assert_done(*command).stderr)
 
 
 class Heights(RemoteNumbersTest):

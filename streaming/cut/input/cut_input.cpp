@@ -10,6 +10,7 @@
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/cut/input/rolled_rows.h"
 #include "streaming/cut/input/warped_input.h"
+#include "streaming/direct/direct_tiles.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/gdal_advice.h"
 
@@ -42,10 +43,11 @@ Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture
   if (place.from) return place;
   if (picture.width_px != 2 * picture.height_px) {
     return Error{
-        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
-                    "--crs CRS and --bounds W,S,E,N",
+        fmt::format("{}: nothing in it says where it lies (files beside it on the server are not read), and {}x{} "
+                    "pixels are no whole planet (2:1); say it with --crs CRS and --bounds W,S,E,N",
                     picture.path.string(), picture.width_px, picture.height_px)};
   }
+  place.placed.remarks.push_back(taken_for_planet(picture.path.string()));
   const double step = 180.0 / static_cast<double>(picture.height_px);
   place.from =
       CrsPlace{.to_crs = {.x0 = -180.0, .x_per_column = step, .y0 = 90.0, .y_per_row = -step}, .crs = "EPSG:4326"};
