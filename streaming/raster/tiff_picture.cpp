@@ -197,10 +197,12 @@ bool make_strip_blocks(TiffPicture& picture) {
   constexpr std::int64_t kLeastRows = 128;
   // Blocks of such a height can be halved four times, so that a picture without overviews gets reduced levels.
   constexpr std::int64_t kHalved = 16;
+  constexpr std::int64_t kMostStrips = 1 << 16;
   if (picture.tiled || !picture.even_strips) return false;
   for (const std::int64_t unit : {std::lcm(picture.rows_per_strip, kHalved), picture.rows_per_strip}) {
     const std::int64_t rows = std::min(picture.height_px, unit * ((kLeastRows + unit - 1) / unit));
     if (static_cast<std::uint64_t>(rows) * picture.row_bytes() > kMostStripBlockBytes) continue;
+    if (rows / picture.rows_per_strip * static_cast<std::int64_t>(picture.planes()) > kMostStrips) continue;
     picture.tile_width_px = picture.width_px;
     picture.tile_height_px = rows;
     return true;
