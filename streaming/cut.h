@@ -26,6 +26,7 @@ struct MosaicGrid {
 };
 
 /// Makes the cut treat the picture as heights instead of colours.
+/// Floats of a CutRaster without `scale` and `offset` stay floats, because their range would need a second reading.
 /// Pictures of whole numbers: `scale` and `offset` give their meaning, metres = number · scale + offset (default:
 /// metres). Tiles keep the numbers.
 /// 32-bit floats are metres: `scale` and `offset` define how tiles store them. By default 65535 numbers span all
@@ -59,8 +60,9 @@ struct CutShard {
 
 /// A picture that is no local file, such as a TIFF on a server.
 struct CutRaster {
-  PictureFile picture;  ///< name, size and bytes
-  std::string key;      ///< differs if the pixels may differ
+  PictureFile picture;                         ///< name, size and bytes
+  std::shared_ptr<const TiffPyramid> pyramid;  ///< of a TIFF
+  std::string key;                             ///< differs if the pixels may differ
   /// Opens the raster. Its blocks are read as those of a local one.
   std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
 };

@@ -96,31 +96,33 @@ Status open_address(CutCommand& command) {
   if (std::ranges::none_of(command.images, is_address)) return Done{};
   const Url url(command.images.front());
   if (command.images.size() > 1) return Error{"an address is cut alone; download the parts of a picture first"};
-  if (command.elevation) {
-    return Error{url.redacted() + ": heights are cut from a file alone; download it first"};
-  }
-  const RemoteTiffWish wish{
-      .url = url, .direct = {.body = command.cut.body, .latitude = command.cut.latitude, .place = command.place}};
-  auto opened = open_remote_tiff(wish);
-  if (!opened) return opened.error();
-  command.cut.images = {opened->file->name()};
-  command.cut.raster = cut_raster(*std::move(opened));
+  const auto tiff = open_remote_picture({.url = url});
+  if (!tiff) return tiff.error();
+  command.cut.images = {tiff->file->name()};
+  command.cut.raster = cut_raster(*tiff);
   return Done{};
+}
+
+/// Chooses what is read of the pictures.
+void set_reading(CutCommand& command) {
+  if (command.elevation) {
+    command.heights.nodata = command.numbers.nodata;
+    command.cut.elevation = command.heights;
+  } else {
+    const auto& raster = command.cut.raster;
+    set_numbers(command.cut, command.numbers,
+                raster ? holds_numbers(*raster->pyramid) : holds_numbers(command.cut.images.front()));
+  }
 }
 
 int run(CutCommand& command) {
   command.cut.images.assign(command.images.begin(), command.images.end());
   command.cut.output = command.output;
-  if (command.elevation) {
-    command.heights.nodata = command.numbers.nodata;
-    command.cut.elevation = command.heights;
-  } else {
-    set_numbers(command.cut, command.numbers, command.cut.images.front());
-  }
   set_place(command.cut, command.place);
   command.cut.remark = [](const std::string& remark) { print_message("terrella cut: {}\n", remark); };
   const StopSignals signals;
   if (Status opened = open_address(command); !opened) return fail("cut", opened.error().message);
+  set_reading(command);
   Result<CutSummary> summary = Error{};
   {
     Progress progress("cutting " + command.cut.images.front().filename().string());
@@ -165,8 +167,10 @@ void add_input_options(CLI::App& app, CutCommand& command) {
       ->type_name("COLSxROWS");
   CLI::Option* elevation =
       app.add_flag("--elevation", command.elevation, "Read the picture as heights and write 16-bit tiles");
-  app.add_option("--scale", command.heights.scale,
-                 "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range)")
+  app.add_option(
+         "--scale", command.heights.scale,
+         "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range, and from a server "
+         "as Float32)")
       ->needs(elevation);
   app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
       ->needs(elevation);
@@ -201,10 +205,9 @@ void add_cut_command(CLI::App& app, int& exit_code) {
   sub.footer(kCutExamples);
   const auto command = std::make_shared<CutCommand>();
   CutOptions& cut = command->cut;
-  sub.add_option(
-         "image", command->images,
-         "A picture, the parts of one, a folder or list of rasters, or the address of a tiled TIFF. Pictures are "
-         "JPEG, PNG, WebP, TIFF or BigTIFF")
+  sub.add_option("image", command->images,
+                 "A picture, the parts of one, a folder or list of rasters, or the address of a TIFF. Pictures are "
+                 "JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
   sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")

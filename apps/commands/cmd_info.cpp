@@ -17,8 +17,10 @@
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/open_remote_tiff.h"
 #include "apps/setup/stop_signals.h"
 #include "streaming/cache/cache_report.h"
+#include "streaming/remote/describe_remote.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/sets/tile_range.h"
 #include "tiles/tile_source.h"
@@ -42,7 +44,8 @@ constexpr const char* kInfoExamples =
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
     "  terrella info dem/                    a folder of rasters as one tile set: how many, and which are left out\n"
-    "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not";
+    "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not\n"
+    "  terrella info https://host/moon.tif   the same of a TIFF on a server, by a few requests";
 
 std::optional<std::uintmax_t> size_of(const fs::path& path) {
   std::error_code error;
@@ -95,18 +98,26 @@ Result<VerifyReport> verify(const InfoOptions& options, std::shared_ptr<TileSour
   return verified;
 }
 
-int run_picture_info(const InfoOptions& options) {
-  const Result<std::string> report =
-      picture_report(options.tile_set.with_secrets(), options.place, options.band, options.json);
-  if (!report) return fail("info", report.error().message);
-  print_result("{}", *report);
+int run_picture_info(const InfoOptions& options, const Result<PictureFacts>& facts) {
+  if (!facts) return fail("info", facts.error().message);
+  print_result("{}", picture_report(*facts, options.json));
   return kDone;
+}
+
+Result<PictureFacts> look_at_address(const InfoOptions& options) {
+  const auto tiff = open_remote_picture({.url = options.tile_set});
+  return tiff ? look_at(*tiff, options.place, options.band) : Result<PictureFacts>(tiff.error());
 }
 
 int run_info(const InfoOptions& options) {
   const StopSignals signals;
   // Pictures are cut only for --verify.
-  if (is_picture(options.tile_set.with_secrets()) && !options.verify) return run_picture_info(options);
+  if (!options.verify && is_picture(options.tile_set.with_secrets())) {
+    return run_picture_info(options, look_at(options.tile_set.with_secrets(), options.place, options.band));
+  }
+  if (!options.verify && is_remote(options.tile_set) && leads_to_tiff(options.tile_set, {}, {})) {
+    return run_picture_info(options, look_at_address(options));
+  }
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   scene.place = options.place;
@@ -148,8 +159,9 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->footer(kInfoExamples);
   const auto options = std::make_shared<InfoOptions>();
   command
-      ->add_option("TILESET", options->tile_set,
-                   "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles or a picture")
+      ->add_option(
+          "TILESET", options->tile_set,
+          "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles, a picture or the address of a TIFF")
       ->required();
   add_place_options(*command, options->place);
   command->add_option("--band", options->band.band, "Describe this band of a TIFF, counted from 1")

@@ -30,6 +30,19 @@ Result<PictureFacts> measure(const std::filesystem::path& picture, const Describ
   return facts;
 }
 
+Result<PictureFacts> measure(const RemotePicture& tiff, const DescribedBand& band) {
+  PictureFacts facts;
+  facts.file = tiff.picture;
+  facts.is_numbers = band.band > 0 || holds_numbers(*tiff.pyramid);
+  auto raster = describe_raster(*tiff.pyramid, band, static_cast<bool>(check_shows_at_once(tiff)));
+  if (!raster) {
+    const std::string fault = tiff.file->take_fault();
+    return fault.empty() ? raster.error() : Error{fault};
+  }
+  facts.raster = *std::move(raster);
+  return facts;
+}
+
 std::string words_text(const PlaceWords& words) {
   std::string text;
   if (!words.crs.empty()) text += " --crs " + shell_word(words.crs);
@@ -42,16 +55,19 @@ std::string words_text(const PlaceWords& words) {
 }
 
 /// Tests with the cutter whether the picture is accepted, on the body that the picture states.
-void try_out(PictureFacts& facts) {
+void try_out(PictureFacts& facts, const RemotePicture* tiff) {
   const std::string body = facts.crs ? body_option(*facts.crs) : std::string();
   CutOptions cut;
   cut.images = {facts.file.path};
   cut.body = body.substr(body.empty() ? 0 : std::string_view(" --body ").size());
   set_place(cut, facts.words);
   if (facts.is_numbers) cut.numbers = CutNumbers{};
+  if (tiff != nullptr) cut.raster = cut_raster(*tiff);
   const std::string name = shell_word(facts.file.path.string()) + body + words_text(facts.words);
   facts.command = fmt::format("terrella view {}", name);
-  if (const Status can = check_pictures(cut); !can) facts.refused = can.error().message;
+  Status can = check_pictures(cut);
+  if (can && tiff != nullptr) can = check_shows_at_once(*tiff);
+  if (!can) facts.refused = can.error().message;
   if (auto place = find_place(cut, facts.file)) facts.place = *std::move(place);
 }
 
@@ -84,10 +100,8 @@ void locate(PictureFacts& facts, const CrsPlace& at) {
   facts.pixel = PixelSize{of_arc, wide(of_arc), high(of_arc), wide(true) * degree_m, high(true) * degree_m};
 }
 
-}  // namespace
-
-Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words, const DescribedBand& band) {
-  auto facts = measure(picture, band);
+/// Adds what is known of the place. `tiff`: null for a file.
+Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words, const RemotePicture* tiff) {
   if (!facts) return facts;
   facts->words = words;
   if (auto said = read_georeference(facts->file, words.crs.empty())) facts->said = *std::move(said);
@@ -104,8 +118,18 @@ Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWo
     }
     if (placed->projected) locate(*facts, *placed->projected);
   }
-  try_out(*facts);
+  try_out(*facts, tiff);
   return facts;
+}
+
+}  // namespace
+
+Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words, const DescribedBand& band) {
+  return place(measure(picture, band), words, nullptr);
+}
+
+Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words, const DescribedBand& band) {
+  return place(measure(tiff, band), words, &tiff);
 }
 
 CrsBounds own_bounds(const PictureFacts& facts) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/setup/open_remote_tiff.h"
 #include "base/result.h"
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/georeference/place_words.h"
@@ -40,6 +41,10 @@ struct PictureFacts {
 /// Looks at a picture and the files beside it, with the user's words about its place. Reads no pixels, except for the
 /// statistics of a TIFF's coarsest level. Fails if the file is not a readable picture. thread: any
 [[nodiscard]] Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words,
+                                           const DescribedBand& band = {});
+
+/// The same for a TIFF on a server. Reads no values if it could not be shown. Waits for the network.
+[[nodiscard]] Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words,
                                            const DescribedBand& band = {});
 
 /// Smallest rectangle around the picture in its own system; `transform` is set.

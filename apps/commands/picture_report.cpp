@@ -5,13 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/picture_facts.h"
 #include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// One word for programs: how `view` draws the picture.
@@ -213,11 +211,6 @@ std::string to_json(const PictureFacts& facts) {
 
 }  // namespace
 
-Result<std::string> picture_report(const fs::path& picture, const PlaceWords& words, const DescribedBand& band,
-                                   bool json) {
-  const auto facts = look_at(picture, words, band);
-  if (!facts) return facts.error();
-  return json ? to_json(*facts) : to_text(*facts);
-}
+std::string picture_report(const PictureFacts& facts, bool json) { return json ? to_json(facts) : to_text(facts); }
 
 }  // namespace terrella

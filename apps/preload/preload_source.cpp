@@ -9,6 +9,7 @@
 #include "apps/setup/stop_signals.h"
 #include "geo/body.h"
 #include "streaming/http/reply_queue.h"
+#include "streaming/numbers/sample_tiles.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote_tiff/range_plan.h"
@@ -57,7 +58,16 @@ struct PlannedTiff {
 };
 
 Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const TilePlan& tiles) {
-  auto spans = spans_of_tiles(*tiff.opened->raster, tiff.figure, tiff.grid, tiles, [] { return !StopSignals::came(); });
+  const auto find = [&tiff](const TilePlan& plan) {
+    return spans_of_tiles(*tiff.opened->raster, tiff.figure, tiff.grid, plan, [] { return !StopSignals::came(); });
+  };
+  auto spans = find(tiles);
+  // A viewer stretches numbers by these tiles, wherever it looks.
+  if (spans && tiff.opened->tiff.pyramid->whole().part.picture.samples.colour == TiffColour::gray) {
+    auto sampled = find(*plan_list(sampled_places(tiff.grid)));
+    if (!sampled) return sampled.error();
+    spans->merge(*sampled);
+  }
   tiff.opened.reset();  // closes the cache, which the preload opens
   if (!spans) return spans.error();
   std::vector<TileId> ids;
@@ -82,12 +92,12 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
   const auto grid = warp_grid(opened->raster->info(), warp, source.redacted());
   if (!grid) return grid.error();
   PreloadSource planned{
-      .set = {}, .cache_info = range_cache_info(), .key = opened->file->cache_key(), .make_origin = {}};
+      .set = {}, .cache_info = range_cache_info(), .key = opened->tiff.file->cache_key(), .make_origin = {}};
   planned.set.url = source;
   planned.set.any_bytes = true;
   planned.set.info.grid = *grid;
   planned.set.info.body = opened->body;
-  const FileAddress address = opened->file->address();
+  const FileAddress address = opened->tiff.file->address();
   auto tiff = std::make_shared<PlannedTiff>(
       PlannedTiff{.opened = *std::move(opened), .figure = warp.figure, .grid = *grid, .address = address, .spans = {}});
   planned.plan_parts = [tiff](const TilePlan& tiles) { return plan_spans(*tiff, tiles); };

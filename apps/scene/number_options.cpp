@@ -93,13 +93,13 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
       ->type_name("VALUE");
 }
 
-void set_numbers(CutOptions& cut, const NumberOptions& options, const std::filesystem::path& raster) {
+void set_numbers(CutOptions& cut, const NumberOptions& options, bool holds_numbers) {
   if (options.bands) {
     cut.composite = CutBands{.bands = *options.bands, .stretch = {}, .nodata = options.nodata};
     for (std::size_t c = 0; c < 3 && !options.stretch.empty(); ++c) {
       cut.composite->stretch[c] = options.stretch[std::min(c, options.stretch.size() - 1)];
     }
-  } else if (options.ask_for_numbers() || (!cut.format && holds_numbers(raster))) {
+  } else if (options.ask_for_numbers() || (!cut.format && holds_numbers)) {
     cut.numbers = CutNumbers{.band = std::max(1, options.band), .nodata = options.nodata};
   }
 }

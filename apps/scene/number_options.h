@@ -2,7 +2,6 @@
 
 #include <CLI/App.hpp>
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +21,7 @@ struct NumberOptions {
   std::optional<double> nodata;
   int band = 0;                             ///< counted from 1; 0: the only one
   std::optional<std::array<int, 3>> bands;  ///< shown as red, green and blue, counted from 1
+  bool heights = false;                     ///< of --elevation: read as heights, whatever the rest says
   bool operator==(const NumberOptions&) const = default;
 
   /// True if the user wants a raster of any kind read as numbers.
@@ -43,9 +43,9 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
 /// A band's number, a whole number from 1 on. thread: any
 [[nodiscard]] std::optional<int> band_number(std::string_view text);
 
-/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for. Blocks.
-/// thread: any
-void set_numbers(CutOptions& cut, const NumberOptions& options, const std::filesystem::path& raster);
+/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for.
+/// `holds_numbers`: the raster is shown as numbers unless the user says otherwise. thread: any
+void set_numbers(CutOptions& cut, const NumberOptions& options, bool holds_numbers);
 /// Makes the reader of a raster that is shown directly read what a cut would. thread: any
 void set_numbers(RasterOptions& reading, const CutOptions& cut);
 

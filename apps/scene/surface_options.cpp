@@ -19,12 +19,12 @@ Result<glm::vec3> parse_color(const std::string& text) {
 
 void add_relief_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option(
-          "--elevation", options.elevation,
-          "Raise the ground by heights: a raster with one number a pixel in any coordinate system, a folder or list of "
-          "them, a tile set made by terrella cut --elevation, or a GDAL gridded coverage. A JSON source description "
-          "with "
-          "\"elevation\" or \"encoding\" names heights on a server")
+      .add_option("--elevation", options.elevation,
+                  "Raise the ground by heights: a raster with one number a pixel in any coordinate system, the address "
+                  "of such a "
+                  "TIFF, a folder or list of rasters, a tile set made by terrella cut --elevation, or a GDAL gridded "
+                  "coverage. A "
+                  "JSON source description with \"elevation\" or \"encoding\" names tiles of heights on a server")
       ->type_name("RASTER|FOLDER|TILESET");
   command
       .add_option_function<std::string>(

@@ -89,6 +89,7 @@ SceneOptions heights_options(const SceneOptions& options) {
   heights.latitude.reset();
   heights.place = {};
   heights.numbers = {};
+  heights.numbers.heights = true;
   heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
@@ -219,6 +220,17 @@ Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& option
   return tiles;
 }
 
+/// The same heights in metres, if their unit is another length.
+std::shared_ptr<TileSource> in_metres(std::shared_ptr<TileSource> heights) {
+  TileSetInfo info = heights->info();
+  const auto unit_m = info.numbers ? metres_of_unit(info.numbers->unit) : std::nullopt;
+  if (!unit_m || info.numbers->unit.empty() || info.numbers->unit == "m") return heights;
+  info.numbers->unit = "m";
+  info.numbers->scale *= *unit_m;
+  info.numbers->offset *= *unit_m;
+  return std::make_shared<DescribedSource>(std::move(heights), std::move(info));
+}
+
 Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
   if (options.elevation.empty()) return std::optional<ElevationSource>();
   auto tiles = open_height_tiles(options);
@@ -227,7 +239,7 @@ Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& option
   if (numbers && !metres_of_unit(numbers->unit)) {
     return Error{fmt::format("{}: {}", options.elevation.redacted(), no_length(numbers->unit))};
   }
-  auto source = ElevationSource::open(with_level_ground(*std::move(tiles)), options.elevation.redacted());
+  auto source = ElevationSource::open(with_level_ground(in_metres(*std::move(tiles))), options.elevation.redacted());
   if (!source) return source.error();
   return std::optional<ElevationSource>(*std::move(source));
 }

@@ -71,7 +71,7 @@ CutOptions cut_options(const fs::path& picture, const SceneOptions& options) {
   cut.body = body_text(options);
   cut.latitude = options.latitude;
   set_place(cut, options.place);
-  set_numbers(cut, options.numbers, picture);
+  set_numbers(cut, options.numbers, holds_numbers(picture));
   cut.remark = print_remark;
   cut.images = {picture};
   cut.name = picture.stem().string();

@@ -67,6 +67,7 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const
   wish.cache_size_mb = options.cache_size_mb;
   wish.offline = options.offline;
   wish.direct = direct_options(options);
+  wish.numbers = options.numbers;
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();
   for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote/web_address.h"
+#include "streaming/remote_tiff/remote_pyramid.h"
 #include "streaming/remote_tiff/waiting_raster.h"
 #include "streaming/tiff_open.h"
 
@@ -63,6 +63,17 @@ Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish)
   return RemoteFile::open(options);
 }
 
+/// What is read of a TIFF, as of a local one.
+RasterOptions reading_of(const TiffPyramid& pyramid, const NumberOptions& numbers) {
+  RasterOptions reading;
+  reading.heights = numbers.heights;
+  if (numbers.heights) return reading;
+  CutOptions cut;
+  set_numbers(cut, numbers, holds_numbers(pyramid));
+  set_numbers(reading, cut);
+  return reading;
+}
+
 }  // namespace
 
 bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, const HttpOptions& http) {
@@ -75,53 +86,64 @@ bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, cons
   return head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()});
 }
 
-Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
+Result<RemotePicture> open_remote_picture(const RemoteTiffWish& wish) {
   auto file = open_remote_file(wish);
   if (!file) return file.error();
   auto pyramid = read_remote_pyramid(**file);
   if (!pyramid) return pyramid.error();
   const TiffPicture& whole = pyramid->whole().part.picture;
-  const PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, (*file)->fetching()};
+  PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, (*file)->fetching()};
+  return RemotePicture{*std::move(file), std::make_shared<const TiffPyramid>(*std::move(pyramid)), std::move(picture)};
+}
+
+Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
+  auto tiff = open_remote_picture(wish);
+  if (!tiff) return tiff.error();
+  const PictureFile& picture = tiff->picture;
   auto placed = place_picture(picture, wish.direct.place);
   if (!placed) return placed.error();
   DirectOptions direct = wish.direct;
   // "--body mars", after a space
   if (wish.any_body) direct.body = placed->crs ? std::string(body_option(*placed->crs)) : std::string();
   if (const std::size_t name = direct.body.rfind(' '); name != std::string::npos) direct.body.erase(0, name + 1);
+  const bool placeless = !placed->projected;
   auto place = place_raster(*std::move(placed), picture, direct);
   if (!place) return place.error();
   if (!*place) {
     return Error{
-        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
-                    "--crs CRS and --bounds W,S,E,N",
-                    (*file)->name(), picture.width_px, picture.height_px)};
+        fmt::format("{}: nothing in it says where it lies (files beside it on the server are not read), and {}x{} "
+                    "pixels are no whole planet (2:1); say it with --crs CRS and --bounds W,S,E,N",
+                    tiff->file->name(), picture.width_px, picture.height_px)};
   }
-  RasterOptions reading;
-  reading.heights = wish.heights;
-  auto raster = RemoteTiff::make(*file, *std::move(pyramid), (*place)->at, reading);
+  if (placeless) (*place)->remarks.push_back(taken_for_planet(tiff->file->name()));
+  auto raster = RemoteTiff::make(tiff->file, *tiff->pyramid, (*place)->at, reading_of(*tiff->pyramid, wish.numbers));
   if (!raster) return raster.error();
-  return OpenedRemoteTiff{*std::move(file), *std::move(raster), picture, **std::move(place), direct.body};
+  return OpenedRemoteTiff{*std::move(tiff), *std::move(raster), **std::move(place), direct.body};
+}
+
+Status check_shows_at_once(const RemotePicture& tiff) {
+  const std::string& where = tiff.file->name();
+  if (!tiff.pyramid->whole().has_blocks()) return no_blocks(where, *tiff.pyramid);
+  const TiffPicture& coarsest = tiff.pyramid->levels.front().part.picture;
+  if (coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels) return Done{};
+  return Error{fmt::format(
+      "{0}: its coarsest picture has {1}x{2} pixels, all of which a view of the whole would need (a file of overviews "
+      "beside it is not read); put one with overviews in its place (gdal_translate -of COG IN.tif OUT.tif), or cut it: "
+      "terrella cut {0} -o OUT.gpkg",
+      where, coarsest.width_px, coarsest.height_px)};
 }
 
 Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const DirectOptions& direct) {
-  const std::string where = opened.file->name();
-  const RasterInfo& info = opened.raster->info();
-  if (!shows_at_once(info)) {
-    return Error{fmt::format(
-        "{0}: its coarsest picture has {1}x{2} pixels, all of which a view of the whole would need; put one with "
-        "overviews in its place (gdal_translate -of COG IN.tif OUT.tif), or cut it: terrella cut {0} -o OUT.gpkg",
-        where, info.levels.front().width_px, info.levels.front().height_px)};
-  }
-  return direct_tiles(std::move(opened.raster), opened.place, direct, where);
+  if (Status shows = check_shows_at_once(opened.tiff); !shows) return shows.error();
+  return direct_tiles(std::move(opened.raster), opened.place, direct, opened.tiff.file->name());
 }
 
-CutRaster cut_raster(OpenedRemoteTiff opened) {
-  CutRaster cut{.picture = opened.picture, .key = opened.file->cache_key(), .open = {}};
-  // std::function needs a function that can be copied.
-  cut.open = [shared = std::make_shared<OpenedRemoteTiff>(std::move(opened))](
-                 const CrsPlace&, const RasterOptions&) -> Result<std::unique_ptr<RasterSource>> {
-    assert(shared->raster);
-    return waiting_raster(std::move(shared->raster), [] { return !StopSignals::came(); });
+CutRaster cut_raster(const RemotePicture& tiff) {
+  CutRaster cut{.picture = tiff.picture, .pyramid = tiff.pyramid, .key = tiff.file->cache_key(), .open = {}};
+  cut.open = [tiff](const CrsPlace& place, const RasterOptions& reading) -> Result<std::unique_ptr<RasterSource>> {
+    auto raster = RemoteTiff::make(tiff.file, *tiff.pyramid, place, reading);
+    if (!raster) return raster.error();
+    return waiting_raster(*std::move(raster), [] { return !StopSignals::came(); });
   };
   return cut;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/number_options.h"
 #include "apps/scene/scene_options.h"
 #include "base/result.h"
 #include "streaming/cut.h"
@@ -26,13 +27,19 @@ struct RemoteTiffWish {
   bool offline = false;
   DirectOptions direct{};
   bool any_body = false;  ///< the TIFF's own body counts, not that of `direct`
-  bool heights = false;   ///< blocks are numbers
+  NumberOptions numbers{};
+};
+
+/// A TIFF on a server whose directories are read.
+struct RemotePicture {
+  std::shared_ptr<RemoteFile> file;
+  std::shared_ptr<const TiffPyramid> pyramid;
+  PictureFile picture;  ///< its bytes wait for the network
 };
 
 struct OpenedRemoteTiff {
-  std::shared_ptr<RemoteFile> file;
+  RemotePicture tiff;
   std::unique_ptr<RemoteTiff> raster;
-  PictureFile picture;  ///< its bytes wait for the network
   RasterPlace place;
   std::string body;  ///< preset name or "A,F"; empty: the Earth
 };
@@ -41,16 +48,23 @@ struct OpenedRemoteTiff {
 /// that names another kind of set costs no request. thread: any
 [[nodiscard]] bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, const HttpOptions& http);
 
-/// Opens a TIFF on a server with its cache and finds its place. The error names the address or the cache. Reports a
-/// file that changed on the server, and a damaged cache that was set aside. Waits for the network. thread: main
+/// Opens a TIFF on a server with its cache, and reads its directories. The error names the address or the cache.
+/// Reports a file that changed on the server, and a damaged cache that was set aside. Waits for the network. thread:
+/// main
+[[nodiscard]] Result<RemotePicture> open_remote_picture(const RemoteTiffWish& wish);
+
+/// The same, with its place and a raster that is read as a local one would be: as a picture, as numbers or as heights.
 [[nodiscard]] Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish);
 
-/// Makes tiles of an opened TIFF. Refuses a large picture without overviews, because a coarse tile would need all of
-/// it. The error begins with the address. thread: any
+/// Fails for large strips, and for a large picture without overviews, because a coarse tile would need all of it. The
+/// error begins with the address. thread: any
+[[nodiscard]] Status check_shows_at_once(const RemotePicture& tiff);
+
+/// Makes tiles of an opened TIFF, as check_shows_at_once() allows. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const DirectOptions& direct);
 
 /// Lets `cut` read a TIFF on a server in place of a file. thread: any
-[[nodiscard]] CutRaster cut_raster(OpenedRemoteTiff opened);
+[[nodiscard]] CutRaster cut_raster(const RemotePicture& tiff);
 
 /// The user's statements about a raster, from the scene's options. thread: any
 [[nodiscard]] DirectOptions direct_options(const SceneOptions& options);

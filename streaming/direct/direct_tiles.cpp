@@ -15,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Most pixels of the coarsest level. The first tile reads all of them, in about 0.2 s on two cores.
-constexpr std::int64_t kMostCoarsestPixels = 1LL << 24;
-
 Result<Body> body_of(const DirectOptions& options) {
   return options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
 }
@@ -47,6 +44,12 @@ Result<std::optional<RasterPlace>> place_raster(PlacedPicture placed, const Pict
     placed.projected = planet(picture);
   }
   return std::optional(RasterPlace{*std::move(placed.projected), *latitude, std::move(placed.remarks)});
+}
+
+std::string taken_for_planet(const std::string& name) {
+  return name +
+         ": nothing in it says where it lies, so it is taken for a whole planet from -180 degrees; files beside "
+         "it on the server are not read; --bounds W,S,E,N says another place";
 }
 
 bool shows_at_once(const RasterInfo& raster) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,6 +36,12 @@ struct RasterPlace {
 /// it is 2:1; otherwise nothing. The error is that of check_figure(). thread: any
 [[nodiscard]] Result<std::optional<RasterPlace>> place_raster(PlacedPicture placed, const PictureFile& picture,
                                                               const DirectOptions& options);
+
+/// Most pixels of the coarsest level. The first tile reads all of them, in about 0.2 s on two cores.
+inline constexpr std::int64_t kMostCoarsestPixels = 1LL << 24;
+
+/// Remark for a TIFF on a server that states no place and is therefore taken for a whole planet. thread: any
+[[nodiscard]] std::string taken_for_planet(const std::string& name);
 
 /// True if coarse tiles of the raster are quick to make: it has overviews down to a small one, or is small, and its
 /// blocks can be read by themselves. thread: any

@@ -32,8 +32,11 @@ int sampled_level(const TileGrid& grid) {
   return grid.max_level;
 }
 
+}  // namespace
+
 /// All tiles of the level, or an even choice of them.
-std::vector<TileId> sampled_places(const TileGrid& grid, int level) {
+std::vector<TileId> sampled_places(const TileGrid& grid) {
+  const int level = sampled_level(grid);
   const std::int64_t count = count_places(grid, level);
   const auto step = std::max<std::int64_t>(
       1, (count + static_cast<std::int64_t>(kMostTiles) - 1) / static_cast<std::int64_t>(kMostTiles));
@@ -45,6 +48,8 @@ std::vector<TileId> sampled_places(const TileGrid& grid, int level) {
   });
   return places;
 }
+
+namespace {
 
 Result<EncodedTile, TileFailure> read_anywhere(TileSource& tiles, const TileId& id, Time deadline) {
   auto tile = tiles.read(id);
@@ -86,8 +91,10 @@ Result<NumberStatistics> sample_tiles(TileSource& tiles) {
   const NumberInfo& numbers = *info.numbers;
   const Time deadline = std::chrono::steady_clock::now() + kPatience;
   std::vector<float> all;
-  for (const TileId& id : sampled_places(info.grid, sampled_level(info.grid))) {
+  std::string why;
+  for (const TileId& id : sampled_places(info.grid)) {
     const auto tile = read_anywhere(tiles, id, deadline);
+    if (!tile && tile.error().kind == MissingKind::failed) why = tile.error().why;
     if (!tile && tile.error().kind != MissingKind::broken) continue;
     const auto decoded =
         tile ? decode_numbers(*tile, numbers, info.grid.tile_px) : Result<Numbers, TileFailure>(tile.error());
@@ -98,6 +105,7 @@ Result<NumberStatistics> sample_tiles(TileSource& tiles) {
   }
   NumberStatistics made = statistics_of(std::move(all), numbers.scale, numbers.offset);
   if (made.known > 0) return made;
+  if (!why.empty()) return Error{fmt::format("{}; its numbers have no range to show", why)};
   return Error{fmt::format(
       "{}: none of the sampled pixels has data, so there is no range to show; give --stretch MIN,MAX", info.name)};
 }

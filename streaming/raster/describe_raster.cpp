@@ -77,13 +77,46 @@ Result<std::vector<std::string>> stretch_notes(const TiffPyramid& pyramid) {
 
 }  // namespace
 
+bool holds_numbers(const TiffPyramid& pyramid) {
+  const TiffSamples& samples = pyramid.whole().part.picture.samples;
+  return samples.colour == TiffColour::gray && samples.type != SampleType::uint8;
+}
+
 bool holds_numbers(const std::filesystem::path& path) {
   const auto head = read_head(path, 8);
   if (!head || !begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return false;
   const auto pyramid = read_pyramid(path);
-  if (!pyramid) return false;
-  const TiffSamples& samples = pyramid->whole().part.picture.samples;
-  return samples.colour == TiffColour::gray && samples.type != SampleType::uint8;
+  return pyramid && holds_numbers(*pyramid);
+}
+
+Result<RasterFacts> describe_raster(const TiffPyramid& pyramid, const DescribedBand& wanted, bool with_values) {
+  const TiffPicture& picture = pyramid.whole().part.picture;
+  const BandMetadata band = pyramid.metadata.band(static_cast<std::size_t>(std::max(wanted.band, 1) - 1));
+  RasterFacts facts{.width_px = picture.width_px,
+                    .height_px = picture.height_px,
+                    .bands = static_cast<int>(picture.samples.per_pixel),
+                    .samples = sample_title(picture.samples.type),
+                    .layout = layout_title(picture),
+                    .overviews = {},
+                    .has_mask = pyramid.whole().mask.has_value(),
+                    .nodata = pyramid.metadata.nodata,
+                    .scale = band.scale,
+                    .offset = band.offset,
+                    .unit = band.unit,
+                    .quantity = band.description,
+                    .notes = {}};
+  for (std::size_t i = pyramid.levels.size() - 1; i-- > 0;) {
+    const TiffPicture& overview = pyramid.levels[i].part.picture;
+    facts.overviews.emplace_back(overview.width_px, overview.height_px);
+  }
+  if (!with_values) return facts;
+  auto statistics = statistics_in(pyramid, wanted);
+  if (!statistics) return statistics.error();
+  facts.statistics = *std::move(statistics);
+  auto notes = stretch_notes(pyramid);
+  if (!notes) return notes.error();
+  facts.notes = *std::move(notes);
+  return facts;
 }
 
 Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path, const DescribedBand& wanted) {
@@ -94,32 +127,9 @@ Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& 
   }
   const auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();
-  const TiffPicture& picture = pyramid->whole().part.picture;
-  const BandMetadata band = pyramid->metadata.band(static_cast<std::size_t>(std::max(wanted.band, 1) - 1));
-  RasterFacts facts{.width_px = picture.width_px,
-                    .height_px = picture.height_px,
-                    .bands = static_cast<int>(picture.samples.per_pixel),
-                    .samples = sample_title(picture.samples.type),
-                    .layout = layout_title(picture),
-                    .overviews = {},
-                    .has_mask = pyramid->whole().mask.has_value(),
-                    .nodata = pyramid->metadata.nodata,
-                    .scale = band.scale,
-                    .offset = band.offset,
-                    .unit = band.unit,
-                    .quantity = band.description,
-                    .notes = {}};
-  for (std::size_t i = pyramid->levels.size() - 1; i-- > 0;) {
-    const TiffPicture& overview = pyramid->levels[i].part.picture;
-    facts.overviews.emplace_back(overview.width_px, overview.height_px);
-  }
-  auto statistics = statistics_in(*pyramid, wanted);
-  if (!statistics) return statistics.error();
-  facts.statistics = *std::move(statistics);
-  auto notes = stretch_notes(*pyramid);
-  if (!notes) return notes.error();
-  facts.notes = *std::move(notes);
-  return std::optional(std::move(facts));
+  auto facts = describe_raster(*pyramid, wanted, true);
+  if (!facts) return facts.error();
+  return std::optional(*std::move(facts));
 }
 
 }  // namespace terrella

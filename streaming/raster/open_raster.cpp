@@ -38,8 +38,6 @@ struct TiffParts {
   std::vector<RasterPart> parts;
 };
 
-bool is_tiled(const TiffLevel& level) { return level.part.picture.tiled && (!level.mask || level.mask->picture.tiled); }
-
 TileFailure broken_block(const TiffParts& parts, const TileId& block, const std::string& why) {
   return {
       .kind = MissingKind::broken,
@@ -142,7 +140,7 @@ Affine scaled_place(const Affine& place, double columns, double rows) {
 
 RasterPart make_part(const TiffLevel& level, const TiffParts& parts, const RasterOptions& options, bool opaque) {
   RasterPart part{.level = level, .tiles = {}, .rows = {}, .store = {}};
-  if (is_tiled(level)) {
+  if (level.has_blocks()) {
     part.tiles = std::make_unique<TiffTileLevel>(level);
     return part;
   }
@@ -256,7 +254,7 @@ Result<std::unique_ptr<TiffSource>> make_tiff_source(TiffPyramid pyramid, const 
     level.part.picture.samples.nodata = nodata;  // for tiles that are not stored
     parts->parts.push_back(make_part(level, *parts, options, info.opaque));
     info.levels.push_back(shape_of(parts->parts.back(), place, whole.part.picture));
-    info.by_rows = info.by_rows || !is_tiled(level);
+    info.by_rows = info.by_rows || !level.has_blocks();
   }
   return std::unique_ptr<TiffSource>(std::make_unique<TiffRaster>(std::move(parts), std::move(info)));
 }

@@ -15,6 +15,8 @@
 
 namespace terrella {
 
+struct TiffPyramid;
+
 struct RasterOptions {
   bool heights = false;  ///< blocks are numbers: metres = stored value · scale + offset
   /// Default: the file's own (GDAL_NODATA, GDAL_METADATA). With heights, no data becomes NaN; without, transparent.
@@ -64,13 +66,18 @@ struct DescribedBand {
   std::optional<double> nodata = {};  ///< instead of the file's
 };
 
-/// Reads the facts; none if the file is no TIFF. Reads at most 64 tiles or rows of the coarsest level. Blocks.
-/// thread: any
+/// Describes a pyramid. `with_values` reads at most 64 tiles or rows of the coarsest level, for the statistics and for
+/// notes about them. Blocks. thread: any
+[[nodiscard]] Result<RasterFacts> describe_raster(const TiffPyramid& pyramid, const DescribedBand& wanted,
+                                                  bool with_values);
+/// Reads the facts of a file, with its values; none if the file is no TIFF. Blocks. thread: any
 [[nodiscard]] Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path,
                                                                  const DescribedBand& wanted = {});
 
-/// True for a TIFF that is shown as numbers unless the user says otherwise: gray, and not of 8 bits or fewer. False for
-/// a file that cannot be read. Blocks. thread: any
+/// True for a TIFF that is shown as numbers unless the user says otherwise: gray, and not of 8 bits or fewer. thread:
+/// any
+[[nodiscard]] bool holds_numbers(const TiffPyramid& pyramid);
+/// The same for a file; false for a file that cannot be read. Blocks. thread: any
 [[nodiscard]] bool holds_numbers(const std::filesystem::path& path);
 
 }  // namespace terrella

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 namespace terrella {
@@ -153,6 +154,7 @@ class PictureTags {
       const std::int64_t rows = tiff_tag<std::uint32_t>(tiff_, TIFFTAG_ROWSPERSTRIP, 0);
       picture_.rows_per_strip = std::clamp<std::int64_t>(rows, 1, picture_.height_px);
       const tmsize_t row = TIFFScanlineSize(tiff_);
+      picture_.even_strips = row > 0 && static_cast<std::size_t>(row) == picture_.packed_bytes(picture_.width_px);
       const bool fits = row > 0 && static_cast<std::size_t>(row) >= picture_.packed_bytes(picture_.width_px);
       return fits ? Status(Done{}) : refuse("rows of an unexpected size");
     }
@@ -189,6 +191,23 @@ std::size_t TiffPicture::packed_bytes(std::int64_t pixels) const {
   const std::size_t bits =
       static_cast<std::size_t>(pixels) * plane_samples() * static_cast<std::size_t>(samples.stored_bits);
   return (bits + 7) / 8;
+}
+
+bool make_strip_blocks(TiffPicture& picture) {
+  constexpr std::int64_t kLeastRows = 128;
+  // Blocks of such a height can be halved four times, so that a picture without overviews gets reduced levels.
+  constexpr std::int64_t kHalved = 16;
+  constexpr std::int64_t kMostStrips = 1 << 16;
+  if (picture.tiled || !picture.even_strips) return false;
+  for (const std::int64_t unit : {std::lcm(picture.rows_per_strip, kHalved), picture.rows_per_strip}) {
+    const std::int64_t rows = std::min(picture.height_px, unit * ((kLeastRows + unit - 1) / unit));
+    if (static_cast<std::uint64_t>(rows) * picture.row_bytes() > kMostStripBlockBytes) continue;
+    if (rows / picture.rows_per_strip * static_cast<std::int64_t>(picture.planes()) > kMostStrips) continue;
+    picture.tile_width_px = picture.width_px;
+    picture.tile_height_px = rows;
+    return true;
+  }
+  return false;
 }
 
 Error refuse_tiff(const std::string& name, const std::string& what) {

@@ -129,17 +129,19 @@ Status add_side_file(const fs::path& path, bool mask_file, PyramidParts& parts) 
 
 /// Refuses a picture that its Orientation tag turns. A stated place is that of the stored rows, as in GDAL, which
 /// ignores the tag.
-Status check_orientation(const fs::path& path, const TiffPicture& picture) {
+Status check_orientation(const std::shared_ptr<const ByteFile>& file, const fs::path& path,
+                         const TiffPicture& picture) {
   const bool turned = picture.orientation > ORIENTATION_TOPLEFT && picture.orientation <= ORIENTATION_LEFTBOT;
-  if (!turned || path.empty()) return Done{};
-  const auto tags = read_geo_tags(path);
-  const auto sides = read_side_files(path);
+  if (!turned) return Done{};
+  const auto tags = read_geo_tags(file);
+  const auto sides = path.empty() ? Result<std::vector<SideClaim>>(std::vector<SideClaim>()) : read_side_files(path);
   const auto places = [](const SideClaim& claim) { return claim.transform || claim.has_control_points; };
-  if ((tags && *tags && (*tags)->has_place()) || (sides && std::ranges::any_of(*sides, places))) return Done{};
+  if ((tags && tags->has_place()) || (sides && std::ranges::any_of(*sides, places))) return Done{};
   return Error{
-      fmt::format("{}: its Orientation tag ({}) turns it, and a TIFF is read as it is stored; turn it upright: "
+      fmt::format("{}: its Orientation tag ({}) turns it, and a TIFF is read as it is stored; turn it upright{}: "
                   "convert {} -auto-orient upright.tif",
-                  path.string(), picture.orientation, shell_word(path.string()))};
+                  file->name(), picture.orientation, path.empty() ? ", after a download" : "",
+                  path.empty() ? "IN.tif" : shell_word(path.string()))};
 }
 
 }  // namespace
@@ -153,7 +155,7 @@ Result<TiffPyramid> read_parts(const std::shared_ptr<const ByteFile>& file, cons
   TiffPyramid pyramid{.levels = {}, .metadata = read_metadata(**reader)};
   auto directories = read_directories(file, **reader);
   if (!directories) return directories.error();
-  if (Status upright = check_orientation(path, directories->front().picture); !upright) return upright.error();
+  if (Status upright = check_orientation(file, path, directories->front().picture); !upright) return upright.error();
   PyramidParts parts(std::move(directories->front()));
   for (std::size_t i = 1; i < directories->size(); ++i) parts.add(std::move((*directories)[i]), false);
   for (const auto& [ending, mask_file] : {std::pair{".ovr", false}, std::pair{".msk", true}}) {

@@ -21,6 +21,9 @@ struct TiffPart {
 struct TiffLevel {
   TiffPart part;
   std::optional<TiffPart> mask;  ///< of the same size
+
+  /// True if parts of the level, and of its mask, can be read by themselves.
+  [[nodiscard]] bool has_blocks() const { return part.picture.has_blocks() && (!mask || mask->picture.has_blocks()); }
 };
 
 /// The first picture of a TIFF with its overviews and masks, in the file and in FILE.ovr and FILE.msk beside it.

@@ -64,8 +64,7 @@ double percentile(std::vector<float>& values, double share) {
 }
 
 Status add_samples(const TiffLevel& level, const NumberCoding& coding, std::vector<float>& values) {
-  const bool tiled = level.part.picture.tiled && (!level.mask || level.mask->picture.tiled);
-  return tiled ? sample_tiles(level, coding, values) : sample_rows(level, coding, values);
+  return level.has_blocks() ? sample_tiles(level, coding, values) : sample_rows(level, coding, values);
 }
 
 Result<Stretch> range_of_samples(const TiffLevel& level, const std::optional<double>& nodata) {

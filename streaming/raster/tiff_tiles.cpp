@@ -8,10 +8,35 @@
 namespace terrella {
 namespace {
 
-std::uint32_t tile_index(const TiffPicture& picture, std::size_t plane, std::int64_t column, std::int64_t row) {
-  const std::int64_t of_plane = picture.tile_columns() * picture.tile_rows();
-  return static_cast<std::uint32_t>(static_cast<std::int64_t>(plane) * of_plane + row * picture.tile_columns() +
-                                    column);
+/// A part of a tile that is encoded by itself: a plane, or a strip of a plane.
+struct TilePart {
+  std::uint32_t index = 0;  ///< in the file's table
+  std::size_t plane = 0;
+  std::int64_t first_row = 0;  ///< in the tile
+  std::int64_t rows = 0;
+};
+
+std::vector<TilePart> parts_of(const TiffPicture& picture, std::int64_t column, std::int64_t row) {
+  const std::int64_t height = picture.tile_height_px, strip = picture.rows_per_strip;
+  const std::int64_t top = row * height, bottom = std::min(top + height, picture.height_px);
+  const std::int64_t of_plane =
+      picture.tiled ? picture.tile_columns() * picture.tile_rows() : (picture.height_px + strip - 1) / strip;
+  std::vector<TilePart> parts;
+  for (std::size_t plane = 0; plane < picture.planes(); ++plane) {
+    const std::int64_t before = static_cast<std::int64_t>(plane) * of_plane;
+    if (picture.tiled) {
+      const std::int64_t index = before + row * picture.tile_columns() + column;
+      parts.push_back({.index = static_cast<std::uint32_t>(index), .plane = plane, .first_row = 0, .rows = height});
+      continue;
+    }
+    for (std::int64_t y = top; y < bottom; y += strip) {
+      parts.push_back({.index = static_cast<std::uint32_t>(before + y / strip),
+                       .plane = plane,
+                       .first_row = y - top,
+                       .rows = std::min(strip, picture.height_px - y)});
+    }
+  }
+  return parts;
 }
 
 std::string why_not(const TiffReader& reader) {
@@ -19,9 +44,9 @@ std::string why_not(const TiffReader& reader) {
 }
 
 /// No codec makes a tile much larger than its samples. A larger size in the file is damage.
-std::uint64_t most_stored_bytes(const TiffPicture& picture) {
-  const auto packed = static_cast<std::uint64_t>(picture.packed_bytes(picture.tile_width_px)) *
-                      static_cast<std::uint64_t>(picture.tile_height_px);
+std::uint64_t most_stored_bytes(const TiffPicture& picture, const TilePart& part) {
+  const auto packed =
+      static_cast<std::uint64_t>(picture.packed_bytes(picture.tile_width_px)) * static_cast<std::uint64_t>(part.rows);
   return 2 * packed + (1U << 20);
 }
 
@@ -30,19 +55,18 @@ std::uint64_t most_stored_bytes(const TiffPicture& picture) {
 Result<std::vector<ByteSpan>> tile_spans(TiffReader& reader, const TiffPicture& picture, std::int64_t column,
                                          std::int64_t row) {
   std::vector<ByteSpan> spans;
-  for (std::size_t plane = 0; plane < picture.planes(); ++plane) {
-    const std::uint32_t index = tile_index(picture, plane, column, row);
+  for (const TilePart& part : parts_of(picture, column, row)) {
     int failed = 0;
     ByteSpan span;
-    span.offset = TIFFGetStrileOffsetWithErr(reader.get(), index, &failed);
-    if (failed == 0) span.size = TIFFGetStrileByteCountWithErr(reader.get(), index, &failed);
+    span.offset = TIFFGetStrileOffsetWithErr(reader.get(), part.index, &failed);
+    if (failed == 0) span.size = TIFFGetStrileByteCountWithErr(reader.get(), part.index, &failed);
     if (failed != 0) return Error{"its table of tiles is damaged: " + why_not(reader)};
     const std::uint64_t end = reader.bytes().size();
     if (span.size > 0 && (span.offset > end || span.size > end - span.offset)) {
       return Error{
           fmt::format("its bytes {} to {} lie beyond the end of the file", span.offset, span.offset + span.size)};
     }
-    if (span.size > most_stored_bytes(picture)) return Error{fmt::format("it cannot have {} bytes", span.size)};
+    if (span.size > most_stored_bytes(picture, part)) return Error{fmt::format("it cannot have {} bytes", span.size)};
     spans.push_back(span);
   }
   return spans;
@@ -69,31 +93,34 @@ void place_plane(const TiffPicture& picture, std::size_t plane, const std::uint8
 }
 
 Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPicture& picture, std::int64_t column,
-                                              std::int64_t row, std::vector<std::vector<std::byte>> planes,
+                                              std::int64_t row, std::vector<std::vector<std::byte>> pieces,
                                               std::int64_t rows) {
   const std::int64_t width = picture.tile_width_px;
   const std::size_t row_bytes = picture.packed_bytes(width);
   const std::size_t to_row_bytes = static_cast<std::size_t>(width) * picture.samples.pixel_bytes();
   std::vector<std::uint8_t> samples(static_cast<std::size_t>(rows) * to_row_bytes);
-  if (std::ranges::any_of(planes, [](const auto& bytes) { return bytes.empty(); })) {
+  if (std::ranges::any_of(pieces, [](const auto& bytes) { return bytes.empty(); })) {
     fill_samples(picture.samples, picture.samples.nodata.value_or(0.0), static_cast<std::size_t>(rows * width),
                  samples.data());
   }
   const bool direct = !picture.separate && picture.samples.stored_bits >= 8;
   std::vector<std::uint8_t> packed(direct ? 0 : static_cast<std::size_t>(rows) * row_bytes);
-  for (std::size_t plane = 0; plane < picture.planes(); ++plane) {
-    std::vector<std::byte>& bytes = planes[plane];
-    if (bytes.empty()) continue;
-    std::uint8_t* into = direct ? samples.data() : packed.data();
+  const std::vector<TilePart> parts = parts_of(picture, column, row);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<std::byte>& bytes = pieces[i];
+    const TilePart& part = parts[i];
+    const std::int64_t wanted = std::min(part.rows, rows - part.first_row);
+    if (bytes.empty() || wanted <= 0) continue;
+    std::uint8_t* to = samples.data() + static_cast<std::size_t>(part.first_row) * to_row_bytes;
     reader.clear_message();
-    if (TIFFReadFromUserBuffer(reader.get(), tile_index(picture, plane, column, row), bytes.data(),
-                               static_cast<tmsize_t>(bytes.size()), into,
-                               static_cast<tmsize_t>(static_cast<std::size_t>(rows) * row_bytes)) != 1) {
+    if (TIFFReadFromUserBuffer(reader.get(), part.index, bytes.data(), static_cast<tmsize_t>(bytes.size()),
+                               direct ? to : packed.data(),
+                               static_cast<tmsize_t>(static_cast<std::size_t>(wanted) * row_bytes)) != 1) {
       return Error{why_not(reader)};
     }
-    for (std::int64_t y = 0; !direct && y < rows; ++y) {
-      place_plane(picture, plane, packed.data() + static_cast<std::size_t>(y) * row_bytes, width,
-                  samples.data() + static_cast<std::size_t>(y) * to_row_bytes);
+    for (std::int64_t y = 0; !direct && y < wanted; ++y) {
+      place_plane(picture, part.plane, packed.data() + static_cast<std::size_t>(y) * row_bytes, width,
+                  to + static_cast<std::size_t>(y) * to_row_bytes);
     }
   }
   return samples;
@@ -108,14 +135,14 @@ Result<std::vector<std::uint8_t>> read_tile(TiffReaders& readers, const TiffPict
     reader->drop();
     return spans.error();
   }
-  std::vector<std::vector<std::byte>> planes;
+  std::vector<std::vector<std::byte>> pieces;
   for (const ByteSpan& span : *spans) {
-    planes.emplace_back(static_cast<std::size_t>(span.size));
-    if (readers.bytes()->read_at(span.offset, planes.back()) != planes.back().size()) {
+    pieces.emplace_back(static_cast<std::size_t>(span.size));
+    if (readers.bytes()->read_at(span.offset, pieces.back()) != pieces.back().size()) {
       return Error{"the file cannot be read to the tile's end"};
     }
   }
-  return decode_tile(**reader, picture, column, row, std::move(planes), rows);
+  return decode_tile(**reader, picture, column, row, std::move(pieces), rows);
 }
 
 }  // namespace terrella

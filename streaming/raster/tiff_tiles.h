@@ -15,17 +15,17 @@ struct ByteSpan {
   std::uint64_t size = 0;
 };
 
-/// Looks up the bytes of a tile: one span for each plane. The error says why the table of tiles cannot be used, but
-/// does not name the file. thread: that of the reader
+/// Looks up the bytes of a tile: one span for each plane, or for each strip of each plane. The error says why the table
+/// of tiles cannot be used, but does not name the file. thread: that of the reader
 [[nodiscard]] Result<std::vector<ByteSpan>> tile_spans(TiffReader& reader, const TiffPicture& picture,
                                                        std::int64_t column, std::int64_t row);
 
-/// Decodes the first `rows` rows of a tile from its bytes, one piece for each plane. Returns unpacked samples, those of
+/// Decodes the first `rows` rows of a tile from its bytes, one piece for each span. Returns unpacked samples, those of
 /// a pixel together. A tile that is not stored has the no-data value, or 0, in every sample. The reader's directory
 /// must be the picture's. The error does not name the file. thread: that of the reader
 [[nodiscard]] Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPicture& picture,
                                                             std::int64_t column, std::int64_t row,
-                                                            std::vector<std::vector<std::byte>> planes,
+                                                            std::vector<std::vector<std::byte>> pieces,
                                                             std::int64_t rows);
 
 /// Reads a tile from the file and decodes its first `rows` rows. thread: any, several at once

@@ -12,7 +12,7 @@
 
 #include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_source.h"
-#include "streaming/remote/web_address.h"
+#include "streaming/remote_tiff/remote_pyramid.h"
 
 namespace terrella {
 namespace {
@@ -64,17 +64,21 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
 
   [[nodiscard]] Encoded read(const TileId& block) override {
     if (!has_block(info(), block)) return TileFailure{MissingKind::absent, {}};
-    const TileFailure elsewhere = file_->offline() ? TileFailure{MissingKind::absent, "it is not in the cache"}
-                                                   : TileFailure{MissingKind::remote, {}};
-    const auto found = decoder_->spans(block);
-    if (!found) return elsewhere;
-    std::vector<FilePiece> pieces;
-    for (const ByteSpan& span : *found) {
-      auto bytes = cached({.offset = span.offset, .length = span.size});
-      if (!bytes) return elsewhere;
-      pieces.push_back({span.offset, std::move(bytes)});
-    }
-    return tile_of(block, std::move(pieces));
+    auto pieces = cached_pieces(block);
+    if (!pieces) return pieces.error();
+    return tile_of(block, *std::move(pieces));
+  }
+
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    const RasterLevel& finest = info().levels.back();
+    const TileId block{.level = static_cast<int>(info().levels.size()) - 1,
+                       .x = column / finest.block_width_px,
+                       .y = row / finest.block_height_px};
+    if (column < 0 || row < 0 || !has_block(info(), block)) return TileFailure{MissingKind::absent, {}};
+    auto pieces = cached_pieces(block);
+    if (!pieces) return pieces.error();
+    const RemoteFile::Loan loan(*file_, *std::move(pieces));
+    return decoder_->value_at(column, row);
   }
 
   [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
@@ -120,6 +124,21 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
     if (file_->cache() == nullptr) return nullptr;
     auto bytes = file_->cache()->find_span(span);
     return bytes ? std::make_shared<const std::vector<std::byte>>(*std::move(bytes)) : nullptr;
+  }
+
+  /// All bytes of a block, if no request is needed for them.
+  [[nodiscard]] Result<std::vector<FilePiece>, TileFailure> cached_pieces(const TileId& block) {
+    const TileFailure elsewhere = file_->offline() ? TileFailure{MissingKind::absent, "it is not in the cache"}
+                                                   : TileFailure{MissingKind::remote, {}};
+    const auto found = decoder_->spans(block);
+    if (!found) return elsewhere;
+    std::vector<FilePiece> pieces;
+    for (const ByteSpan& span : *found) {
+      auto bytes = cached({.offset = span.offset, .length = span.size});
+      if (!bytes) return elsewhere;
+      pieces.push_back({span.offset, std::move(bytes)});
+    }
+    return pieces;
   }
 
   /// The block's picture or numbers, made of its bytes by the reader of files.
@@ -243,30 +262,11 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
   std::vector<std::jthread> threads_;     ///< last: use the rest
 };
 
-Error strips_error(const RemoteFile& file) {
-  return Error{
-      fmt::format("{}: its picture is stored in strips, and only tiles can be read one by one over a network; download "
-                  "the file and open that, or put a tiled one in its place (gdal_translate -of COG IN.tif OUT.tif)",
-                  file.name())};
-}
-
 }  // namespace
-
-Result<TiffPyramid> read_remote_pyramid(RemoteFile& file) {
-  auto pyramid = read_pyramid(file.fetching());
-  const std::string fault = file.take_fault();
-  if (!fault.empty()) return Error{fault};
-  if (!pyramid) return pyramid;
-  const auto tiled = [](const TiffLevel& level) {
-    return level.part.picture.tiled && (!level.mask || level.mask->picture.tiled);
-  };
-  if (!tiled(pyramid->whole())) return strips_error(file);
-  std::erase_if(pyramid->levels, [&](const TiffLevel& level) { return !tiled(level); });
-  return pyramid;
-}
 
 Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile> file, TiffPyramid pyramid,
                                                      const CrsPlace& place, const RasterOptions& options) {
+  if (!pyramid.whole().has_blocks()) return no_blocks(file->name(), pyramid);
   auto tables = make_tiff_source(std::move(pyramid), file->name(), place, options);
   if (!tables) {
     const std::string fault = file->take_fault();
@@ -275,14 +275,6 @@ Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile>
   auto decoder = (*tables)->over(file->held());
   return std::unique_ptr<RemoteTiff>(
       std::make_unique<RemoteTiffSource>(std::move(file), *std::move(tables), std::move(decoder)));
-}
-
-bool is_tiff_address(const Url& tile_set) {
-  const auto address = parse_address(tile_set);
-  if (!address || tile_set.with_secrets().find('{') != std::string::npos) return false;
-  const std::string path = lower_case(address->path);
-  return (address->scheme == "http" || address->scheme == "https") &&
-         (path.ends_with(".tif") || path.ends_with(".tiff"));
 }
 
 }  // namespace terrella

@@ -8,7 +8,7 @@ import time
 
 
 class RangeServer(http.server.BaseHTTPRequestHandler):
-    """`fault`: see do_GET(). `asked`: first and last byte of each request."""
+    """`fault`: see do_GET(); "later FAULT" begins after the first request. `asked`: first and last byte of each request."""
 
     protocol_version = "HTTP/1.1"
     data, fault, count, asked, latency_s, tag = b"", "", 0, [], 0.0, '"one"'
@@ -23,9 +23,10 @@ class RangeServer(http.server.BaseHTTPRequestHandler):
         first, last = map(int, re.fullmatch(r"bytes=(\d+)-(\d+)", self.headers["Range"]).groups())
         cls.asked.append((first, last))
         size = len(self.data)
-        if self.fault == "whole":
+        fault = self.fault.removeprefix("later ") if cls.count > 1 or not self.fault.startswith("later ") else ""
+        if fault == "whole":
             return self.answer(200, self.data)
-        if self.fault == "endless":
+        if fault == "endless":
             return self.answer(200, self.data, {"Content-Length": 1 << 40})
         if self.fault == "gone after two" and cls.count > 2:
             return self.answer(404, b"")
@@ -38,7 +39,7 @@ class RangeServer(http.server.BaseHTTPRequestHandler):
             return self.answer(416, b"", {"Content-Range": f"bytes */{size}"})
         body = self.data[first:last + 1]
         told = {"shifted": f"bytes {first + 1}-{first + len(body)}/{size}", "shorter": f"bytes {first}-{first + 9}/{size}",
-                "nonsense": "bytes a-b/c", "none": ""}.get(self.fault, f"bytes {first}-{first + len(body) - 1}/{size}")
+                "nonsense": "bytes a-b/c", "none": ""}.get(fault, f"bytes {first}-{first + len(body) - 1}/{size}")
         self.answer(206, body, {"ETag": tag, **({"Content-Range": told} if told else {})})
 
     def answer(self, status, body, headers=()):

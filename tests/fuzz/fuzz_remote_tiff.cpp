@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "streaming/remote_tiff/remote_pyramid.h"
 #include "streaming/remote_tiff/remote_tiff.h"
 
 namespace {

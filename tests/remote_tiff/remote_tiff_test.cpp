@@ -9,6 +9,7 @@
 
 #include "raster_files.h"
 #include "served_folder.h"
+#include "streaming/remote_tiff/remote_pyramid.h"
 
 namespace terrella::test {
 namespace {
@@ -84,22 +85,30 @@ constexpr const char* kPlain = "-co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=3
 
 INSTANTIATE_TEST_SUITE_P(
     Layouts, RemoteTiffMatrix,
-    testing::Values(RemoteCase{"plain", 3, "Byte", kPlain}, RemoteCase{"cog", 3, "Byte", "-of COG -co BLOCKSIZE=64"},
-                    RemoteCase{"cog_jpeg_mask", 3, "Byte",
-                               "-of COG -co BLOCKSIZE=64 -co COMPRESS=JPEG -co ADD_ALPHA=YES -a_nodata 0"},
-                    RemoteCase{"cog_webp", 4, "Byte",
-                               "-of COG -co BLOCKSIZE=64 -co COMPRESS=WEBP -colorinterp red,green,blue,alpha"},
-                    RemoteCase{"ycbcr", 3, "Byte", "-co TILED=YES -co COMPRESS=JPEG -co PHOTOMETRIC=YCBCR",
-                               "--config COMPRESS_OVERVIEW JPEG --config PHOTOMETRIC_OVERVIEW YCBCR"},
-                    RemoteCase{"bands", 3, "Byte", "-co TILED=YES -co INTERLEAVE=BAND -co COMPRESS=DEFLATE"},
-                    RemoteCase{"big", 1, "Byte", "-co TILED=YES -co BIGTIFF=YES -co COMPRESS=LZW -co PREDICTOR=2"},
-                    RemoteCase{"big_endian", 1, "UInt16", "-co TILED=YES -co ENDIANNESS=BIG -co COMPRESS=ZSTD"},
-                    RemoteCase{"signed16", 1, "Int16",
-                               "-co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=2 -a_nodata 0"},
-                    RemoteCase{"float32", 1, "Float32",
-                               "-of COG -co BLOCKSIZE=64 -co COMPRESS=DEFLATE -co PREDICTOR=YES -a_nodata 7"},
-                    RemoteCase{"lerc", 1, "Float64", "-co TILED=YES -co COMPRESS=LERC"},
-                    RemoteCase{"sparse", 1, "Byte", "-co TILED=YES -co SPARSE_OK=TRUE -a_nodata 3"}),
+    testing::Values(
+        RemoteCase{"plain", 3, "Byte", kPlain}, RemoteCase{"cog", 3, "Byte", "-of COG -co BLOCKSIZE=64"},
+        RemoteCase{"cog_jpeg_mask", 3, "Byte",
+                   "-of COG -co BLOCKSIZE=64 -co COMPRESS=JPEG -co ADD_ALPHA=YES -a_nodata 0"},
+        RemoteCase{"cog_webp", 4, "Byte",
+                   "-of COG -co BLOCKSIZE=64 -co COMPRESS=WEBP -colorinterp red,green,blue,alpha"},
+        RemoteCase{"ycbcr", 3, "Byte", "-co TILED=YES -co COMPRESS=JPEG -co PHOTOMETRIC=YCBCR",
+                   "--config COMPRESS_OVERVIEW JPEG --config PHOTOMETRIC_OVERVIEW YCBCR"},
+        RemoteCase{"bands", 3, "Byte", "-co TILED=YES -co INTERLEAVE=BAND -co COMPRESS=DEFLATE"},
+        RemoteCase{"big", 1, "Byte", "-co TILED=YES -co BIGTIFF=YES -co COMPRESS=LZW -co PREDICTOR=2"},
+        RemoteCase{"big_endian", 1, "UInt16", "-co TILED=YES -co ENDIANNESS=BIG -co COMPRESS=ZSTD"},
+        RemoteCase{"signed16", 1, "Int16", "-co TILED=YES -co COMPRESS=DEFLATE -co PREDICTOR=2 -a_nodata 0"},
+        RemoteCase{"float32", 1, "Float32",
+                   "-of COG -co BLOCKSIZE=64 -co COMPRESS=DEFLATE -co PREDICTOR=YES -a_nodata 7"},
+        RemoteCase{"lerc", 1, "Float64", "-co TILED=YES -co COMPRESS=LERC"},
+        RemoteCase{"sparse", 1, "Byte", "-co TILED=YES -co SPARSE_OK=TRUE -a_nodata 3"},
+        // 173 rows: two blocks, of which the last ends with a shorter strip.
+        RemoteCase{"strips", 3, "Byte", "-co BLOCKYSIZE=3"},
+        RemoteCase{"strips_ycbcr", 3, "Byte", "-co BLOCKYSIZE=16 -co COMPRESS=JPEG -co PHOTOMETRIC=YCBCR",
+                   "--config COMPRESS_OVERVIEW JPEG --config PHOTOMETRIC_OVERVIEW YCBCR"},
+        RemoteCase{"strips_bands", 3, "Byte", "-co BLOCKYSIZE=8 -co INTERLEAVE=BAND -co COMPRESS=LZW -co PREDICTOR=2"},
+        RemoteCase{"strips_float", 1, "Float32", "-co BLOCKYSIZE=3 -co COMPRESS=DEFLATE -co PREDICTOR=3 -a_nodata 7"},
+        RemoteCase{"one_strip", 1, "Int16", "-co BLOCKYSIZE=173 -co COMPRESS=ZSTD"},
+        RemoteCase{"strips_sparse", 1, "Int16", "-co BLOCKYSIZE=8 -co SPARSE_OK=TRUE -co COMPRESS=LZW -a_nodata 0"}),
     [](const auto& test) { return test.param.name; });
 
 class RemoteTiffCacheTest : public testing::Test {
@@ -148,6 +157,32 @@ TEST_F(RemoteTiffCacheTest, TheSecondRunAsksNothing) {
   EXPECT_TRUE(look(options(key_)).rgba == first.rgba);
   EXPECT_TRUE(look(options(key_, true)).rgba == first.rgba);
   EXPECT_EQ(served_.requests(0), asked);
+}
+
+TEST_F(RemoteTiffCacheTest, AStoredValueIsExactOnceItsBytesAreThere) {
+  write_raw(folder_ / "in.raw", "Float64", 300, 300, 1, [](int x, int y, int) { return x / 3.0 + 1e-9 * y; });
+  ASSERT_TRUE(translate("-of COG -co BLOCKSIZE=64", folder_ / "in.raw", served_ / "a.tif"));
+  const RasterOptions numbers{.heights = true, .stored = true};
+  const auto truth = open_raster(served_ / "a.tif", some_place(), numbers);
+  ASSERT_TRUE(truth);
+  const auto file = RemoteFile::open(options({}));
+  ASSERT_TRUE(file) << file.error().message;
+  auto pyramid = read_remote_pyramid(**file);
+  ASSERT_TRUE(pyramid) << pyramid.error().message;
+  const auto remote = RemoteTiff::make(*file, *std::move(pyramid), some_place(), numbers);
+  ASSERT_TRUE(remote) << remote.error().message;
+  EXPECT_EQ((*remote)->value_at(100, 200).error().kind, MissingKind::remote);
+  Waiting waiting(**remote);
+  static_cast<void>(whole_numbers(waiting, waiting.info().levels.size() - 1));
+  for (const auto& [x, y] : {std::pair{0, 0}, {100, 200}, {299, 299}}) {
+    const auto value = (*remote)->value_at(x, y);
+    ASSERT_TRUE(value) << value.error().why;
+    EXPECT_EQ(*value, *(*truth)->value_at(x, y));
+    EXPECT_EQ(*value, x / 3.0 + 1e-9 * y);
+  }
+  for (const auto& [x, y] : {std::pair{-1, 0}, {300, 0}, {0, 300}}) {
+    EXPECT_EQ((*remote)->value_at(x, y).error().kind, MissingKind::absent);
+  }
 }
 
 TEST_F(RemoteTiffCacheTest, AnotherVersionHasAnotherCache) {

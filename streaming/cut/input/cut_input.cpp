@@ -10,6 +10,7 @@
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/cut/input/rolled_rows.h"
 #include "streaming/cut/input/warped_input.h"
+#include "streaming/direct/direct_tiles.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/gdal_advice.h"
 
@@ -42,10 +43,11 @@ Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture
   if (place.from) return place;
   if (picture.width_px != 2 * picture.height_px) {
     return Error{
-        fmt::format("{}: nothing says where it lies, and {}x{} pixels are no whole planet (2:1); say it with "
-                    "--crs CRS and --bounds W,S,E,N",
+        fmt::format("{}: nothing in it says where it lies (files beside it on the server are not read), and {}x{} "
+                    "pixels are no whole planet (2:1); say it with --crs CRS and --bounds W,S,E,N",
                     picture.path.string(), picture.width_px, picture.height_px)};
   }
+  place.placed.remarks.push_back(taken_for_planet(picture.path.string()));
   const double step = 180.0 / static_cast<double>(picture.height_px);
   place.from =
       CrsPlace{.to_crs = {.x0 = -180.0, .x_per_column = step, .y0 = 90.0, .y_per_row = -step}, .crs = "EPSG:4326"};
@@ -131,7 +133,8 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
 /// True if tiles need a number that means "no data": pixels may lie beside the picture.
 bool may_have_gaps(const CutOptions& options) {
   if (options.images.size() > 1 || options.mosaic || is_mosaic(options.images.front())) return true;
-  const auto picture = measure_picture(options.images.front());
+  const auto picture =
+      options.raster ? Result<PictureFile>(options.raster->picture) : measure_picture(options.images.front());
   const auto place = picture ? find_place(options, *picture) : Result<PicturePlace>(picture.error());
   if (!place) return true;  // open_one() says why
   const bool whole = place->kind == PlaceKind::planet || place->kind == PlaceKind::nodes || !place->bounds;
@@ -143,15 +146,16 @@ Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
   if (options.format && options.format != ImageFormat::png) {
     return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
   }
-  std::vector<fs::path> images = options.images;
-  if (is_mosaic(images.front())) {
+  HeightPictures pictures{.images = options.images};
+  if (options.raster) pictures.remote = options.raster->pyramid.get();
+  if (is_mosaic(options.images.front())) {
     const auto list = list_of(options);
     if (!list) return list.error();
-    images.clear();
-    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
+    pictures.images.clear();
+    for (const MosaicEntry& entry : list->entries) pictures.images.push_back(entry.path);
   }
-  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
-                                         : plan_numbers(images, *options.numbers, may_have_gaps(options));
+  const auto planned = options.elevation ? plan_heights(pictures, *options.elevation, options.jobs)
+                                         : plan_numbers(pictures, *options.numbers, may_have_gaps(options));
   if (!planned) return planned.error();
   return std::optional(*planned);
 }

@@ -36,7 +36,19 @@ HeightKind kind_of(SampleType type) {
   return type == SampleType::int8 || type == SampleType::int16 ? HeightKind::int16 : HeightKind::float32;
 }
 
-Result<Probe> probe_heights(const fs::path& image, std::optional<std::size_t> band = {}) {
+Result<Probe> probe_pyramid(const TiffPyramid& pyramid, std::optional<std::size_t> band) {
+  const auto numbers = numbers_of(pyramid, {.band = band});
+  if (!numbers) return numbers.error();
+  const SampleType type = pyramid.whole().part.picture.samples.type;
+  return Probe{.kind = kind_of(type),
+               .nodata = numbers->nodata,
+               .scale = numbers->scale,
+               .offset = numbers->offset,
+               .eight_bits = type == SampleType::uint8 || type == SampleType::int8,
+               .band = pyramid.metadata.band(band.value_or(0))};
+}
+
+Result<Probe> probe_file(const fs::path& image, std::optional<std::size_t> band) {
   if (Status regular = check_regular(image); !regular) return regular.error();
   std::ifstream file(image, std::ios::binary);
   char head[4] = {};
@@ -44,16 +56,7 @@ Result<Probe> probe_heights(const fs::path& image, std::optional<std::size_t> ba
   // If the file is no TIFF, its own reader checks it.
   if (!begins_as_tiff({head, sizeof(head)})) return Probe{};
   const auto pyramid = read_pyramid(image);
-  if (!pyramid) return pyramid.error();
-  const auto numbers = numbers_of(*pyramid, {.band = band});
-  if (!numbers) return numbers.error();
-  const SampleType type = pyramid->whole().part.picture.samples.type;
-  return Probe{.kind = kind_of(type),
-               .nodata = numbers->nodata,
-               .scale = numbers->scale,
-               .offset = numbers->offset,
-               .eight_bits = type == SampleType::uint8 || type == SampleType::int8,
-               .band = pyramid->metadata.band(band.value_or(0))};
+  return pyramid ? probe_pyramid(*pyramid, band) : Result<Probe>(pyramid.error());
 }
 
 /// Drops a nodata value that no sample of this kind can have.
@@ -86,6 +89,15 @@ Status widen(const fs::path& image, const HeightCoding& coding, int jobs, Range&
     }
   }
   return Done{};
+}
+
+/// Numbers that stay floats.
+HeightPlan keep_floats(HeightPlan plan, const Probe& probe) {
+  plan.coding.sample_scale = probe.scale;
+  plan.coding.sample_offset = probe.offset;
+  plan.numbers.floats = true;
+  plan.numbers.nodata = plan.coding.nodata;
+  return plan;
 }
 
 Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, int jobs,
@@ -165,16 +177,17 @@ class BetweenNodes : public RowReader {
 namespace {
 
 /// The kind of the pictures, which must be one.
-Result<Probe> probe_all(const std::vector<fs::path>& images, std::optional<std::size_t> band) {
+Result<Probe> probe_all(const HeightPictures& pictures, std::optional<std::size_t> band) {
+  if (pictures.remote != nullptr) return probe_pyramid(*pictures.remote, band);
   std::optional<Probe> first;
-  for (const fs::path& image : images) {
-    const auto probe = probe_heights(image, band);
+  for (const fs::path& image : pictures.images) {
+    const auto probe = probe_file(image, band);
     if (!probe) return probe.error();
     if (!first) first = *probe;
     if (probe->kind != first->kind || probe->scale != first->scale || probe->offset != first->offset) {
       return Error{
           fmt::format("{}: its numbers are of another kind or scale than those of {}; convert it (gdal_translate -ot)",
-                      image.string(), images.front().string())};
+                      image.string(), pictures.images.front().string())};
     }
   }
   return *first;
@@ -182,20 +195,21 @@ Result<Probe> probe_all(const std::vector<fs::path>& images, std::optional<std::
 
 }  // namespace
 
-Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options, int jobs) {
+Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevation& options, int jobs) {
   HeightPlan plan;
   plan.numbers.unit = "m";
   plan.numbers.quantity = "height";
-  const auto first = probe_all(images, {});
+  const auto first = probe_all(pictures, {});
   if (!first) return first.error();
   if (options.scale && (*options.scale == 0.0 || !std::isfinite(*options.scale))) {
     return Error{"--scale: it takes metres per number, not 0"};
   }
   plan.coding = {.kind = first->kind, .nodata = possible(options.nodata ? options.nodata : first->nodata, first->kind)};
   if (first->kind == HeightKind::float32) {
+    if (pictures.remote != nullptr && !options.scale && !options.offset) return keep_floats(std::move(plan), *first);
     plan.coding.sample_scale = first->scale;
     plan.coding.sample_offset = first->offset;
-    return plan_floats(images, options, jobs, plan);
+    return plan_floats(pictures.images, options, jobs, plan);
   }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
   plan.numbers.scale = options.scale.value_or(first->scale);
@@ -204,9 +218,9 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
   return plan;
 }
 
-Result<HeightPlan> plan_numbers(const std::vector<fs::path>& images, const CutNumbers& options, bool may_have_gaps) {
+Result<HeightPlan> plan_numbers(const HeightPictures& pictures, const CutNumbers& options, bool may_have_gaps) {
   const auto band = static_cast<std::size_t>(options.band - 1);
-  const auto probe = probe_all(images, band);
+  const auto probe = probe_all(pictures, band);
   if (!probe) return probe.error();
   HeightPlan plan;
   plan.numbers.unit = probe->band.unit;
@@ -214,13 +228,7 @@ Result<HeightPlan> plan_numbers(const std::vector<fs::path>& images, const CutNu
   const auto nodata = possible(options.nodata ? options.nodata : probe->nodata, probe->kind);
   plan.coding = {.kind = probe->kind, .band = band, .nodata = nodata};
   if (!nodata && may_have_gaps && !probe->eight_bits) plan.coding.kind = HeightKind::float32;
-  if (plan.coding.kind == HeightKind::float32) {
-    plan.coding.sample_scale = probe->scale;
-    plan.coding.sample_offset = probe->offset;
-    plan.numbers.floats = true;
-    plan.numbers.nodata = nodata;
-    return plan;
-  }
+  if (plan.coding.kind == HeightKind::float32) return keep_floats(std::move(plan), *probe);
   const int shift = probe->kind == HeightKind::int16 ? kInt16Shift : 0;
   plan.numbers.scale = probe->scale;
   plan.numbers.offset = probe->offset - shift * probe->scale;

@@ -12,6 +12,11 @@
 
 namespace terrella {
 
+struct HeightPictures {
+  std::vector<std::filesystem::path> images;
+  const TiffPyramid* remote = nullptr;  ///< of the one picture that is no file (CutRaster)
+};
+
 struct HeightPlan {
   HeightCoding coding;
   NumberInfo numbers;  ///< meaning of the numbers in tiles
@@ -19,14 +24,13 @@ struct HeightPlan {
 
 /// Chooses how tiles store the heights of the pictures. Reads all pixels once if the samples are 32-bit floats and the
 /// options do not give the coding. All pictures must have the same kind of sample. thread: any
-[[nodiscard]] Result<HeightPlan> plan_heights(const std::vector<std::filesystem::path>& images,
-                                              const CutElevation& options, int jobs);
+[[nodiscard]] Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevation& options, int jobs);
 
 /// Chooses how tiles keep the numbers of a band: whole numbers of at most 16 bits as they are, with the metadata's
 /// scale and offset; others as 32-bit floats with both applied. Numbers of 16 bits without nodata, of which
 /// `may_have_gaps` leaves places without data, become floats too. thread: any
-[[nodiscard]] Result<HeightPlan> plan_numbers(const std::vector<std::filesystem::path>& images,
-                                              const CutNumbers& options, bool may_have_gaps);
+[[nodiscard]] Result<HeightPlan> plan_numbers(const HeightPictures& pictures, const CutNumbers& options,
+                                              bool may_have_gaps);
 
 /// Options for reading a picture's heights in metres as a raster. thread: any
 [[nodiscard]] RasterOptions raster_of(const HeightPlan& plan);

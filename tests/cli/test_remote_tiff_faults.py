@@ -1,0 +1,101 @@
+"""A TIFF on a server that is damaged, hostile or cannot be read by parts, and servers that answer with something else."""
+
+import struct
+import unittest
+
+from georeferenced import gdal, make
+from program import DONE_IN_PART, FAILED
+from range_server import range_server
+from test_remote_tiff import PLANET, VIEW, RemoteTiffTest
+
+CLOSE = "40,10,3000"  # shows pixels of the finest level
+
+
+class RefusedTest(RemoteTiffTest):
+    def test_faults_of_the_server_are_named(self):
+        data = self.planet()
+        for fault, says in (("whole", "ignores byte ranges"), ("endless", "ignores byte ranges"),
+                            ("shifted", "other bytes"), ("shorter", "other bytes"), ("nonsense", "other bytes"),
+                            ("none", "other bytes")):
+            with self.subTest(fault), range_server(data, fault, name="a.tif") as (url, handler):
+                self.assert_fails(FAILED, "render", url, "-o", "x.png", *VIEW, "--cache", "off", says=[url, says])
+                self.assertLessEqual(handler.count, 3)
+
+    def test_faults_that_begin_with_the_tiles_are_named(self):
+        data = self.planet()
+        for fault, says in (("whole", "ignores byte ranges"), ("shifted", "other bytes"), ("shorter", "other bytes"),
+                            ("none", "other bytes")):
+            with self.subTest(fault), range_server(data, f"later {fault}", name="a.tif") as (url, _):
+                done = self.run_program("render", url, "-o", "x.png", *VIEW, "--cache", "off")
+                self.assertIn(done.returncode, (FAILED, DONE_IN_PART), done.stderr)
+                self.assertIn(url, done.stderr)
+                self.assertIn(says, done.stderr)
+
+    def test_layouts_that_cannot_be_read_by_parts(self):
+        gdal("gdal_create", "-q", "-outsize", 43200, 21600, "-bands", 1, *PLANET, "-co", "SPARSE_OK=YES", "-co", "COMPRESS=LZW",
+             "-co", "BLOCKYSIZE=16", self.folder / "strips.tif")
+        make(self.folder / "flat.tif", 8192, 4096, *PLANET, "-co", "TILED=YES", "-co", "COMPRESS=DEFLATE")
+        for name, says in (("strips.tif", "strips"), ("flat.tif", "overviews")):
+            with self.subTest(name), range_server((self.folder / name).read_bytes(), name=name) as (url, _):
+                self.assert_fails(FAILED, "render", url, "-o", "x.png", *VIEW, "--cache", "off",
+                                  says=[url, says, "gdal_translate -of COG"])
+
+    @staticmethod
+    def two_to_the_31_tiles():
+        """A BigTIFF of 2^20 x 2^19 pixels in tiles of 16, whose table would have 16 GiB, and a whole overview."""
+        def directory(at, following, kind, width, height, side, offsets, sizes):
+            entries = [(254, 4, 1, kind), (256, 4, 1, width), (257, 4, 1, height), (258, 3, 1, 8), (259, 3, 1, 1),
+                       (262, 3, 1, 1), (277, 3, 1, 1), (322, 4, 1, side), (323, 4, 1, side), (324, 16, *offsets),
+                       (325, 16, *sizes)]
+            body = b"".join(struct.pack("<HHQQ", *entry) for entry in entries)
+            return struct.pack("<Q", len(entries)) + body + struct.pack("<Q", following)
+
+        tiles, tables = 1 << 31, 4096
+        first = directory(16, 1024, 0, 1 << 20, 1 << 19, 16, (tiles, 1 << 24), (tiles, 1 << 35))
+        second = directory(1024, 0, 1, 512, 256, 256, (2, tables), (2, tables + 16))
+        data = struct.pack("<2sHHHQ", b"II", 43, 8, 0, 16) + first
+        data = data.ljust(1024, b"\0") + second
+        data = data.ljust(tables, b"\0") + struct.pack("<QQQQ", 8192, 8192 + 65536, 65536, 65536)
+        return data.ljust(8192, b"\0") + bytes(range(256)) * 512
+
+    def test_hostile_files_are_named(self):
+        good = self.planet(width=512)
+        first = struct.unpack_from("<I", good, 4)[0]
+        entries = [first + 2 + 12 * n for n in range(struct.unpack_from("<H", good, first)[0])]
+        tags = {struct.unpack_from("<H", good, at)[0]: at for at in entries}
+
+        def changed(*changes):
+            data = bytearray(good)
+            for layout, at, *values in changes:
+                struct.pack_into(layout, data, at, *values)
+            return bytes(data)
+
+        offsets = struct.unpack_from("<I", good, tags[324] + 8)[0]
+        count = struct.unpack_from("<I", good, tags[324] + 4)[0]
+        cases = {
+            "no TIFF": (b"<html>" + bytes(1000), "not a TIFF"),
+            "head alone": (good[:8], "not a TIFF"),
+            "cut in the directory": (good[:first + 30], "TIFF"),
+            "cut in the tiles": (good[:-len(good) // 2], "beyond the end"),
+            "directories in a circle": (changed(("<I", entries[-1] + 12, first)), "circle"),
+            "no width": (changed(("<HHI", tags[256] + 2, 2, 1, 0)), ""),
+            "2^31 pixels": (changed(("<HII", tags[256] + 2, 4, 1, 1 << 31)), "too many"),
+            "tiles of 2^31": (changed(("<HII", tags[322] + 2, 4, 1, 1 << 31)), ""),
+            "offsets of a wrong type": (changed(("<H", tags[324] + 2, 2)), ""),
+            "offsets beyond the end": (changed(*(("<I", offsets + 4 * n, 0xFFFFFF00) for n in range(count))),
+                                       "beyond the end"),
+            "2^31 tiles": (self.two_to_the_31_tiles(), "table of tiles"),
+            "one tile's bytes for all": (changed(*(("<I", offsets + 4 * n, 8) for n in range(count))), "cannot be read"),
+        }
+        for name, (data, says) in cases.items():
+            with self.subTest(name), range_server(data, name="a.tif") as (url, _):
+                done = self.run_program("render", url, "-o", "x.png", *VIEW, "--cache", "off", "--camera", CLOSE)
+                self.assertIn(done.returncode, (FAILED, DONE_IN_PART), f"{name}\n{done.stdout}{done.stderr}")
+                self.assertIn("a.tif", done.stderr)
+                self.assertIn(says, done.stderr)
+                for internal in "terminate called", "Sanitizer", "std::":
+                    self.assertNotIn(internal, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
