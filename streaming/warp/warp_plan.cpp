@@ -113,6 +113,11 @@ class Planner {
     if (!take(found->rows, level_.area.height_px, lines.rows, lines.canvas.v0, lines.canvas.v1, under.v0, under.v1)) {
       return true;
     }
+    // The pole is no edge of the picture, even if it cuts off a part of the last row.
+    if (plan_.rows > 0 && plan_.rows < plan_.tile_px) {
+      LineTaps& last = lines.rows[static_cast<std::size_t>(plan_.rows) - 1];
+      if (last.coverage > 0.0F) last.coverage = 1.0F;
+    }
     if (pixels_in(lines.canvas) > kMostUnder * plan_.tile_px * plan_.tile_px) return false;
     for (LineTaps& column : lines.columns) column.taps.first -= lines.canvas.u0;
     for (LineTaps& row : lines.rows) row.taps.first -= lines.canvas.v0;
@@ -186,10 +191,20 @@ class Planner {
   std::set<TileId> reached_, core_;
 };
 
+/// Rows of a tile north of the south pole; a row of which the pole cuts off a part counts.
+int rows_on_planet(const TileGrid& grid, const TileId& id) {
+  const TileBounds bounds = tile_bounds(grid, id);
+  const double row_deg = tile_span_deg(grid, id.level) / grid.tile_px;
+  constexpr double kRounding_px = 1e-6;
+  return static_cast<int>(
+      std::clamp(std::ceil((bounds.north_deg + 90.0) / row_deg - kRounding_px), 0.0, double(grid.tile_px)));
+}
+
 }  // namespace
 
 WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id) {
-  WarpPlan plan{.tile_px = frame.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
+  WarpPlan plan{
+      .tile_px = frame.grid.tile_px, .rows = rows_on_planet(frame.grid, id), .pieces = {}, .lines = {}, .chunks = {}};
   std::vector<Patch> patches = tile_patches(map, frame.levels.back().area, frame.grid, id);
   if (patches.empty()) return plan;
   plan.level = level_for(frame, id, patches);

@@ -7,12 +7,24 @@
 namespace terrella {
 namespace {
 
+/// Opaque down to the tile's end, a tile at the south pole needs no other layer under it, and filters do not mix in
+/// nothing.
+template <class Tile>
+void repeat_last_row(const WarpPlan& plan, typename Tile::Pixels& pixels) {
+  if (plan.rows < 1) return;
+  const BlockPart last{.block = {}, .x = 0, .y = plan.rows - 1, .width = plan.tile_px, .height = 1};
+  for (int row = plan.rows; row < plan.tile_px; ++row) {
+    Tile::copy(pixels, last, pixels, static_cast<std::size_t>(row) * static_cast<std::size_t>(plan.tile_px));
+  }
+}
+
 template <class Tile>
 Result<typename Tile::Pixels, TileFailure> warped(const WarpPlan& plan, const WarpLevel& level,
                                                   const BlockAt& block_at) {
   auto pixels = Tile::make(plan.tile_px);
   if (plan.lines && are_copies(*plan.lines)) {
     if (auto failed = copy_lines<Tile>(plan, level, block_at, pixels)) return *failed;
+    repeat_last_row<Tile>(plan, pixels);
     return pixels;
   }
   if (plan.lines) {
@@ -25,6 +37,7 @@ Result<typename Tile::Pixels, TileFailure> warped(const WarpPlan& plan, const Wa
     if (!canvas) return canvas.error();
     for (const Patch& patch : chunk.patches) resample_patch<Tile>(patch, level.area, *canvas, pixels);
   }
+  repeat_last_row<Tile>(plan, pixels);
   return pixels;
 }
 
