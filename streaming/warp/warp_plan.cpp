@@ -113,11 +113,6 @@ class Planner {
     if (!take(found->rows, level_.area.height_px, lines.rows, lines.canvas.v0, lines.canvas.v1, under.v0, under.v1)) {
       return true;
     }
-    // The pole is no edge of the picture, even if it cuts off a part of the last row.
-    if (plan_.rows > 0 && plan_.rows < plan_.tile_px) {
-      LineTaps& last = lines.rows[static_cast<std::size_t>(plan_.rows) - 1];
-      if (last.coverage > 0.0F) last.coverage = 1.0F;
-    }
     if (pixels_in(lines.canvas) > kMostUnder * plan_.tile_px * plan_.tile_px) return false;
     for (LineTaps& column : lines.columns) column.taps.first -= lines.canvas.u0;
     for (LineTaps& row : lines.rows) row.taps.first -= lines.canvas.v0;
