@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "streaming/georeference/place_words.h"
@@ -14,5 +15,10 @@ namespace terrella {
 /// pixels. Fails if the file is not a readable picture. thread: any
 [[nodiscard]] Result<std::string> picture_report(const std::filesystem::path& picture, const PlaceWords& words,
                                                  const DescribedBand& band, bool json);
+
+/// The place and the meaning of a raster's pixels for a panel, a line each, as `terrella info` prints them: system,
+/// bounds, pixels, no data, values. Empty for a file that is no picture. Blocks, up to a second. thread: any
+[[nodiscard]] std::vector<std::string> raster_facts(const std::filesystem::path& picture, const PlaceWords& words,
+                                                    const DescribedBand& band);
 
 }  // namespace terrella

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/commands/option_checks.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/setup/console.h"
 #include "base/number.h"
+#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 namespace {
@@ -25,6 +27,13 @@ Result<std::array<int, 3>> parse_bands(const std::string& text) {
   }
   if (read) return bands;
   return Error{fmt::format("{} is not R,G,B; write three bands, counted from 1, as 4,3,2", in_quotes(text))};
+}
+
+/// For a folder or a list of rasters: true if one of them holds numbers. A mosaic of pictures and numbers is refused.
+bool any_holds_numbers(const std::filesystem::path& input) {
+  if (!is_mosaic(input)) return holds_numbers(input);
+  const auto list = read_mosaic_list(input);
+  return list && std::ranges::any_of(list->entries, [](const MosaicEntry& file) { return holds_numbers(file.path); });
 }
 
 }  // namespace
@@ -99,7 +108,7 @@ void set_numbers(CutOptions& cut, const NumberOptions& options, const std::files
     for (std::size_t c = 0; c < 3 && !options.stretch.empty(); ++c) {
       cut.composite->stretch[c] = options.stretch[std::min(c, options.stretch.size() - 1)];
     }
-  } else if (options.ask_for_numbers() || (!cut.format && holds_numbers(raster))) {
+  } else if (options.ask_for_numbers() || (!cut.format && any_holds_numbers(raster))) {
     cut.numbers = CutNumbers{.band = std::max(1, options.band), .nodata = options.nodata};
   }
 }

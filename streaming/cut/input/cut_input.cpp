@@ -81,7 +81,8 @@ Result<CutInput> open_resampled(const CutOptions& options, const std::optional<H
                   .latitude = warped->latitude,
                   .place = "many",
                   .has_gaps = true,
-                  .remarks = std::move(remarks)};
+                  .remarks = std::move(remarks),
+                  .left_out = warped->left_out};
 }
 
 /// True if a part of a mosaic states a place whose rows are no parallels.
@@ -138,24 +139,6 @@ bool may_have_gaps(const CutOptions& options) {
   return place->kind == PlaceKind::warped || !whole;
 }
 
-Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
-  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
-  if (options.format && options.format != ImageFormat::png) {
-    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
-  }
-  std::vector<fs::path> images = options.images;
-  if (is_mosaic(images.front())) {
-    const auto list = list_of(options);
-    if (!list) return list.error();
-    images.clear();
-    for (const MosaicEntry& entry : list->entries) images.push_back(entry.path);
-  }
-  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
-                                         : plan_numbers(images, *options.numbers, may_have_gaps(options));
-  if (!planned) return planned.error();
-  return std::optional(*planned);
-}
-
 /// True for a folder or a list of rasters, and for parts in a projection.
 bool is_many(const CutOptions& options) {
   if (options.images.size() == 1 && !options.mosaic) return is_mosaic(options.images.front());
@@ -164,6 +147,28 @@ bool is_many(const CutOptions& options) {
     const auto part = measure_picture(image);
     return part && needs_resampling(options, *part);
   });
+}
+
+Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
+  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
+  if (options.format && options.format != ImageFormat::png) {
+    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
+  }
+  std::vector<fs::path> images = options.images;
+  const bool many = is_many(options);
+  if (is_mosaic(images.front())) {
+    const auto list = list_of(options);
+    if (!list) return list.error();
+    images.clear();
+    for (const MosaicEntry& entry : list->entries) {
+      if (measure_picture(entry.path)) images.push_back(entry.path);  // others are left out, and named
+    }
+    if (images.empty()) images.push_back(list->entries.front().path);
+  }
+  const auto planned = options.elevation ? plan_heights(images, *options.elevation, options.jobs)
+                                         : plan_numbers(images, *options.numbers, may_have_gaps(options), many);
+  if (!planned) return planned.error();
+  return std::optional(*planned);
 }
 
 }  // namespace
@@ -177,6 +182,10 @@ BandComposite composite_of(const CutBands& bands) {
 
 CodingOptions choice_of(const CutOptions& options) {
   CodingOptions choice;
+  if (options.numbers) {
+    choice.nodata = options.numbers->nodata;
+    choice.band = static_cast<std::size_t>(options.numbers->band - 1);
+  }
   if (!options.composite) return choice;
   choice.nodata = options.composite->nodata;
   choice.composite = composite_of(*options.composite);

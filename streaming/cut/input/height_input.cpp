@@ -180,6 +180,28 @@ Result<Probe> probe_all(const std::vector<fs::path>& images, std::optional<std::
   return *first;
 }
 
+/// The kind of rasters that are one layer: floats in values if they differ. Rasters that cannot be read are left out.
+Result<Probe> probe_many(const std::vector<fs::path>& images, std::size_t band) {
+  std::optional<Probe> first;
+  std::optional<Error> failed;
+  for (const fs::path& image : images) {
+    const auto probe = probe_heights(image, band);
+    if (!probe) {
+      if (!failed) failed = probe.error();
+      continue;
+    }
+    if (!first) first = *probe;
+    if (probe->kind == first->kind && probe->scale == first->scale && probe->offset == first->offset &&
+        probe->nodata == first->nodata) {
+      continue;
+    }
+    first->kind = HeightKind::float32;
+    first->nodata.reset();
+  }
+  if (!first) return failed.value_or(Error{"no raster is named"});
+  return *first;
+}
+
 }  // namespace
 
 Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutElevation& options, int jobs) {
@@ -204,9 +226,10 @@ Result<HeightPlan> plan_heights(const std::vector<fs::path>& images, const CutEl
   return plan;
 }
 
-Result<HeightPlan> plan_numbers(const std::vector<fs::path>& images, const CutNumbers& options, bool may_have_gaps) {
+Result<HeightPlan> plan_numbers(const std::vector<fs::path>& images, const CutNumbers& options, bool may_have_gaps,
+                                bool many) {
   const auto band = static_cast<std::size_t>(options.band - 1);
-  const auto probe = probe_all(images, band);
+  const auto probe = many ? probe_many(images, band) : probe_all(images, band);
   if (!probe) return probe.error();
   HeightPlan plan;
   plan.numbers.unit = probe->band.unit;

@@ -24,9 +24,10 @@ struct HeightPlan {
 
 /// Chooses how tiles keep the numbers of a band: whole numbers of at most 16 bits as they are, with the metadata's
 /// scale and offset; others as 32-bit floats with both applied. Numbers of 16 bits without nodata, of which
-/// `may_have_gaps` leaves places without data, become floats too. thread: any
+/// `may_have_gaps` leaves places without data, become floats too. `many`: of rasters as one layer, those that cannot be
+/// read do not count, and if they differ in kind, scale or no data, all become floats. thread: any
 [[nodiscard]] Result<HeightPlan> plan_numbers(const std::vector<std::filesystem::path>& images,
-                                              const CutNumbers& options, bool may_have_gaps);
+                                              const CutNumbers& options, bool may_have_gaps, bool many);
 
 /// Options for reading a picture's heights in metres as a raster. thread: any
 [[nodiscard]] RasterOptions raster_of(const HeightPlan& plan);
