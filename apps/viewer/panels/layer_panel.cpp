@@ -51,14 +51,13 @@ void draw_look(LayerRow& row) {
   if (row.finest_level > 0) draw_levels(row);
 }
 
-/// What the raster itself says of its place replaces the facts about the tiles' grid.
+/// What the raster itself says of its place, instead of facts about the tiles' grid.
 void draw_facts(LayerRow& row) {
   if (row.raster.empty()) return;
   if (!row.facts.valid()) {
     row.facts = std::async(std::launch::async, raster_facts, row.raster, row.words, row.band).share();
   }
   if (!row.has_facts() || row.facts.get().empty()) return;
-  if (row.numbers) row.numbers->lines.clear();
   ImGui::PushTextWrapPos(0.0F);
   for (const std::string& line : row.facts.get()) ImGui::TextDisabled("%s", line.c_str());
   ImGui::PopTextWrapPos();
@@ -89,10 +88,11 @@ LayerAsk draw_row(LayerRow& row) {
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
+  if (row.numbers && !row.raster.empty()) row.numbers->lines.clear();
   if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
-  draw_facts(row);
   if (row.kind == LayerKind::imagery) draw_look(row);
   const LayerAsk ask = draw_buttons(row);
+  draw_facts(row);
   ImGui::TreePop();
   return ask;
 }
