@@ -91,7 +91,10 @@ class Cutting(WindowTest):
         self.assertIsNone(self.work(), "it is cut once")
 
     def test_a_dropped_picture_shows_while_it_is_cut(self):
-        viewer = self.start("--camera", "20,8,30000000", "--sky", "off")
+        black = self.folder / "black.tif"
+        subprocess.run(["gdal_translate", "-q", "-outsize", "256", "128", "-scale", "0", "255", "0", "0", "-co", "TILED=YES",
+                        MARBLE, black], check=True)
+        viewer = self.start(black, "--camera", "20,8,30000000", "--sky", "off")
         self.assertFalse(self.has_bar(png.read(self.screenshot(viewer, "before"))))
         viewer.drop(self.picture)
         wait_until("the bar", lambda: self.has_bar(png.read(self.screenshot(viewer, "dropped"))))
