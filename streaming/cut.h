@@ -122,6 +122,7 @@ struct CutSummary {
   TileGrid grid;
   std::int64_t tiles = 0;
   std::int64_t bytes = 0;
+  int left_out = 0;  ///< files of a folder or list that could not be read; CutOptions::remark has named them
 };
 
 /// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory

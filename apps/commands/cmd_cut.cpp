@@ -75,13 +75,10 @@ Result<MosaicGrid> parse_mosaic(const std::string& text) {
 void print_summary(const CutCommand& command, const CutSummary& summary) {
   const TileGrid& grid = summary.grid;
   if (command.json) {
-    const nlohmann::json result = {{"output", command.output},
-                                   {"tiles", summary.tiles},
-                                   {"bytes", summary.bytes},
-                                   {"tile_size", grid.tile_px},
-                                   {"root_span_deg", grid.root_span_deg},
-                                   {"min_level", grid.min_level},
-                                   {"max_level", grid.max_level}};
+    const nlohmann::json result = {{"output", command.output},    {"tiles", summary.tiles},
+                                   {"bytes", summary.bytes},      {"left_out", summary.left_out},
+                                   {"tile_size", grid.tile_px},   {"root_span_deg", grid.root_span_deg},
+                                   {"min_level", grid.min_level}, {"max_level", grid.max_level}};
     // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
@@ -111,7 +108,7 @@ void set_reading(CutCommand& command) {
   } else {
     const auto& raster = command.cut.raster;
     set_numbers(command.cut, command.numbers,
-                raster ? holds_numbers(*raster->pyramid) : holds_numbers(command.cut.images.front()));
+                raster ? holds_numbers(*raster->pyramid) : any_holds_numbers(command.cut.images.front()));
   }
 }
 
@@ -134,7 +131,10 @@ int run(CutCommand& command) {
   }
   if (!summary) return fail("cut", summary.error().message);
   print_summary(command, *summary);
-  return kDone;
+  if (summary->left_out == 0) return kDone;
+  print_message("terrella cut: {}: {} files are left out of it; the messages above name them\n", command.output,
+                summary->left_out);
+  return kDoneInPart;
 }
 
 void add_description_options(CLI::App& app, CutOptions& cut) {

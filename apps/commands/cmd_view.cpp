@@ -97,6 +97,9 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
   for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
     const auto look = globe.look(ids[i]);
     rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
+    if (!is_remote(names[i]) && is_picture(names[i].with_secrets())) rows.back().raster = names[i].with_secrets();
+    if (i == 0) rows.back().words = scene.place;
+    rows.back().band = {.band = scene.numbers.band, .nodata = scene.numbers.nodata};
     rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
     rows.back().bounds = if_a_part(first.grid.bounds);

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/commands/option_checks.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/setup/console.h"
 #include "base/number.h"
+#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 namespace {
@@ -28,6 +30,12 @@ Result<std::array<int, 3>> parse_bands(const std::string& text) {
 }
 
 }  // namespace
+
+bool any_holds_numbers(const std::filesystem::path& input) {
+  if (!is_mosaic(input)) return holds_numbers(input);
+  const auto list = read_mosaic_list(input);
+  return list && std::ranges::any_of(list->entries, [](const MosaicEntry& file) { return holds_numbers(file.path); });
+}
 
 std::optional<int> band_number(std::string_view text) {
   const auto number = read_number(text);

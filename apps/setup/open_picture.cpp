@@ -96,15 +96,15 @@ Result<Tiles> cut_and_open(CutOptions cut, const fs::path& folder, const CutProg
 Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const SceneOptions& options,
                        const CutProgress& told) {
   CutOptions cut = cut_options(picture, options);
-  // A cut of numbers is waited for: its unfinished tiles are not shown.
-  if (options.cuts == nullptr || cut.numbers || cut.composite) return cut_and_open(std::move(cut), folder, told);
+  if (options.cuts == nullptr) return cut_and_open(std::move(cut), folder, told);
   const auto path = cache_path(cut, folder);
   if (!path) return path.error();
   std::error_code failed;
   if (fs::is_regular_file(*path, failed)) return cut_and_open(std::move(cut), folder, told);
   if (!can_write_into(folder)) return Error{fmt::format("{}: nothing can be written there", folder.string())};
-  auto growing = GrowingCut::start(std::move(cut), folder);
+  auto growing = GrowingCut::start(cut, folder);
   if (!growing) return growing.error();
+  if (!*growing) return cut_and_open(std::move(cut), folder, told);
   options.cuts->push_back(*growing);
   return Tiles(*std::move(growing));
 }

@@ -98,7 +98,7 @@ void Viewer::handle_events() {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
   for (std::filesystem::path& file : input_.take_dropped()) layers_.open(std::move(file));
-  layers_.take_opened();
+  cutting_.add(layers_.take_opened());
   follow_panels();
 }
 

@@ -31,7 +31,7 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   RenderOptions options = asked;
   options.night_lights = sky != nullptr && !sky->night_lights.values.empty();
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
-  if (Status s = make_once(renderer->limb_); !s) return s.error();
+  renderer->limb_ = std::make_unique<LimbPass>();
   if (sky != nullptr) {
     if (Status s = make_once(renderer->sky_, sky->body, sky->stars); !s) return s.error();
   }
@@ -83,8 +83,8 @@ Status GlobeRenderer::prepare(const Pass& pass) {
   if (has_inner_sphere(pass)) {
     if (Status s = make_once(inner_sphere_, options_.depth); !s) return s;
   }
-  if (mountains_on_limb(pass)) {
-    if (Status s = make_once(outline_); !s) return s;
+  if (Status s = mountains_on_limb(pass) ? make_once(outline_) : limb_->prepare(limb_look(pass, air_of(pass))); !s) {
+    return s;
   }
   return pass.input.stereo == Stereo::interlaced ? make_once(interlace_) : Done{};
 }
@@ -221,7 +221,7 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
     const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
     mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
-              : limb_->draw(view, picture, pass.input.lit ? LimbLook::lit : LimbLook::imagery, air_, state);
+              : limb_->draw(view, picture, limb_look(pass, air_), air_, state);
     ++pass.counts.draw_calls;
   };
   const int rows_apart = pass.eye.interlaced ? 2 : 1;

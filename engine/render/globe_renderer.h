@@ -192,6 +192,7 @@ class GlobeRenderer {
   [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
   [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
   [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
+  [[nodiscard]] static LimbLook limb_look(const Pass& pass, const AirTextures* air);
   [[nodiscard]] double near_m(const Pass& pass) const;
 
   RenderOptions options_;

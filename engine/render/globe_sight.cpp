@@ -103,6 +103,12 @@ bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));
 }
 
+// From within the air, the air beside the limb is many pixels thick.
+LimbLook GlobeRenderer::limb_look(const Pass& pass, const AirTextures* air) {
+  if (!pass.input.lit) return LimbLook::imagery;
+  return air != nullptr && air->sky().outside ? LimbLook::in_air : LimbLook::lit;
+}
+
 // Distance of the near plane: a tenth of the way to the nearest thing that is drawn, less if the picture is very wide.
 // The sky does not count (paper 2, section 2.3).
 double GlobeRenderer::near_m(const Pass& pass) const {

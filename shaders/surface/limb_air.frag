@@ -1,18 +1,21 @@
-// Antialiases the limb of a globe with light and air. A pixel on the limb has three parts: the ground's colour, the air
-// beside the limb, and what shines through that air. The air may be thinner than a pixel, so its light is summed over
-// the part of the pixel outside the limb (SkyColors of engine/sky/air_colors.h).
+// Antialiases the limb of a globe with light, and with AIR in air. A pixel on the limb has three parts: the ground's
+// colour, the air beside the limb, and what shines through that air. The air may be thinner than a pixel, so its light
+// is summed over the part of the pixel outside the limb (SkyColors of engine/sky/air_colors.h).
 layout(binding = 0) uniform sampler2D frame_srgb;
+#if defined(AIR)
 layout(binding = 2) uniform sampler2D limb_light;    // sums outwards from the limb, by azimuth and distance
 layout(binding = 3) uniform sampler2D limb_through;
 layout(binding = 7) uniform sampler2D ground_through;  // GroundColors
 layout(binding = 8) uniform sampler2D ground_light;
+#endif
 // 2: the rows between belong to the other eye; 0: frame_srgb contains the limb.
 layout(location = 0) uniform int rows_apart;
 layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
+#if defined(AIR)
 layout(location = 2) uniform mat3 horizon_from_px;   // axes: x towards the Sun's azimuth, z up
-// Distance of the limb, the height that a pixel of the tables covers, both in radii; steps of the tables in a pixel; 0
-// without air or with air that is many pixels thick.
+// Distance of the limb, the height that a pixel of the tables covers, both in radii; steps of the tables in a pixel.
 layout(location = 3) uniform vec3 limb;
+#endif
 in vec2 outward;
 in float outside_px;
 layout(location = 0) out vec4 color_srgb;
@@ -20,6 +23,7 @@ layout(location = 0) out vec4 color_srgb;
 const int kSlices = 4;                         // the pixel's square as strips along the limb
 const float kInside_px = 0.22;                 // a pixel this far inside is ground, whatever the mesh's error
 
+#if defined(AIR)
 struct Air {
   float azimuth;
   float pixel;                                 // a pixel's height in units of the tables' pixel
@@ -55,6 +59,8 @@ void ground_air(Air air, float inside_px, out vec3 through, out vec3 light) {
   light = textureLod(ground_light, at, 0.0).rgb;
 }
 
+#endif
+
 // The pixel that many steps outwards along a row or a column; `apart` is the distance of a step from the limb.
 float step_px(out ivec2 step) {
   bool along_row = abs(outward.x) >= abs(outward.y) || rows_apart > 1;
@@ -79,31 +85,33 @@ void main() {
   vec3 ground = color_at(-inwards * step), beyond = color_at(outwards * step);
   vec2 sides = abs(outward);
   float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
-  bool has_air = limb.z > 0.0;
-  Air air = has_air ? air_here() : Air(0.0, 1.0);
   float covered = 0.0;
+#if defined(AIR)
+  Air air = air_here();
   vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);
   vec3 thin, thin_light;
-  if (has_air) ground_air(air, float(inwards) * apart - outside_px, thin, thin_light);
-  for (int k = 0; k < kSlices; ++k) {
+  ground_air(air, float(inwards) * apart - outside_px, thin, thin_light);
+#endif
+  // A number of turns that the compiler does not know keeps the loop a loop: unrolled, it takes long to compile.
+  int slices = (rows_apart + 3) & kSlices;
+  for (int k = 0; k < slices; ++k) {
     float from_px = outside_px + (float(k) - 0.5 * float(kSlices - 1)) * offset - 0.5 * width;
     float part = clamp(-from_px / width, 0.0, 1.0);
-    covered += part;
-    if (!has_air) continue;
+    covered += part / float(kSlices);
+#if defined(AIR)
     vec3 thick, thick_light;
     ground_air(air, -from_px - 0.5 * part * width, thick, thick_light);
     ground_sum += part * sqrt(max(vec3(0.0), (ground * ground - thin_light) * min(thick / max(thin, 1e-4), 2.0) + thick_light));
     light += mean_over(limb_light, air, from_px, from_px + width) / width;
     through += mean_over(limb_through, air, from_px, from_px + width) / width;
+#endif
   }
-  float slices = float(kSlices);
-  covered /= slices;
-  if (has_air) {
-    float d = outside_px + float(outwards) * apart;
-    vec3 own = mean_over(limb_light, air, d - 0.5, d + 0.5), passed = mean_over(limb_through, air, d - 0.5, d + 0.5);
-    vec3 background = clamp((beyond - own) / max(passed, 0.01), 0.0, 1.0);
-    color_srgb = vec4((ground_sum + light) / slices + background * (through / slices), 1.0);
-  } else {
-    color_srgb = vec4(mix(beyond, ground, covered), 1.0);
-  }
+#if defined(AIR)
+  float d = outside_px + float(outwards) * apart;
+  vec3 own = mean_over(limb_light, air, d - 0.5, d + 0.5), passed = mean_over(limb_through, air, d - 0.5, d + 0.5);
+  vec3 background = clamp((beyond - own) / max(passed, 0.01), 0.0, 1.0);
+  color_srgb = vec4((ground_sum + light + background * through) / float(kSlices), 1.0);
+#else
+  color_srgb = vec4(mix(beyond, ground, covered), 1.0);
+#endif
 }

@@ -195,8 +195,9 @@ Result<Job> prepare(const CutOptions& options) {
 Result<CutSummary> run(const CutOptions& options) {
   const auto job = prepare(options);
   if (!job) return job.error();
-  if (options.shard) return cut_shard(*job);
-  return options.join ? join_shards(*job) : cut_whole(*job);
+  auto summary = options.shard ? cut_shard(*job) : options.join ? join_shards(*job) : cut_whole(*job);
+  if (summary && job->input.left_out) summary->left_out = *job->input.left_out;
+  return summary;
 }
 
 }  // namespace

@@ -21,8 +21,6 @@ namespace {
 /// A tile of more files, or of more pixels of theirs, is made of the four tiles under it, and kept.
 constexpr std::size_t kMostFiles = 12;
 constexpr double kMostPixels = 4e6;
-/// A box of a place has some width, because boxes that only touch do not meet.
-constexpr double kNothing_deg = 1e-9;
 /// Increase this number if the pixels of overview tiles change.
 constexpr std::uint64_t kOverviewVersion = 1;
 
@@ -112,9 +110,10 @@ class Mosaic : public MosaicTiles {
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
     const double row = row_latitude_deg(info_.grid, figure, Ellipsoid::normal(place.lat, place.lon));
     const double lon = place.lon.deg();
-    return sheets_.value_at(
-        place, figure,
-        sheets_of(index_.files_in({lon - kNothing_deg, row - kNothing_deg, lon + kNothing_deg, row + kNothing_deg})));
+    // Boxes are rounded; a pixel more leaves out no file that has the place.
+    const double near = tile_span_deg(info_.grid, info_.grid.max_level) / info_.grid.tile_px;
+    return sheets_.value_at(place, figure,
+                            sheets_of(index_.files_in({lon - near, row - near, lon + near, row + near})));
   }
 
   [[nodiscard]] MosaicFacts facts() const override {

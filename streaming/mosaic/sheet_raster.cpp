@@ -53,14 +53,6 @@ class SheetRaster : public RasterSource {
     return tile;
   }
 
-  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
-    for (const SheetPart& part : parts_under({.x = column, .y = row, .width = 1, .height = 1}, 0)) {
-      auto value = rasters_.value_at(part.file, column - part.column, row - part.row);
-      if (value || value.error().kind != MissingKind::blank) return value;
-    }
-    return TileFailure{MissingKind::blank, "no data"};
-  }
-
  private:
   /// The files under a rectangle, the topmost first.
   [[nodiscard]] std::vector<SheetPart> parts_under(const MeanBox& box, int halvings) const {

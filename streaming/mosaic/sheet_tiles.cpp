@@ -27,6 +27,23 @@ Result<Block, TileFailure> stacked(const std::vector<EncodedTile>& tiles, int si
   return mean.finish();
 }
 
+/// True if a place on a sheet's pixels lies on a part, or so near that the part's own transform decides.
+bool is_near(const MosaicFile& file, const SheetPart& part, const CrsPoint& at) {
+  constexpr double kNear_px = 1.0;
+  const double x = at.x - static_cast<double>(part.column), y = at.y - static_cast<double>(part.row);
+  return x > -kNear_px && y > -kNear_px && x < static_cast<double>(file.width_px()) + kNear_px &&
+         y < static_cast<double>(file.height_px()) + kNear_px;
+}
+
+/// The value of a file's pixel at a point of its system.
+Result<double, TileFailure> value_in(OpenRasters& rasters, int file, const Affine& to_crs, const CrsPoint& point) {
+  const double x = point.x - to_crs.x0, y = point.y - to_crs.y0;
+  const double area = to_crs.x_per_column * to_crs.y_per_row - to_crs.x_per_row * to_crs.y_per_column;
+  const auto whole = [area](double pixels) { return static_cast<std::int64_t>(std::floor(pixels / area)); };
+  return rasters.value_at(file, whole(x * to_crs.y_per_row - y * to_crs.x_per_row),
+                          whole(y * to_crs.x_per_column - x * to_crs.y_per_column));
+}
+
 }  // namespace
 
 Result<Block, TileFailure> decode_tile(const EncodedTile& tile) {
@@ -48,9 +65,9 @@ Result<Block, TileFailure> decode_tile(const EncodedTile& tile) {
 SheetTiles::SheetTiles(const MosaicIndex& index, OpenRasters& rasters, const TileGrid& grid, const Body& body)
     : index_(index), rasters_(rasters), grid_(grid), body_(body) {}
 
-Result<std::shared_ptr<TileSource>> SheetTiles::open(int sheet) {
+Result<SheetTiles::OpenSheet> SheetTiles::open(int sheet) {
   const std::lock_guard lock(mutex_);
-  const auto known = std::ranges::find(open_, sheet, &std::pair<int, std::shared_ptr<TileSource>>::first);
+  const auto known = std::ranges::find(open_, sheet, &std::pair<int, OpenSheet>::first);
   if (known != open_.end()) {
     open_.splice(open_.begin(), open_, known);
     return open_.front().second;
@@ -66,7 +83,9 @@ Result<std::shared_ptr<TileSource>> SheetTiles::open(int sheet) {
   info.numbers = raster->info().numbers;
   const std::size_t bytes =
       std::max(kLeastDecodedBytes, kWarpDecodedBytes / std::min(index_.sheets.size(), kMostSheets));
-  open_.emplace_front(sheet, make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, bytes));
+  OpenSheet opened{.tiles = make_warp_source(std::move(raster), *planner, std::move(info), {}, bytes),
+                   .planner = *planner};
+  open_.emplace_front(sheet, std::move(opened));
   if (open_.size() > kMostSheets) open_.pop_back();
   return open_.front().second;
 }
@@ -76,7 +95,7 @@ Result<EncodedTile, TileFailure> SheetTiles::make(const TileId& id, const std::v
   for (auto sheet = sheets.rbegin(); sheet != sheets.rend(); ++sheet) {
     const auto source = open(*sheet);
     if (!source) return TileFailure{MissingKind::broken, source.error().message};
-    auto tile = (*source)->read(id);
+    auto tile = source->tiles->read(id);
     if (!tile && tile.error().kind != MissingKind::blank && tile.error().kind != MissingKind::absent) return tile;
     if (tile) tiles.push_back(*std::move(tile));
   }
@@ -99,10 +118,19 @@ Result<EncodedTile, TileFailure> SheetTiles::make(const TileId& id, const std::v
 Result<double, TileFailure> SheetTiles::value_at(const Geodetic& place, const Ellipsoid& figure,
                                                  const std::vector<int>& sheets) {
   for (auto sheet = sheets.rbegin(); sheet != sheets.rend(); ++sheet) {
-    const auto source = open(*sheet);
-    if (!source) return TileFailure{MissingKind::broken, source.error().message};
-    auto value = (*source)->value_at(place, figure);
-    if (value || value.error().kind == MissingKind::broken) return value;
+    const auto opened = open(*sheet);
+    if (!opened) return TileFailure{MissingKind::broken, opened.error().message};
+    const MosaicSheet& from = index_.sheets[static_cast<std::size_t>(*sheet)];
+    const double row_deg = row_latitude_deg(grid_, figure, Ellipsoid::normal(place.lat, place.lon));
+    const CrsPoint at = opened->planner->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+    const CrsPoint point = from.to_crs.at(at.x, at.y);
+    for (auto part = from.parts.rbegin(); part != from.parts.rend(); ++part) {
+      if (!is_near(index_.files[static_cast<std::size_t>(part->file)].file, *part, at)) continue;
+      const Affine& to_crs = index_.files[static_cast<std::size_t>(part->file)].place.at.to_crs;
+      auto value = value_in(rasters_, part->file, to_crs, point);
+      if (value || value.error().kind == MissingKind::broken) return value;
+    }
   }
   return TileFailure{MissingKind::blank, "no data"};
 }

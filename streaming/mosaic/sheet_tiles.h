@@ -9,6 +9,7 @@
 
 #include "streaming/mosaic/mosaic_index.h"
 #include "streaming/mosaic/open_rasters.h"
+#include "streaming/warp/make_warp_source.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
@@ -23,19 +24,23 @@ class SheetTiles {
   /// Makes a tile of the files of one or more sheets, given with the lowest sheet first. Colours of several sheets lie
   /// over each other; a number is the topmost one that is known.
   [[nodiscard]] Result<EncodedTile, TileFailure> make(const TileId& id, const std::vector<int>& sheets);
-  /// The topmost known number at a place (TileSource::value_at()).
+  /// The topmost known number at a place (TileSource::value_at()): of the pixel that the file itself has there.
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure,
                                                      const std::vector<int>& sheets);
 
  private:
-  [[nodiscard]] Result<std::shared_ptr<TileSource>> open(int sheet);
+  struct OpenSheet {
+    std::shared_ptr<TileSource> tiles;
+    std::shared_ptr<TilePlanner> planner;
+  };
+  [[nodiscard]] Result<OpenSheet> open(int sheet);
 
   const MosaicIndex& index_;
   OpenRasters& rasters_;
   const TileGrid grid_;
   const Body body_;
-  std::mutex mutex_;                                             ///< guards what follows
-  std::list<std::pair<int, std::shared_ptr<TileSource>>> open_;  ///< most recently used first
+  std::mutex mutex_;                           ///< guards what follows
+  std::list<std::pair<int, OpenSheet>> open_;  ///< most recently used first
 };
 
 /// Decodes a tile that is local. thread: worker

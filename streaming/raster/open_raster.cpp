@@ -97,8 +97,12 @@ class TiffRaster : public TiffSource {
 
   [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
     auto value = RasterSource::value_at(column, row);
-    if (!value || !is_wider_than_floats(parts_->parts.back().level.part.picture.samples.type)) return value;
+    if (!value) return value;
+    // Blocks are floats, with the scale and the offset of the coding applied.
     const NumberCoding& coding = *parts_->coding.numbers;
+    const bool rounded = is_wider_than_floats(parts_->parts.back().level.part.picture.samples.type) ||
+                         coding.scale != 1.0 || coding.offset != 0.0;
+    if (!rounded) return value;
     const auto sample = exact_sample_at(parts_->parts.back(), column, row, coding.band);
     if (!sample) return TileFailure{MissingKind::broken, parts_->name + ": " + sample.error().message};
     return (*sample * coding.scale + coding.offset) * info_.numbers->scale + info_.numbers->offset;

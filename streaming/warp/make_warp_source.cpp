@@ -91,7 +91,8 @@ void TilePlanner::put_back(GroundMap map) {
 
 WarpPlan TilePlanner::plan(const TileId& id) {
   std::optional<GroundMap> map = take_map();
-  if (!map) return {.tile_px = frame_.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
+  if (!map)
+    return {.tile_px = frame_.grid.tile_px, .rows = frame_.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
   WarpPlan plan = plan_tile(*map, frame_, id);
   put_back(*std::move(map));
   return plan;

@@ -200,10 +200,20 @@ class Planner {
   std::set<TileId> reached_, core_;
 };
 
+/// Rows of a tile north of the south pole; a row of which the pole cuts off a part counts.
+int rows_on_planet(const TileGrid& grid, const TileId& id) {
+  const TileBounds bounds = tile_bounds(grid, id);
+  const double row_deg = tile_span_deg(grid, id.level) / grid.tile_px;
+  constexpr double kRounding_px = 1e-6;
+  return static_cast<int>(
+      std::clamp(std::ceil((bounds.north_deg + 90.0) / row_deg - kRounding_px), 0.0, double(grid.tile_px)));
+}
+
 }  // namespace
 
 WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id) {
-  WarpPlan plan{.tile_px = frame.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
+  WarpPlan plan{
+      .tile_px = frame.grid.tile_px, .rows = rows_on_planet(frame.grid, id), .pieces = {}, .lines = {}, .chunks = {}};
   std::vector<Patch> patches = tile_patches(map, frame.levels.back().area, frame.grid, id);
   if (patches.empty()) return plan;
   plan.level = level_for(frame, id, patches, 1.0);

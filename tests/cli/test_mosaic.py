@@ -124,6 +124,26 @@ class ManyFiles(ProgramTest):
         (self.cells / "cell-00.tif").unlink()
         self.assert_fails(FAILED, "cut", "cells", "-o", "cells.gpkg", "--format", "png", says=["cells.gpkg", "--force"])
 
+    def test_a_cut_of_numbers_keeps_them_and_names_the_files_that_it_leaves_out(self):
+        gdal("gdal_translate", "-q", "-b", 1, "-ot", "Int16", "-scale", 0, 255, -1000, 3000, "-a_srs", "EPSG:4326",
+             "-a_ullr", 10, 50, 12, 48, self.folder / "base.ppm", self.folder / "numbers.tif")
+        for part in range(4):
+            # One cell has another type than the others.
+            gdal("gdal_translate", "-q", "-ot", "Float32" if part == 2 else "Int16", "-srcwin", part % 2 * 128,
+                 part // 2 * 128, 128, 128, self.folder / "numbers.tif", self.cells / f"cell-{part}.tif")
+        (self.cells / "broken.tif").write_text("no raster")
+        done = self.run_program("cut", "cells", "-o", "numbers.gpkg", "--json")
+        self.assertEqual(done.returncode, DONE_IN_PART, done.stderr)
+        self.assertIn("broken.tif", done.stderr)
+        self.assertEqual(json.loads(done.stdout)["left_out"], 1)
+        places = "\n".join(f"{10 + (x + 0.5) / 128} {50 - (y + 0.5) / 128}" for x in range(3, 256, 36) for y in range(5, 256, 36))
+        ask = ["gdallocationinfo", "-valonly", "-wgs84"]
+        told = [subprocess.run([*ask, self.folder / name], input=places, capture_output=True, text=True, check=True).stdout
+                for name in ("numbers.tif", "numbers.gpkg")]
+        self.assertEqual(told[1].split(), told[0].split())
+        (self.cells / "broken.tif").unlink()
+        self.assert_done("cut", "cells", "-o", "numbers.gpkg", "--force")
+
     def test_files_of_two_projections_join(self):
         gdal("gdal_translate", "-q", "-srcwin", 0, 0, 128, 256, self.folder / "whole.tif", self.cells / "west.tif")
         gdal("gdal_translate", "-q", "-srcwin", 120, 0, 136, 256, self.folder / "whole.tif", self.folder / "east.tif")

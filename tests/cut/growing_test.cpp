@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <future>
 #include <numbers>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "streaming/cut/growing/coarse_raster.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/sets/open_tile_set.h"
+#include "tiles/height_decoder.h"
 
 namespace terrella::test {
 namespace {
@@ -180,6 +182,44 @@ TEST_F(GrowingCutTest, CoarseTilesAreNearThoseOfTheCut) {
                             .east = Angle::degrees(-170),
                             .north = Angle::degrees(0)};
   expect_canvas_near_cut(options_, picture);
+}
+
+TEST_F(GrowingCutTest, NumbersShowASmallVersionUntilTheyAreCut) {
+  // Rising to the east and to the south; values are (number - 1000) / 10, and the first rows have no data.
+  std::vector<float> numbers(1024 * 512);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = i < 64 * 1024 ? -1.0F : static_cast<float>(1000 + i % 1024 + 2 * (i / 1024));
+  }
+  std::ofstream(folder_ / "raw", std::ios::binary)
+      .write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size() * 4));
+  std::ofstream(folder_ / "raw.hdr") << "ENVI\nsamples = 1024\nlines = 512\nbands = 1\ndata type = 4\nbyte order = 0\n";
+  const fs::path file = options_.images.front() = folder_ / "in.tif";
+  const std::string made = std::string(TERRELLA_GDAL_TRANSLATE) +
+                           " -q -ot Int16 -a_nodata -1 -a_scale 0.1 -a_offset -100 " + (folder_ / "raw").string() +
+                           " " + file.string();
+  ASSERT_EQ(std::system(made.c_str()), 0);
+  options_.numbers = CutNumbers{};
+  const auto cut = start();
+  ASSERT_TRUE(cut);
+  const NumberInfo& info = *cut->info().numbers;
+  const auto number_of = [&](const Result<EncodedTile, TileFailure>& tile, int x, int y) {
+    const auto made_of = decode_numbers(*tile, info, 16);
+    EXPECT_TRUE(made_of);
+    const double number = made_of->values[static_cast<std::size_t>(y * 16 + x)];
+    return (number * tile->number_scale + tile->number_offset) * info.scale + info.offset;
+  };
+  // The whole planet in 32 by 16 pixels; read before and after the cut.
+  const auto small = cut->read({.level = 0, .x = 1, .y = 0});
+  ASSERT_TRUE(small && small->make_numbers);
+  EXPECT_TRUE(std::isnan(number_of(small, 8, 0)));
+  for (int y = 3; y < 16; ++y) {
+    for (int x = 1; x < 15; ++x)
+      EXPECT_NEAR(number_of(small, x, y), 0.1 * ((16 + x + 0.5) * 32 + 2 * (y + 0.5) * 32), 3.3);
+  }
+  wait(*cut);
+  const auto whole = cut->read({.level = 0, .x = 1, .y = 0});
+  ASSERT_TRUE(whole && !whole->bytes.empty());
+  for (int y = 3; y < 15; ++y) EXPECT_NEAR(number_of(whole, 8, y), number_of(small, 8, y), 5.0);
 }
 
 struct CoarseCase {

@@ -53,8 +53,7 @@ class Programs : public GlTest {
     return all;
   }
   static Names plain() {
-    return {"limb.frag",          "limb_air.frag",    "patch_magnified.frag",
-            "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
+    return {"limb_air.frag", "patch_magnified.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
   }
 };
 

@@ -82,6 +82,7 @@ TEST_P(WarpPlaces, ShowThingsWhereTheyAre) {
         const std::size_t at = static_cast<std::size_t>(j * made->width_px + i) * 4;
         if (made->rgba[at + 3] < 255) continue;
         const double lat = bounds.north_deg - (j + 0.5) * step, lon = bounds.west_deg + (i + 0.5) * step;
+        if (lat < -90.0) continue;  // rows beyond the pole repeat the last
         const auto value = [&](double move) {
           return north_south ? by_lat.at(lat + move * step, lon) : by_lon.at(lat, lon + move * step / cosine);
         };
@@ -161,6 +162,34 @@ INSTANTIATE_TEST_SUITE_P(
             raster("+proj=merc +R=6378137", {-50 * kDegree_m, kPixel_m, 0.0, -50 * kDegree_m, 0.0, kPixel_m}, 400, 400),
             20.0, 10.0, 0}),
     [](const auto& given) { return std::string(given.param.name); });
+
+TEST(WarpPlanet, TilesOfAnOpaquePlanetAreOpaqueBeyondThePole) {
+  // 264 pixels round the planet: tiles reach beyond the south pole and beyond 180 degrees, and the pole cuts off a part
+  // of the last row of coarse levels.
+  const double pixel_m = kDegree_m * 360.0 / 264.0;
+  PaintedOptions planet =
+      raster("+proj=eqc +R=6378137", north_up(-180 * kDegree_m, 90 * kDegree_m, pixel_m), 264, 132, 2);
+  planet.rays = 1;
+  const auto plain = [](double, double) { return 200.0; };
+  const WarpOptions options{.figure = {.ellipsoid = Ellipsoid(6378137.0, 0.0)}, .body = "sphere", .tile_px = 32};
+  const auto tiles = warp_source(std::make_unique<PaintedRaster>(planet, plain, plain), options, "the planet");
+  ASSERT_TRUE(tiles) << tiles.error().message;
+  const TileGrid& grid = (*tiles)->info().grid;
+  ASSERT_GE(grid.max_level, 3);
+  for (int level = 0; level <= 3; ++level) {
+    const TileXY corner = tile_xy(grid, level, -90.0, 180.0);
+    for (const double x : {0.0, corner.x}) {
+      const TileId id{level, static_cast<std::int64_t>(x - 1e-9), static_cast<std::int64_t>(corner.y - 1e-9)};
+      const auto tile = (*tiles)->read(id);
+      ASSERT_TRUE(tile) << tile.error().why;
+      const auto made = tile->make_picture();
+      ASSERT_TRUE(made) << made.error().why;
+      for (std::size_t at = 3; at < made->rgba.size(); at += 4) {
+        ASSERT_EQ(made->rgba[at], 255) << "level " << level << ", column " << id.x << ", pixel " << at / 4;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace terrella

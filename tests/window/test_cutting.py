@@ -90,6 +90,19 @@ class Cutting(WindowTest):
         self.assertFalse(self.has_bar(png.read(self.screenshot(again, "again"))))
         self.assertIsNone(self.work(), "it is cut once")
 
+    def test_a_dropped_picture_shows_while_it_is_cut(self):
+        black = self.folder / "black.tif"
+        subprocess.run(["gdal_translate", "-q", "-outsize", "256", "128", "-scale", "0", "255", "0", "0", "-co", "TILED=YES",
+                        MARBLE, black], check=True)
+        viewer = self.start(black, "--camera", "20,8,30000000", "--sky", "off")
+        self.assertFalse(self.has_bar(png.read(self.screenshot(viewer, "before"))))
+        viewer.drop(self.picture)
+        wait_until("the bar", lambda: self.has_bar(png.read(self.screenshot(viewer, "dropped"))))
+        self.assertIsNotNone(self.work(), "the cut goes on")
+        self.assert_coarse_picture_and_bar(viewer)
+        viewer.key("Escape")
+        self.assertEqual(viewer.program.wait(timeout=30), 0)
+
     def assert_coarse_picture_and_bar(self, viewer):
         shot = png.read(self.screenshot(viewer, "coarse"))
         self.assert_sand(shot)

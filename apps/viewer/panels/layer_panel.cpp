@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/commands/picture_report.h"
 #include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_items.h"
 
@@ -50,6 +51,18 @@ void draw_look(LayerRow& row) {
   if (row.finest_level > 0) draw_levels(row);
 }
 
+/// What the raster itself says of its place, instead of facts about the tiles' grid.
+void draw_facts(LayerRow& row) {
+  if (row.raster.empty()) return;
+  if (!row.facts.valid()) {
+    row.facts = std::async(std::launch::async, raster_facts, row.raster, row.words, row.band).share();
+  }
+  if (!row.has_facts() || row.facts.get().empty()) return;
+  ImGui::PushTextWrapPos(0.0F);
+  for (const std::string& line : row.facts.get()) ImGui::TextDisabled("%s", line.c_str());
+  ImGui::PopTextWrapPos();
+}
+
 LayerAsk draw_buttons(const LayerRow& row) {
   LayerAsk ask = LayerAsk::none;
   const auto button = [&ask](const char* name, LayerAsk what, const char* why) {
@@ -75,9 +88,11 @@ LayerAsk draw_row(LayerRow& row) {
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
+  if (row.numbers && !row.raster.empty()) row.numbers->lines.clear();
   if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
   if (row.kind == LayerKind::imagery) draw_look(row);
   const LayerAsk ask = draw_buttons(row);
+  draw_facts(row);
   ImGui::TreePop();
   return ask;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <filesystem>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +10,8 @@
 #include "apps/scene/scene_numbers.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
+#include "streaming/georeference/place_words.h"
+#include "streaming/raster/open_raster.h"
 #include "surface/layers.h"
 
 namespace terrella {
@@ -18,10 +23,19 @@ struct LayerRow {
   LayerId id = LayerId::none;  ///< none for heights
   LayerKind kind = LayerKind::imagery;
   std::string name = {};
-  std::optional<GeoRect> bounds = {};       ///< set if known and smaller than the planet
-  int finest_level = 0;                     ///< imagery only
-  std::optional<NumberFacts> numbers = {};  ///< set for imagery of numbers
-  ImageLook look = {};                      ///< objects use `shown` and opacity, heights use `shown`
+  std::optional<GeoRect> bounds = {};                       ///< set if known and smaller than the planet
+  int finest_level = 0;                                     ///< imagery only
+  std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
+  ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
+  std::filesystem::path raster = {};                        ///< the file, if it may be a picture
+  PlaceWords words = {};                                    ///< of the user, about its place
+  DescribedBand band = {};                                  ///< of the raster that is shown
+  std::shared_future<std::vector<std::string>> facts = {};  ///< raster_facts(); begun when the row is first open
+  bool facts_drawn = false;                                 ///< the panel was drawn since they came
+
+  [[nodiscard]] bool has_facts() const {
+    return facts.valid() && facts.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
 };
 
 enum class LayerAsk { none, raise, lower, remove, look_at };

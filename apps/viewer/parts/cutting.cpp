@@ -19,6 +19,10 @@ int percent_of(const GrowingCut::State& state) { return static_cast<int>(100.0 *
 }  // namespace
 
 Cutting::Cutting(const ViewerContext& context, std::vector<std::shared_ptr<GrowingCut>> cuts) : Part(context) {
+  add(std::move(cuts));
+}
+
+void Cutting::add(std::vector<std::shared_ptr<GrowingCut>> cuts) {
   for (std::shared_ptr<GrowingCut>& cut : cuts) rows_.push_back({.cut = std::move(cut)});
 }
 

@@ -13,6 +13,8 @@ class Cutting : public Part {
  public:
   Cutting(const ViewerContext& context, std::vector<std::shared_ptr<GrowingCut>> cuts);
 
+  /// Adds the cuts of pictures that were opened later.
+  void add(std::vector<std::shared_ptr<GrowingCut>> cuts);
   void draw(float foot) override;
   [[nodiscard]] bool changed() const override;
 

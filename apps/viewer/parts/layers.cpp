@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "apps/viewer/input.h"
@@ -39,12 +40,19 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
       files_(files),
       switches_(std::move(switches)) {}
 
+bool Layers::changed() const {
+  const auto has_news = [](const LayerRow& row) { return !row.facts_drawn && row.has_facts(); };
+  return files_.ready() || value_.ready() || std::ranges::any_of(rows_, has_news);
+}
+
 void Layers::draw_open(float foot) {
   std::vector<LayerRow> rows = rows_;
   const LayerWish wish = draw_layers(panel(), rows, switches_, foot, take_just_opened());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     take_look(rows_[i], rows[i].look);
     rows_[i].numbers = std::move(rows[i].numbers);
+    rows_[i].facts = std::move(rows[i].facts);
+    rows_[i].facts_drawn = rows_[i].has_facts();
   }
   switch (wish.ask) {
     case LayerAsk::none:
@@ -135,10 +143,17 @@ void Layers::open(std::filesystem::path file) {
   files_.add(std::move(file), place.value_or(Geodetic{}));
 }
 
-void Layers::take_opened() {
+std::vector<std::shared_ptr<GrowingCut>> Layers::take_opened() {
+  std::vector<std::shared_ptr<GrowingCut>> cuts;
   while (auto opened = files_.poll()) {
-    *opened ? add(**std::move(opened)) : context_.messages.report(opened->error().message);
+    if (!*opened) {
+      context_.messages.report(opened->error().message);
+      continue;
+    }
+    std::ranges::move((*opened)->cuts, std::back_inserter(cuts));
+    add(**std::move(opened));
   }
+  return cuts;
 }
 
 bool Layers::cancel() {
@@ -149,6 +164,7 @@ bool Layers::cancel() {
 
 void Layers::add(OpenedFile file) {
   LayerRow row{.name = file.path.filename().string()};
+  if (is_picture(file.path)) row.raster = file.path;
   if (row.name.empty()) row.name = file.path.string();
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};

@@ -21,11 +21,11 @@ class Layers : public Panel {
 
   /// Opens a file in the background and adds it as a layer. A model stands in the middle of the picture.
   void open(std::filesystem::path file);
-  /// Adds the files that are open by now as layers. Call this once per frame.
-  void take_opened();
+  /// Adds the files that are open by now as layers. Call this once per frame. Returns the cuts of their pictures.
+  [[nodiscard]] std::vector<std::shared_ptr<GrowingCut>> take_opened();
 
   [[nodiscard]] std::string job() const override { return files_.text(); }
-  [[nodiscard]] bool changed() const override { return files_.ready() || value_.ready(); }
+  [[nodiscard]] bool changed() const override;
   bool cancel() override;
   /// Draws the legend of the shown layers of numbers, and the panel if it is open.
   void draw(float foot) override;

@@ -68,14 +68,15 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.place = {};
   tiles_options.numbers = {};
   tiles_options.remote = {};
-  tiles_options.cuts = nullptr;
+  std::vector<std::shared_ptr<GrowingCut>> cuts;
+  tiles_options.cuts = &cuts;
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
   if (!is_of_heights((*tiles)->info())) {
     auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
     if (!layer) return layer.error();
-    return OpenedFile{path, *std::move(layer)};
+    return OpenedFile{path, *std::move(layer), std::move(cuts)};
   }
   auto heights = ElevationSource::open(*std::move(tiles), path.string());
   if (!heights) return heights.error();

@@ -4,12 +4,15 @@
 #include <deque>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "apps/scene/scene_numbers.h"
 #include "apps/setup/open_imagery.h"
+#include "streaming/cut/growing/growing_cut.h"
 #include "streaming/objects/geojson_objects.h"
 
 namespace terrella {
@@ -18,10 +21,12 @@ namespace terrella {
 struct OpenedFile {
   std::filesystem::path path;
   std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
+  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< of a picture that is cut in the background
 };
 
-/// Opens a picture (cut into the cache), a tile set of pictures, numbers or heights, GeoJSON, or a glTF model. A model
-/// stands at `place`. `options` sets the cache. The error names the file and the reason. thread: any, one at a time
+/// Opens a picture (shown at once, or while it is cut into the cache), a tile set of pictures, numbers or heights,
+/// GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The error names the file and the
+/// reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
 

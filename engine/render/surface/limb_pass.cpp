@@ -23,34 +23,30 @@ glm::mat3 horizon_from_px(const View& view, const AirTextures& air) {
   return glm::mat3(air.horizon_from_ecef() * ecef_from_px);
 }
 
-void set_air(const View& view, const AirTextures* air) {
-  const bool thin = air != nullptr && air->sky().outside;
-  glUniform3f(3, 0.0F, 1.0F, 0.0F);
-  if (!thin) return;
-  const glm::mat3 axes = horizon_from_px(view, *air);
+void set_air(const View& view, const AirTextures& air) {
+  const glm::mat3 axes = horizon_from_px(view, air);
   glUniformMatrix3fv(2, 1, GL_FALSE, glm::value_ptr(axes));
-  const double r = air->eye_radius(), limb = std::sqrt((r - 1.0) * (r + 1.0));
-  glUniform3f(3, static_cast<float>(limb), static_cast<float>(air->limb_pixel()), SkyColors::kLimbSteps);
-  air->bind_limb();
-  air->bind_ground();
+  const double r = air.eye_radius(), limb = std::sqrt((r - 1.0) * (r + 1.0));
+  glUniform3f(3, static_cast<float>(limb), static_cast<float>(air.limb_pixel()), SkyColors::kLimbSteps);
+  air.bind_limb();
+  air.bind_ground();
 }
 }  // namespace
 
-Result<std::unique_ptr<LimbPass>> LimbPass::create() {
-  std::unique_ptr<LimbPass> pass(new LimbPass);
-  const auto build = [](gl::Program& program, std::string_view fragment) {
-    return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {fragment}}}, {});
-  };
-  if (Status s = build(pass->imagery_, "limb.frag"); !s) return s.error();
-  if (Status s = build(pass->lit_, "limb_air.frag"); !s) return s.error();
-  pass->vertex_array_ = gl::make_vertex_array();
-  pass->vertices_ = gl::make_buffer();
-  const GLuint array = pass->vertex_array_.name();
-  glVertexArrayVertexBuffer(array, 0, pass->vertices_.name(), 0, sizeof(LimbVertex));
+LimbPass::LimbPass() : vertex_array_(gl::make_vertex_array()), vertices_(gl::make_buffer()) {
+  const GLuint array = vertex_array_.name();
+  glVertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(LimbVertex));
   gl::float_attribute(array, 0, 0, 2, offsetof(LimbVertex, position_ndc));
   gl::float_attribute(array, 1, 0, 2, offsetof(LimbVertex, outward_px));
   gl::float_attribute(array, 2, 0, 1, offsetof(LimbVertex, distance_px));
-  return pass;
+}
+
+Status LimbPass::prepare(LimbLook look) {
+  gl::Program& program = programs_[static_cast<std::size_t>(look)];
+  if (program) return Done{};
+  const std::string_view fragment = look == LimbLook::imagery ? "limb.frag" : "limb_air.frag";
+  return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {fragment}}},
+                    {look == LimbLook::in_air ? "AIR" : "NO_AIR"});
 }
 
 bool LimbPass::fit(const View& view, const Ellipsoid& ellipsoid) {
@@ -66,10 +62,10 @@ void LimbPass::draw(const View& view, const LimbPicture& picture, LimbLook look,
                     DrawState state) const {
   state.depth.reset();
   state.cull.reset();
-  apply(state.with(look == LimbLook::lit ? lit_.name() : imagery_.name()));
+  apply(state.with(programs_[static_cast<std::size_t>(look)].name()));
   glUniform1i(0, picture.rows_apart);
   glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
-  if (look == LimbLook::lit) set_air(view, air);
+  if (look == LimbLook::in_air) set_air(view, *air);
   glBindTextureUnit(0, picture.texture);
   glBindSampler(0, 0);
   glBindVertexArray(vertex_array_.name());

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "base/result.h"
 #include "geo/camera.h"
 #include "render/gl/draw_state.h"
@@ -22,23 +20,25 @@ struct LimbPicture {
 /// The content of the ground's colours at the limb.
 enum class LimbLook {
   imagery,  ///< imagery alone: shaders/surface/limb.frag
-  lit       ///< light, and air if there is any: shaders/surface/limb_air.frag
+  lit,      ///< light: shaders/surface/limb_air.frag
+  in_air    ///< light, and air that may be thinner than a pixel: the same with AIR
 };
 
 /// Antialiases the globe's limb in a finished picture. thread: main
 class LimbPass {
  public:
-  [[nodiscard]] static Result<std::unique_ptr<LimbPass>> create();
+  LimbPass();
 
+  /// Builds the program of a look unless it exists.
+  Status prepare(LimbLook look);
   /// Fits the ribbon to the limb of a view. False if no limb is in view.
   bool fit(const View& view, const Ellipsoid& ellipsoid);
   /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
-  /// `air` is null without air.
+  /// prepare() has built the program of `look`. `air` is used by `in_air` alone.
   void draw(const View& view, const LimbPicture& picture, LimbLook look, const AirTextures* air, DrawState state) const;
 
  private:
-  LimbPass() = default;
-  gl::Program imagery_, lit_;
+  gl::Program programs_[3];  ///< by LimbLook
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
   GLsizei count_ = 0;

@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "codecs/image.h"
@@ -50,11 +52,11 @@ CrsPlace shrunk(const CrsPlace& place, std::int64_t width_px, std::int64_t heigh
   return coarse;
 }
 
-Coarse make_coarse(const fs::path& path, const CrsPlace& place, const CoarseShape& shape,
-                   BlockStore::NextRow next_row) {
+Coarse make_coarse(const fs::path& path, const CrsPlace& place, const CoarseShape& shape, BlockStore::NextRow next_row,
+                   bool numbers = false) {
   RowPicture picture{.name = path.stem().string(),
                      .pixels = {.width_px = shape.columns, .height_px = shape.rows, .pixel_bytes = 4},
-                     .is_numbers = false,
+                     .is_numbers = numbers,
                      .next_row = std::move(next_row)};
   return make_row_raster(std::move(picture), place, {});
 }
@@ -70,13 +72,29 @@ void put_mean(const std::uint8_t* rgba, std::int64_t count, std::uint8_t* to) {
   to[3] = static_cast<std::uint8_t>(sums[3] / static_cast<std::uint64_t>(count));
 }
 
+/// Mean of the known numbers.
+void put_mean(const float* numbers, std::int64_t count, std::uint8_t* to) {
+  double sum = 0.0;
+  std::int64_t known = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (std::isnan(numbers[i])) continue;
+    sum += static_cast<double>(numbers[i]);
+    ++known;
+  }
+  const auto mean =
+      known > 0 ? static_cast<float>(sum / static_cast<double>(known)) : std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(to, &mean, sizeof(mean));
+}
+
 /// Some of a TIFF's rows, or of its tiles.
 struct CoarseTiff {
   CoarseShape shape;
-  ColourConverter colours;
+  std::optional<ColourConverter> colours;
+  std::optional<NumberCoding> numbers;  ///< instead of colours
   std::unique_ptr<TiffRowLevel> by_rows;
   std::unique_ptr<TiffTileLevel> by_tiles;
   std::vector<std::uint8_t> row{};
+  std::vector<float> number_row{};
   std::int64_t next = 0;
 
   /// One row in the middle, or the first one of a strip: strips are decoded from the top.
@@ -86,12 +104,17 @@ struct CoarseTiff {
     const std::int64_t strip = by_rows->picture().tiled ? 1 : by_rows->picture().rows_per_strip;
     const std::int64_t start = (first + end) / 2 / strip * strip;
     const std::int64_t y = start >= first ? start : (first + end) / 2;
-    row.resize(static_cast<std::size_t>(shape.width_px) * 4);
-    if (Status read = by_rows->colours(y, colours, row.data()); !read) return read;
+    row.resize(numbers ? 0 : static_cast<std::size_t>(shape.width_px) * 4);
+    number_row.resize(numbers ? static_cast<std::size_t>(shape.width_px) : 0);
+    Status read =
+        numbers ? by_rows->numbers(y, *numbers, number_row.data()) : by_rows->colours(y, *colours, row.data());
+    if (!read) return read;
     for (std::int64_t x = 0; x < shape.columns; ++x) {
       const std::int64_t left = CoarseShape::begin(x, shape.width_px, shape.columns);
       const std::int64_t right = CoarseShape::begin(x + 1, shape.width_px, shape.columns);
-      put_mean(row.data() + left * 4, std::max<std::int64_t>(1, right - left), to.data() + x * 4);
+      const std::int64_t count = std::max<std::int64_t>(1, right - left);
+      numbers ? put_mean(number_row.data() + left, count, to.data() + x * 4)
+              : put_mean(row.data() + left * 4, count, to.data() + x * 4);
     }
     return Done{};
   }
@@ -102,20 +125,35 @@ struct CoarseTiff {
     const std::int64_t tile_row = (2 * next + 1) * picture.tile_rows() / (2 * shape.rows);
     in_parallel(thread_count(0), shape.columns, [&](std::int64_t x) {
       const std::int64_t column = (2 * x + 1) * picture.tile_columns() / (2 * shape.columns);
-      const auto tile = by_tiles->colours(column, tile_row, colours);
       // A row through the middle is a fair mean, and inside the picture at its lower edge.
       const std::int64_t high = std::min(picture.tile_height_px, picture.height_px - tile_row * picture.tile_height_px);
       const std::int64_t wide = std::min(picture.tile_width_px, picture.width_px - column * picture.tile_width_px);
-      if (tile) put_mean(tile->rgba.data() + high / 2 * picture.tile_width_px * 4, wide, to.data() + x * 4);
+      const std::int64_t first = high / 2 * picture.tile_width_px;
+      if (numbers) {
+        const auto tile = by_tiles->numbers(column, tile_row, *numbers);
+        const float none = std::numeric_limits<float>::quiet_NaN();
+        tile ? put_mean(tile->values.data() + first, wide, to.data() + x * 4) : put_mean(&none, 1, to.data() + x * 4);
+      } else if (const auto tile = by_tiles->colours(column, tile_row, *colours)) {
+        put_mean(tile->rgba.data() + first * 4, wide, to.data() + x * 4);
+      }
     });
   }
 };
 
-Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place) {
+Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place, const CoarseChoice& choice) {
   auto pyramid = read_pyramid(path);
   if (!pyramid) return pyramid.error();
-  auto colours = colours_of(*pyramid, {});
-  if (!colours) return colours.error();
+  std::optional<ColourConverter> colours;
+  std::optional<NumberCoding> numbers;
+  if (choice.numbers) {
+    auto coding = numbers_of(*pyramid, choice.coding);
+    if (!coding) return coding.error();
+    numbers = *coding;
+  } else {
+    auto coding = colours_of(*pyramid, choice.coding);
+    if (!coding) return coding.error();
+    colours.emplace(*std::move(coding));
+  }
   const TiffLevel& level = pyramid->levels.front();
   const TiffPicture& picture = level.part.picture;
   const double by = std::max(1.0, static_cast<double>(std::max(picture.width_px, picture.height_px)) / kCoarseSide_px);
@@ -127,7 +165,7 @@ Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place) {
       picture.rows_per_strip > std::max<std::int64_t>(64, 4 * shape.height_px / shape.rows)) {
     return Coarse{};
   }
-  auto tiff = std::make_shared<CoarseTiff>(CoarseTiff{shape, *std::move(colours), {}, {}});
+  auto tiff = std::make_shared<CoarseTiff>(CoarseTiff{shape, std::move(colours), numbers, {}, {}});
   const bool tiled = picture.tiled && (!level.mask || level.mask->picture.tiled);
   const bool many = tiled && picture.tile_columns() * picture.tile_rows() > kSampledTiles;
   if (many) {
@@ -141,16 +179,19 @@ Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place) {
   }
   const CrsPlace at =
       shrunk(place, pyramid->whole().part.picture.width_px, pyramid->whole().part.picture.height_px, tiff->shape);
-  return make_coarse(path, at, tiff->shape, [tiff](std::span<std::uint8_t> row) -> Status {
-    Status read = Done{};
-    if (tiff->by_rows) {
-      read = tiff->put_rows(row);
-    } else {
-      tiff->put_tiles(row);
-    }
-    ++tiff->next;
-    return read;
-  });
+  return make_coarse(
+      path, at, tiff->shape,
+      [tiff](std::span<std::uint8_t> row) -> Status {
+        Status read = Done{};
+        if (tiff->by_rows) {
+          read = tiff->put_rows(row);
+        } else {
+          tiff->put_tiles(row);
+        }
+        ++tiff->next;
+        return read;
+      },
+      choice.numbers);
 }
 
 Result<Coarse> open_coarse_jpeg(const fs::path& path, const CrsPlace& place) {
@@ -178,11 +219,13 @@ Result<Coarse> open_coarse_jpeg(const fs::path& path, const CrsPlace& place) {
 
 }  // namespace
 
-Result<Coarse> open_coarse_raster(const fs::path& path, const CrsPlace& place) {
+Result<Coarse> open_coarse_raster(const fs::path& path, const CrsPlace& place, const CoarseChoice& choice) {
   const auto head = read_head(path, kFormatHeadBytes);
   if (!head) return Error{head.error().message};
-  if (begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return open_coarse_tiff(path, place);
-  if (sniff_format(*head) == ImageFormat::jpeg) return open_coarse_jpeg(path, place);
+  if (begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) {
+    return open_coarse_tiff(path, place, choice);
+  }
+  if (!choice.numbers && sniff_format(*head) == ImageFormat::jpeg) return open_coarse_jpeg(path, place);
   return Coarse{};
 }
 

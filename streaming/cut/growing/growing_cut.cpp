@@ -12,6 +12,7 @@
 #include "geo/body.h"
 #include "streaming/cut/bands.h"
 #include "streaming/cut/growing/coarse_raster.h"
+#include "streaming/cut/input/cut_input.h"
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/direct/direct_tiles.h"
 #include "streaming/sets/open_tile_set.h"
@@ -48,7 +49,7 @@ Result<std::unique_ptr<TileSource>> coarse_tiles(const CutOptions& options, cons
   const auto at = place_raster(std::move(place->placed), *picture, direct);
   if (!at) return at.error();
   if (!*at) return std::unique_ptr<TileSource>{};
-  auto raster = open_coarse_raster(picture->path, (*at)->at);
+  auto raster = open_coarse_raster(picture->path, (*at)->at, {choice_of(options), options.numbers.has_value()});
   if (!raster) return raster.error();
   if (!*raster) return std::unique_ptr<TileSource>{};
   const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
@@ -57,6 +58,7 @@ Result<std::unique_ptr<TileSource>> coarse_tiles(const CutOptions& options, cons
       TilePlanner::open((*raster)->info(), {body->ellipsoid, grid.latitude, grid.latitude}, grid, Overviews::stored);
   if (!planner) return planner.error();
   TileSetInfo info{.name = {}, .attribution = {}, .body = {}, .grid = grid};
+  info.numbers = (*raster)->info().numbers;
   return make_warp_source(*std::move(raster), *std::move(planner), std::move(info), {}, kWarpDecodedBytes);
 }
 
@@ -73,6 +75,14 @@ Result<std::shared_ptr<GrowingCut>> GrowingCut::start(CutOptions options, const 
   auto planned = plan_pictures(options);
   if (!planned) return planned.error();
   std::shared_ptr<GrowingCut> cut(new GrowingCut(std::move(options), *std::move(planned)));
+  if (cut->options_.numbers) {
+    TileGrid grid = cut->planned_.info.grid;
+    grid.max_level = std::min(grid.max_level, cut->coarsest_cut_);
+    auto coarse = coarse_tiles(cut->options_, grid);
+    if (!coarse) return coarse.error();
+    if (!*coarse) return std::shared_ptr<GrowingCut>();
+    cut->coarse_ = *std::move(coarse);
+  }
   cut->watch();
   try {
     cut->thread_ = std::thread([self = cut.get(), folder] { self->run(folder); });
@@ -102,6 +112,7 @@ void GrowingCut::watch() {
   options_.watch = CutWatch{.tile_made = [this](const CutTile& tile) { keep(tile); },
                             .row_read =
                                 [this](std::int64_t row, std::span<const std::uint8_t> rgba) {
+                                  if (coarse_) return;  // rows of numbers
                                   canvas_.add_row(row, rgba);
                                   dirty_ = true;
                                 },
@@ -133,6 +144,7 @@ void GrowingCut::run(const fs::path& folder) {
 
 /// A failure is left to the cut, which names it.
 void GrowingCut::paint_coarse() {
+  if (coarse_) return;
   const auto tiles = coarse_tiles(options_, canvas_.grid());
   if (!tiles || !*tiles) return;
   renewed_ = Clock::now();
@@ -206,8 +218,24 @@ Result<EncodedTile, TileFailure> GrowingCut::read(const TileId& id) {
   if (!exists(planned_.info.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
   if (auto found = find(id)) return *std::move(found);
   if (id.level > coarsest_cut_) return TileFailure{MissingKind::remote, {}};
+  return coarse_tile(id);
+}
+
+EncodedTile GrowingCut::coarse_tile(const TileId& id) {
   EncodedTile tile;
-  tile.make_picture = [this, id]() -> Result<Image, TileFailure> { return canvas_.tile(id); };
+  if (!coarse_) {
+    tile.make_picture = [this, id]() -> Result<Image, TileFailure> { return canvas_.tile(id); };
+    return tile;
+  }
+  // The small version has values, and the set numbers.
+  const NumberInfo& numbers = *planned_.info.numbers;
+  tile.number_scale = 1.0 / numbers.scale;
+  tile.number_offset = -numbers.offset / numbers.scale;
+  tile.make_numbers = [this, id]() -> Result<Numbers, TileFailure> {
+    const auto values = coarse_->read(id);
+    if (!values) return values.error();
+    return values->make_numbers();
+  };
   return tile;
 }
 

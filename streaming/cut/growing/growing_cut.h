@@ -20,11 +20,12 @@
 namespace terrella {
 
 /// Tiles of a picture while it is cut into the cache on a thread of its own. Until a tile is cut, coarse levels are
-/// made from a small version of the picture (coarse_raster), which the cut's rows replace. Finer tiles are `remote` and
-/// arrive when the cut comes to them. Afterwards the finished set is read. thread: any
+/// made from a small version of the picture (coarse_raster), which the cut's rows replace, unless it has numbers. Finer
+/// tiles are `remote` and arrive when the cut comes to them. Afterwards the finished set is read. thread: any
 class GrowingCut : public TileSource, private RemoteTiles {
  public:
-  /// Starts the cut of one picture into `folder`, which exists. Fails as cut() would before it reads a pixel.
+  /// Starts the cut of one picture into `folder`, which exists. Fails as cut() would before it reads a pixel. Null for
+  /// numbers of which no small version can be read soon: their cut is not begun.
   [[nodiscard]] static Result<std::shared_ptr<GrowingCut>> start(CutOptions options,
                                                                  const std::filesystem::path& folder);
   /// Stops the cut. The next one goes on from there.
@@ -58,6 +59,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   };
 
   GrowingCut(CutOptions options, PlannedCut planned);
+  [[nodiscard]] EncodedTile coarse_tile(const TileId& id);
   void fetch(const TileId& id, double priority, Done done) override;
   void set_priority(const TileId&, double) override {}
   void cancel(const TileId& id) override;
@@ -80,6 +82,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   std::atomic<double> share_ = 0.0;
   std::atomic<bool> dirty_ = false;  ///< the canvas or a coarse tile has changed since the last edition
   Clock::time_point renewed_{};
+  std::unique_ptr<TileSource> coarse_;  ///< of numbers, instead of the canvas
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::vector<std::filesystem::path> logs_;

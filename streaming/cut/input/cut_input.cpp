@@ -83,7 +83,8 @@ Result<CutInput> open_resampled(const CutOptions& options, const std::optional<H
                   .latitude = warped->latitude,
                   .place = "many",
                   .has_gaps = true,
-                  .remarks = std::move(remarks)};
+                  .remarks = std::move(remarks),
+                  .left_out = warped->left_out};
 }
 
 /// True if a part of a mosaic states a place whose rows are no parallels.
@@ -141,25 +142,6 @@ bool may_have_gaps(const CutOptions& options) {
   return place->kind == PlaceKind::warped || !whole;
 }
 
-Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
-  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
-  if (options.format && options.format != ImageFormat::png) {
-    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
-  }
-  HeightPictures pictures{.images = options.images};
-  if (options.raster) pictures.remote = options.raster->pyramid.get();
-  if (is_mosaic(options.images.front())) {
-    const auto list = list_of(options);
-    if (!list) return list.error();
-    pictures.images.clear();
-    for (const MosaicEntry& entry : list->entries) pictures.images.push_back(entry.path);
-  }
-  const auto planned = options.elevation ? plan_heights(pictures, *options.elevation, options.jobs)
-                                         : plan_numbers(pictures, *options.numbers, may_have_gaps(options));
-  if (!planned) return planned.error();
-  return std::optional(*planned);
-}
-
 /// True for a folder or a list of rasters, and for parts in a projection.
 bool is_many(const CutOptions& options) {
   if (options.images.size() == 1 && !options.mosaic) return is_mosaic(options.images.front());
@@ -168,6 +150,28 @@ bool is_many(const CutOptions& options) {
     const auto part = measure_picture(image);
     return part && needs_resampling(options, *part);
   });
+}
+
+Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
+  if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
+  if (options.format && options.format != ImageFormat::png) {
+    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
+  }
+  HeightPictures pictures{.images = options.images, .many = !options.raster && is_many(options)};
+  if (options.raster) pictures.remote = options.raster->pyramid.get();
+  if (is_mosaic(options.images.front())) {
+    const auto list = list_of(options);
+    if (!list) return list.error();
+    pictures.images.clear();
+    for (const MosaicEntry& entry : list->entries) {
+      if (measure_picture(entry.path)) pictures.images.push_back(entry.path);  // others are left out, and named
+    }
+    if (pictures.images.empty()) pictures.images.push_back(list->entries.front().path);
+  }
+  const auto planned = options.elevation ? plan_heights(pictures, *options.elevation, options.jobs)
+                                         : plan_numbers(pictures, *options.numbers, may_have_gaps(options));
+  if (!planned) return planned.error();
+  return std::optional(*planned);
 }
 
 }  // namespace
@@ -181,6 +185,10 @@ BandComposite composite_of(const CutBands& bands) {
 
 CodingOptions choice_of(const CutOptions& options) {
   CodingOptions choice;
+  if (options.numbers) {
+    choice.nodata = options.numbers->nodata;
+    choice.band = static_cast<std::size_t>(options.numbers->band - 1);
+  }
   if (!options.composite) return choice;
   choice.nodata = options.composite->nodata;
   choice.composite = composite_of(*options.composite);

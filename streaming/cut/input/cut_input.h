@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,10 +17,11 @@ struct CutInput {
   std::unique_ptr<RowReader> rows;
   std::optional<GeoRect> bounds{};  ///< none: the whole planet
   LatitudeKind latitude = LatitudeKind::graphic;
-  std::string place;                    ///< place_text()
-  std::optional<NumberInfo> numbers{};  ///< set if the rows are numbers (PixelKind::height and number)
-  bool has_gaps = false;                ///< pixels may lie beside the picture
-  std::vector<std::string> remarks{};   ///< for the user
+  std::string place;                                   ///< place_text()
+  std::optional<NumberInfo> numbers{};                 ///< set if the rows are numbers (PixelKind::height and number)
+  bool has_gaps = false;                               ///< pixels may lie beside the picture
+  std::vector<std::string> remarks{};                  ///< for the user
+  std::shared_ptr<const std::atomic<int>> left_out{};  ///< files that could not be read so far; null: none
 };
 [[nodiscard]] Result<CutInput> open_input(const CutOptions& options);
 

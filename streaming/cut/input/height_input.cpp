@@ -193,6 +193,28 @@ Result<Probe> probe_all(const HeightPictures& pictures, std::optional<std::size_
   return *first;
 }
 
+/// The kind of rasters that are one layer: floats in values if they differ. Rasters that cannot be read are left out.
+Result<Probe> probe_many(const std::vector<fs::path>& images, std::size_t band) {
+  std::optional<Probe> first;
+  std::optional<Error> failed;
+  for (const fs::path& image : images) {
+    const auto probe = probe_file(image, band);
+    if (!probe) {
+      if (!failed) failed = probe.error();
+      continue;
+    }
+    if (!first) first = *probe;
+    if (probe->kind == first->kind && probe->scale == first->scale && probe->offset == first->offset &&
+        probe->nodata == first->nodata) {
+      continue;
+    }
+    first->kind = HeightKind::float32;
+    first->nodata.reset();
+  }
+  if (!first) return failed.value_or(Error{"no raster is named"});
+  return *first;
+}
+
 }  // namespace
 
 Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevation& options, int jobs) {
@@ -220,7 +242,7 @@ Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevati
 
 Result<HeightPlan> plan_numbers(const HeightPictures& pictures, const CutNumbers& options, bool may_have_gaps) {
   const auto band = static_cast<std::size_t>(options.band - 1);
-  const auto probe = probe_all(pictures, band);
+  const auto probe = pictures.many ? probe_many(pictures.images, band) : probe_all(pictures, band);
   if (!probe) return probe.error();
   HeightPlan plan;
   plan.numbers.unit = probe->band.unit;

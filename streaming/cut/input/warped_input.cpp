@@ -1,5 +1,7 @@
 #include "streaming/cut/input/warped_input.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "geo/body.h"
@@ -69,6 +71,17 @@ void roll_if_needed(const CutOptions& options, WarpedInput& warped, bool heights
   warped.bounds = all_round(warped.bounds);
 }
 
+/// Opens the files of a mosaic, with the band that is cut.
+std::function<Result<std::unique_ptr<RasterSource>>(const std::filesystem::path&, const CrsPlace&,
+                                                    const RasterOptions&)>
+reader_of(const CutOptions& options) {
+  const int band = options.numbers && options.numbers->band > 1 ? options.numbers->band : 0;
+  return [band](const std::filesystem::path& path, const CrsPlace& place, RasterOptions reading) {
+    if (band > 0) reading.band = band;
+    return open_picture_raster(path, place, reading);
+  };
+}
+
 }  // namespace
 
 Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& picture, const PicturePlace& place,
@@ -122,10 +135,14 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
   auto list = list_of(options);
   if (!list) return list.error();
   MosaicOptions mosaic;
-  mosaic.pixels = heights ? MosaicPixels::heights : MosaicPixels::colours;
+  mosaic.pixels = options.elevation ? MosaicPixels::heights
+                  : options.numbers ? MosaicPixels::as_stored
+                                    : MosaicPixels::colours;
   mosaic.figure = {.body = *body, .latitude = options.latitude};
   mosaic.body = options.body;
-  mosaic.reading = {.measure = measure_picture, .open = open_picture_raster};
+  mosaic.reading = {.measure = measure_picture, .open = reader_of(options)};
+  const auto left_out = std::make_shared<std::atomic<int>>(0);
+  mosaic.left_out = [left_out](int files) { *left_out += files; };
   mosaic.jobs = options.jobs;
   mosaic.work_folder = options.output.parent_path();
   // Remarks of the opening are returned; those of the reading come while the caller has gone on.
@@ -137,7 +154,11 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
       said(reason);
     }
   };
-  if (heights) {
+  if (options.numbers) {
+    for (MosaicEntry& entry : list->entries) {
+      if (options.numbers->nodata) entry.nodata = options.numbers->nodata;
+    }
+  } else if (heights) {
     const RasterOptions reading = raster_of(*heights);
     for (MosaicEntry& entry : list->entries) {
       entry.nodata = reading.nodata;
@@ -152,8 +173,13 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
   mosaic.tile_px = tile_side_for_rows(std::llround(columns));
   if (mosaic.tile_px != grid.tile_px) {
     log->remarks.clear();
+    *left_out = 0;
     tiles = open_mosaic(*list, name, mosaic);
     if (!tiles) return tiles.error();
+  }
+  if (heights && !(*tiles)->info().numbers) {
+    return Error{
+        fmt::format("{}: its files are pictures, and no numbers; leave --band, --nodata and --elevation out", name)};
   }
   const LatitudeKind latitude = (*tiles)->info().grid.latitude;
   log->ended = true;
@@ -161,7 +187,7 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
   auto rows = open_tile_rows(std::make_unique<LocalTiles>(*std::move(tiles)), options.jobs,
                              heights ? std::optional(heights->numbers) : std::nullopt, name);
   if (!rows) return rows.error();
-  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds, .latitude = latitude};
+  WarpedInput warped{.rows = std::move(rows->rows), .bounds = rows->bounds, .latitude = latitude, .left_out = left_out};
   roll_if_needed(options, warped, heights.has_value());
   return warped;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -17,6 +18,7 @@ struct WarpedInput {
   std::unique_ptr<RowReader> rows;  ///< with `heights`, in units of the tiles' numbers
   GeoRect bounds{};
   LatitudeKind latitude = LatitudeKind::graphic;
+  std::shared_ptr<const std::atomic<int>> left_out{};  ///< files that could not be read so far; null: none
 };
 
 /// Opens a picture by `place.from`. Reads no pixels, except for the values that a TIFF shows as black and white.
