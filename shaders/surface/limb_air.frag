@@ -96,11 +96,12 @@ void main() {
   }
   ivec2 step;
   float apart = step_px(step);
-  int outwards = int(ceil(max(0.0, 0.8 - outside_px) / apart));
-  vec3 beyond = color_at(outwards * step);
   vec2 sides = abs(outward);
   float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
   bool has_air = limb.z > 0.0;
+  // Thick air differs from pixel to pixel, and a pixel outside the limb has only air.
+  int outwards = int(ceil(max(0.0, (has_air ? 0.8 : 0.1) - outside_px) / apart));
+  vec3 beyond = color_at(outwards * step);
   Air air = has_air ? air_here() : Air(0.0, 1.0);
   float covered = 0.0;
   vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);

@@ -191,15 +191,24 @@ glm::dvec3 AirTruth::light_on_ground(double sun_cos) const {
   return sunlight(place, sun) * std::max(0.0, sun_cos) + kPi * around(0.0, elevation) + 1e-5;
 }
 
-// The globe's look: a quarter of the light by night; a picture's colours are those under a Sun 20 degrees high.
-glm::dvec3 AirTruth::ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const {
-  constexpr double kPictured_cos = 0.35;
+double AirTruth::sun_cosine(const glm::dvec3& place_m, const glm::dvec3& sun) const {
   const glm::dvec3 axes(body_.a_m(), body_.a_m(), body_.b_m());
-  const double cosine = glm::dot(glm::normalize(place_m / (axes * axes)), sun);
-  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-0.35, 0.75, cosine));
-  glm::dvec3 tint = light_on_ground(std::min(cosine, kPictured_cos)) / light_on_ground(kPictured_cos);
-  tint /= std::max({tint.r, tint.g, tint.b});
-  return {stored(linear(light) * tint.r), stored(linear(light) * tint.g), stored(linear(light) * tint.b)};
+  return glm::dot(glm::normalize(place_m / (axes * axes)), sun);
+}
+
+// A picture's colours are those under a Sun 20 degrees high.
+glm::dvec3 AirTruth::ground_tint(const glm::dvec3& place_m, const glm::dvec3& sun) const {
+  constexpr double kPictured_cos = 0.35;
+  const double cosine = sun_cosine(place_m, sun);
+  const glm::dvec3 tint = light_on_ground(std::min(cosine, kPictured_cos)) / light_on_ground(kPictured_cos);
+  const glm::dvec3 part = tint / std::max({tint.r, tint.g, tint.b});
+  return {stored(part.r), stored(part.g), stored(part.b)};
+}
+
+// The globe's look: a quarter of the light by night.
+glm::dvec3 AirTruth::ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const {
+  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-0.35, 0.75, sun_cosine(place_m, sun)));
+  return light * ground_tint(place_m, sun);
 }
 
 glm::dvec3 AirTruth::thing(const glm::dvec3& eye_m, const glm::dvec3& ray, double distance_m, const glm::dvec3& sun,

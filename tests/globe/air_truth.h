@@ -27,6 +27,8 @@ class AirTruth {
   /// The colour of a thing at a distance, whose own stored colour is `thing_srgb`.
   [[nodiscard]] glm::dvec3 thing(const glm::dvec3& eye_m, const glm::dvec3& ray, double distance_m,
                                  const glm::dvec3& sun, const glm::dvec3& thing_srgb) const;
+  /// Factor of a stored colour by the colour of the light on the ground.
+  [[nodiscard]] glm::dvec3 ground_tint(const glm::dvec3& place_m, const glm::dvec3& sun) const;
 
  private:
   struct Seen {
@@ -45,6 +47,7 @@ class AirTruth {
   /// Stored colour of white ground, 0...1.
   [[nodiscard]] glm::dvec3 ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const;
   [[nodiscard]] glm::dvec3 light_on_ground(double sun_cos) const;
+  [[nodiscard]] double sun_cosine(const glm::dvec3& place_m, const glm::dvec3& sun) const;
   [[nodiscard]] glm::dvec3 film(const glm::dvec3& light) const;
   void make_around();
 
