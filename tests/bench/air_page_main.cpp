@@ -30,7 +30,7 @@ struct Scene {
   bool relief = false;
 };
 
-constexpr Viewport kSize{400, 300};
+constexpr Viewport kSize{240, 180};
 constexpr double kExaggeration = 2.0;
 constexpr Scene kScenes[] = {{"disc", "earth", "15,20,18000000", "2026-06-21T10:30Z"},
                              {"terminator", "earth", "25,60,12000000", "2026-03-20T15:30Z"},
@@ -112,16 +112,25 @@ class Page {
     globe.render(target.framebuffer(), kSize);
     return {kSize.width_px, kSize.height_px, target.read()};
   }
+  static bool on_limb(const View& view, const Body& body, const glm::dvec2& px) {
+    int ground = 0;
+    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(2, -1), glm::dvec2(-1, 2), glm::dvec2(2, 2)}) {
+      ground += body.ellipsoid.intersect_m(view.eye, pixel_ray(view, px + corner)) ? 1 : 0;
+    }
+    return ground != 0 && ground != 4;
+  }
   static Image through_air(const Image& own, const View& view, const Body& body, const test::AirTruth& truth,
                            const glm::dvec3& sun) {
-    constexpr int kRays = 4;
     Image out = own;
     for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
       const auto at = static_cast<std::size_t>(4 * k);
       const glm::dvec3 thing(own.rgba[at], own.rgba[at + 1], own.rgba[at + 2]);
       glm::dvec3 sum(0.0);
-      for (int r = 0; r < kRays; ++r) {
-        const glm::dvec2 px(k % kSize.width_px + 0.25 + 0.5 * (r % 2), k / kSize.width_px + 0.25 + 0.5 * (r / 2));
+      const int rays = on_limb(view, body, {k % kSize.width_px, k / kSize.width_px}) ? 4 : 1;
+      for (int r = 0; r < rays; ++r) {
+        const glm::dvec2 px = rays == 1 ? glm::dvec2(k % kSize.width_px + 0.5, k / kSize.width_px + 0.5)
+                                        : glm::dvec2(k % kSize.width_px + 0.25 + 0.5 * (r % 2),
+                                                     k / kSize.width_px + 0.25 + 0.5 * (r / 2));
         const glm::dvec3 ray = pixel_ray(view, px).xyz;
         const auto metres = body.ellipsoid.intersect_m(view.eye, EcefDir{ray});
         sum += metres ? truth.thing(view.eye.xyz_m, ray, *metres, sun,
@@ -129,7 +138,7 @@ class Page {
                       : truth.color(view.eye.xyz_m, ray, sun, 0.0);
       }
       for (std::size_t c = 0; c < 3; ++c)
-        out.rgba[at + c] = static_cast<std::uint8_t>(std::clamp(sum[int(c)] / kRays + 0.5, 0.0, 255.0));
+        out.rgba[at + c] = static_cast<std::uint8_t>(std::clamp(sum[int(c)] / rays + 0.5, 0.0, 255.0));
     }
     return out;
   }
