@@ -1,5 +1,6 @@
 // The air before a thing, as a share of the air before the ground under the same angle: by the distance and by the mean
-// density on the way. As in GroundColors (engine/sky/air_colors.h), 1.2 times the air under the eye does not count.
+// density on the way. As in GroundColors (engine/sky/air_colors.h), 1.2 times the air straight between the eye's height
+// and the thing's does not count.
 const float kAirScale_m = 7000.0;   // of gas and dust together
 const float kMostScales = 5.0;      // there is no air to speak of over this many
 const float kPicturedAirMass = 1.2;
@@ -18,9 +19,10 @@ float air_part(vec3 way, float down, float exaggeration) {
   float steep = radius * down, horizon = 1.0 / horizon_from_ecef[3].y, in_air = sqrt(height * (2.0 * radius + height));
   float ground_m = horizon * horizon / (steep + length(vec2(steep, horizon)));
   float ground_in_air = in_air * in_air / (steep + length(vec2(steep, in_air)));
-  float away = length(way) - max(0.0, ground_m - ground_in_air), pictured = kPicturedAirMass * height;
-  float thick = max(0.0, away) * mean_density(above, over) / mean_density(0.0, over);
-  return max(0.0, thick - pictured) / max(ground_in_air - pictured, 0.02 * ground_in_air);
+  float away = length(way) - max(0.0, ground_m - ground_in_air);
+  float counts = max(0.0, away - kPicturedAirMass * kAirScale_m * abs(over - above));
+  float to_ground = max(ground_in_air - kPicturedAirMass * height, 0.02 * ground_in_air);
+  return counts / to_ground * mean_density(above, over) / mean_density(0.0, over);
 }
 
 // Where the tables of GroundColors have a ray.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace terrella::test {
 namespace {
@@ -218,7 +219,10 @@ glm::dvec3 AirTruth::thing(const glm::dvec3& eye_m, const glm::dvec3& ray, doubl
   const double begin = std::max(0.0, air->first), end = std::min(distance_m, air->last);
   if (end <= begin) return thing_srgb;
   const Seen seen = march(eye_m + begin * ray, ray, std::max(end - begin, 1e-3), sun);
-  const glm::dvec3 under = glm::pow(vertical(0.0, std::min(height_m(eye_m), air_.top_m)), glm::dvec3(1.2));
+  // A picture of the ground is taken through 1.2 times the air over it.
+  const auto height = [&](const glm::dvec3& p) { return std::clamp(height_m(p), 0.0, air_.top_m); };
+  const std::pair<double, double> ends = std::minmax({height(eye_m), height(eye_m + distance_m * ray)});
+  const glm::dvec3 under = glm::pow(vertical(ends.first, ends.second), glm::dvec3(1.2));
   const glm::dvec3 left = glm::min(glm::dvec3(1.0), seen.passed / under);
   const glm::dvec3 light = film(seen.light * (1.0 - left) / glm::max(1.0 - seen.passed, glm::dvec3(1e-12)));
   glm::dvec3 out;

@@ -24,7 +24,8 @@ class AirTruth {
   /// ground has the globe's soft light of the Sun, and beside the terminator the colour of the light on it.
   [[nodiscard]] glm::dvec3 color(const glm::dvec3& eye_m, const glm::dvec3& ray, const glm::dvec3& sun,
                                  double ground_srgb) const;
-  /// The colour of a thing at a distance, whose own stored colour is `thing_srgb`.
+  /// The colour of a thing at a distance, whose own stored colour is `thing_srgb`, as seen from
+  /// straight above.
   [[nodiscard]] glm::dvec3 thing(const glm::dvec3& eye_m, const glm::dvec3& ray, double distance_m,
                                  const glm::dvec3& sun, const glm::dvec3& thing_srgb) const;
   /// Factor of a stored colour by the colour of the light on the ground.
