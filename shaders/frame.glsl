@@ -25,6 +25,10 @@ layout(std140, binding = 0) uniform Frame {
   vec4 surface_look;
 };
 
+// Metres of air that count before a place near the ground: 1.2 times the eye's height does not
+// (GroundColors of engine/sky/air_colors.h).
+float air_metres(float away) { return max(away - 1.2 * horizon_from_ecef[3].w, 0.02 * away); }
+
 // Depth in the format of DepthMode. `w` is the distance in front of the eye's plane, metres.
 
 // Depth at a vertex, times w. Logarithmic depth is written per fragment, so here it equals standard depth.

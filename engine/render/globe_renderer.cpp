@@ -181,6 +181,7 @@ void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice
   DrawState state = picture_state(pass.eye);
   state.depth = depth(DepthTest::nearer_or_equal);  // the last of several objects at one place is visible
   state.stencil = stencil(pass.eye, {.set = mark});
+  if (air_ != nullptr) air_->bind_ground();
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
 }
 

@@ -176,11 +176,13 @@ glm::vec3 tint_of_ground(const AirTables& air, double sun_cos) {
 
 // The ground's light after `passed` of its own and `light` of the air's, so that black and a middle grey come out as
 // they do in light (sRGB decoded).
-void add_ground_color(const glm::vec3& passed, const glm::vec3& light, GroundColors& c) {
+void add_ground_color(const glm::vec3& passed, const glm::vec3& tint, const glm::vec3& light, GroundColors& c) {
   constexpr float kGrey = 0.5F, kGreyLinear = 0.21404114F;
   const glm::vec3 dark = encoded_srgb(light), grey = encoded_srgb(kGreyLinear * passed * (1.0F - light) + light);
-  c.light_sq.emplace_back(dark * dark, 0.0F);
-  c.through.emplace_back((grey * grey - dark * dark) / (kGrey * kGrey), 0.0F);
+  const glm::vec3 tinted = encoded_srgb(kGreyLinear * tint), tint_sq = tinted * tinted;
+  const float sum = tint_sq.r + tint_sq.g + tint_sq.b;
+  c.light_sq.emplace_back(dark * dark, tint_sq.g / sum);
+  c.through.emplace_back((grey * grey - dark * dark) / (kGrey * kGrey), tint_sq.r / sum);
 }
 
 }  // namespace
@@ -208,7 +210,7 @@ GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
       const double to_sun = sun_cosine(eye, ray.sine, ray.cosine, azimuth_cos);
       // The Sun over the ground: the eye's place and the ray add up to the ground's.
       const double over_ground = eye.radius * eye.sun_cos + (ray.end - ray.eye) * to_sun;
-      add_ground_color(beyond * tint_of_ground(air, over_ground),
+      add_ground_color(beyond, tint_of_ground(air, over_ground),
                        on_film(share * radiance(light, air.air(), to_sun), air.air()), c);
     }
   }

@@ -15,6 +15,8 @@ layout(location = 9) in vec4 color;
 out float across_w;
 flat out float half_width_px;
 flat out vec4 line_color;
+out vec3 air_through;
+out vec3 air_light;
 flat out float pull;
 
 const float kMostMitre = 2.0;                // factor of half the width
@@ -53,6 +55,10 @@ void main() {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   float least = clip_scale.z;   // parts before the near plane are not drawn
   if (width <= 0.0 || (-here.z < least && -next.z < least)) return;
+  if (in_air()) {
+    gl_VertexID >= 2 ? air_before(from_eye(next_high_ecef, next_low_ecef), air_through, air_light)
+                     : air_before(from_eye(here_high_ecef, here_low_ecef), air_through, air_light);
+  }
   vec3 a = before_eye(here, next), b = before_eye(next, here);
   vec3 before = before_eye(view_of(before_high_ecef, before_low_ecef), here);
   vec3 after = before_eye(view_of(after_high_ecef, after_low_ecef), next);

@@ -6,6 +6,8 @@ in vec3 normal_ecef;
 in vec3 way_ecef;
 in vec2 uv;
 in vec4 color_linear;
+in vec3 air_through;
+in vec3 air_light;
 flat in float pull;
 layout(location = 0) out vec4 color_srgb;
 
@@ -22,5 +24,6 @@ void main() {
   if (dot(normal, to_eye) < 0.0) normal = -normal;
   float light = mix(0.5, 1.0, dot(normal, to_eye)) * mix(0.8, 1.08, smoothstep(-0.5, 0.8, dot(normal, sun_ecef.xyz)));
   color_srgb = vec4(srgb_of(clamp(color.rgb, 0.0, 1.0)) * mix(1.0, light, sun_ecef.w), mix(1.0, color.a, alpha.y));
+  if (in_air()) color_srgb.rgb = seen_through(color_srgb.rgb, air_through, air_light);
   WRITE_DEPTH(pull);
 }

@@ -13,6 +13,8 @@ out vec3 normal_ecef;
 out vec3 way_ecef;                           // from the eye to the vertex
 out vec2 uv;
 out vec4 color_linear;
+out vec3 air_through;
+out vec3 air_light;
 flat out float pull;
 
 void main() {
@@ -21,6 +23,7 @@ void main() {
   normal_ecef = ecef_from_model * normal_model;
   uv = uv_in;
   color_linear = color_in;
+  if (in_air()) air_before(way_ecef, air_through, air_light);
   pull = 1.0 - depth_bias;
   gl_Position = clip_of(mat3(view_from_ecef) * way_ecef, pull);
 }

@@ -4,8 +4,9 @@ flat in vec3 sun_disc;
 flat in vec4 sphere_color;
 layout(location = 0) out vec4 color_srgb;
 
-// `disc` is the position in the outline's plane; `w` is its distance in front of the eye's plane.
-void draw_sphere(vec2 disc, float w) {
+// `disc` is the position in the outline's plane; `w` is its distance in front of the eye's plane. Returns the factor
+// from there to the sphere.
+float draw_sphere(vec2 disc, float w) {
   float d2 = dot(disc, disc);
   float coverage = clamp(0.5 + (1.0 - sqrt(d2)) * shape.y, 0.0, 1.0);
   if (coverage <= 0.0) discard;
@@ -17,4 +18,5 @@ void draw_sphere(vec2 disc, float w) {
   float q = shape.x;
   float t = (1.0 - q * bulge) / (1.0 - q * q * (1.0 - min(d2, 1.0)));
   gl_FragDepth = window_depth(t * w);
+  return t;
 }

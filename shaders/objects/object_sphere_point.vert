@@ -3,6 +3,8 @@ flat out mat2 disc_from_px;
 // Distance in front of the eye's plane: per unit of the disc's axes, and at its centre.
 flat out vec3 disc_w;
 flat out float size_px;
+flat out vec3 air_through;
+flat out vec3 air_light;
 
 // Change of the pixel position along the disc's axis, at its centre.
 vec2 px_of(vec3 axis_view, vec3 center_view) {
@@ -17,6 +19,7 @@ void main() {
   size_px = 1.0;
   gl_PointSize = 1.0;
   if (!see_sphere(outline)) return;
+  if (in_air()) air_before(outline.center, air_through, air_light);
   mat3 view = mat3(view_from_ecef);
   vec3 center = view * outline.center, side = view * outline.side, up = view * outline.up;
   mat2 px_from_disc = mat2(px_of(side, center), px_of(up, center));

@@ -9,6 +9,9 @@ float dither() {
 #if defined(AIR)
 in vec3 air_through;
 in vec3 air_light;
+#if defined(NEAR_GROUND)
+in vec3 air_tint;
+#endif
 
 // A stored colour of lit ground, premultiplied by alpha, seen through the air (GroundColors of
 // engine/sky/air_colors.h). Without air the colour stays as it is.
@@ -17,8 +20,8 @@ vec3 through_air(vec3 lit_srgb, float alpha) {
   // The air grows with the distance, from none at the eye. Vertices of a large triangle around the eye give it per
   // metre, and the fragment knows its distance.
   vec2 slope = (gl_FragCoord.xy - vec2(horizon_from_ecef[0].w, horizon_from_ecef[1].w)) * horizon_from_ecef[2].w;
-  float metres = sqrt(1.0 + dot(slope, slope)) / gl_FragCoord.w;
-  vec3 through = max(vec3(0.0), 1.0 - air_through * metres);
+  float metres = air_metres(sqrt(1.0 + dot(slope, slope)) / gl_FragCoord.w);
+  vec3 through = max(vec3(0.0), 1.0 - air_through * metres) * air_tint;
   return sqrt(lit_srgb * lit_srgb * through + air_light * (metres * alpha * alpha)) + dither();
 #else
   return sqrt(lit_srgb * lit_srgb * air_through + air_light * (alpha * alpha)) + dither();

@@ -21,14 +21,15 @@ in float outside_px;
 layout(location = 0) out vec4 color_srgb;
 
 const int kSlices = 4;                         // the pixel's square as strips along the limb
+const int kAside = 3;                          // pixels to each side along the limb that show a pixel's ground
 const float kInside_px = 0.22;                 // a pixel this far inside is ground, whatever the mesh's error
 
-#if defined(AIR)
 struct Air {
   float azimuth;
   float pixel;                                 // a pixel's height in units of the tables' pixel
 };
 
+#if defined(AIR)
 Air air_here() {
   vec2 at = gl_FragCoord.xy - vec2(part_px.x, 0);
   vec3 ray = horizon_from_px * vec3(at, 1.0);
@@ -55,8 +56,10 @@ void ground_air(Air air, float inside_px, out vec3 through, out vec3 light) {
   float down = sqrt(clamp(depth * (2.0 - depth), 0.0, 1.0));
   vec2 size = vec2(textureSize(ground_through, 0));
   vec2 at = (vec2(air.azimuth, sqrt(1.0 - sqrt(1.0 - down))) * (size - 1.0) + 0.5) / size;
-  through = textureLod(ground_through, at, 0.0).rgb;
-  light = textureLod(ground_light, at, 0.0).rgb;
+  vec4 passed = textureLod(ground_through, at, 0.0), light_sq = textureLod(ground_light, at, 0.0);
+  vec3 tint = vec3(passed.w, light_sq.w, 1.0 - passed.w - light_sq.w);
+  through = passed.rgb * tint / max(tint.r, max(tint.g, tint.b));
+  light = light_sq.rgb;
 }
 
 #endif
@@ -73,6 +76,27 @@ vec3 color_at(ivec2 off) {
   return texelFetch(frame_srgb, clamp(ivec2(gl_FragCoord.xy) + off, part_px.xy, part_px.zw), 0).rgb;
 }
 
+// Square of the ground's colour without air, next to the limb. A pixel there spans many degrees away from the limb and
+// few along it. So pixels beside it along the limb show the same ground, and those count most that lie as near to the
+// limb as the part of the pixel that shows ground.
+vec3 ground_near(ivec2 step, float apart, Air air) {
+  ivec2 aside = step.x != 0 ? ivec2(0, rows_apart) : ivec2(1, 0);
+  float wanted_px = max(max(kInside_px, 0.25 - 0.5 * outside_px), -outside_px);
+  vec4 sum = vec4(0.0);
+  for (int k = -kAside; k <= kAside; ++k) {
+    float there_px = outside_px + dot(vec2(k * aside), outward);
+    int inwards = int(ceil(max(0.0, there_px + kInside_px) / apart));
+    float inside_px = float(inwards) * apart - there_px, off = inside_px - wanted_px;
+    vec3 color = color_at(k * aside - inwards * step), thin = vec3(1.0), thin_light = vec3(0.0);
+#if defined(AIR)
+    ground_air(air, inside_px, thin, thin_light);
+#endif
+    float weight = 1.0 / (0.01 + off * off + 0.01 * float(k * k));
+    sum += vec4(clamp((color * color - thin_light) / max(thin, 0.02), 0.0, 2.0), 1.0) * weight * weight;
+  }
+  return sum.rgb / sum.w;
+}
+
 void main() {
   if (rows_apart == 0) {
     color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
@@ -80,18 +104,19 @@ void main() {
   }
   ivec2 step;
   float apart = step_px(step);
-  int inwards = int(ceil(max(0.0, outside_px + kInside_px) / apart));
-  int outwards = int(ceil(max(0.0, 0.8 - outside_px) / apart));
-  vec3 ground = color_at(-inwards * step), beyond = color_at(outwards * step);
   vec2 sides = abs(outward);
   float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
-  float covered = 0.0;
 #if defined(AIR)
+  const float kClear_px = 0.8;   // thick air differs from pixel to pixel, and a pixel outside the limb has only air
   Air air = air_here();
   vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);
-  vec3 thin, thin_light;
-  ground_air(air, float(inwards) * apart - outside_px, thin, thin_light);
+#else
+  const float kClear_px = 0.1;
+  Air air = Air(0.0, 1.0);
 #endif
+  int outwards = int(ceil(max(0.0, kClear_px - outside_px) / apart));
+  vec3 beyond = color_at(outwards * step), ground_sq = ground_near(step, apart, air);
+  float covered = 0.0;
   // A number of turns that the compiler does not know keeps the loop a loop: unrolled, it takes long to compile.
   int slices = (rows_apart + 3) & kSlices;
   for (int k = 0; k < slices; ++k) {
@@ -101,7 +126,7 @@ void main() {
 #if defined(AIR)
     vec3 thick, thick_light;
     ground_air(air, -from_px - 0.5 * part * width, thick, thick_light);
-    ground_sum += part * sqrt(max(vec3(0.0), (ground * ground - thin_light) * min(thick / max(thin, 1e-4), 2.0) + thick_light));
+    ground_sum += part * sqrt(max(vec3(0.0), ground_sq * thick + thick_light));
     light += mean_over(limb_light, air, from_px, from_px + width) / width;
     through += mean_over(limb_through, air, from_px, from_px + width) / width;
 #endif
@@ -112,6 +137,6 @@ void main() {
   vec3 background = clamp((beyond - own) / max(passed, 0.01), 0.0, 1.0);
   color_srgb = vec4((ground_sum + light + background * through) / float(kSlices), 1.0);
 #else
-  color_srgb = vec4(mix(beyond, ground, covered), 1.0);
+  color_srgb = vec4(mix(beyond, sqrt(ground_sq), covered), 1.0);
 #endif
 }

@@ -35,46 +35,39 @@ flat out vec4 row;
 #if defined(AIR)
 layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
 layout(binding = 8) uniform sampler2D ground_light;
-out vec3 air_through;                                     // with NEAR_GROUND, the part that is lost per metre
+out vec3 air_through;                                     // with NEAR_GROUND, the part that is lost per metre of air_metres()
 out vec3 air_light;
 
-#if defined(RELIEF)
-const float kAirScale_m = 7000.0;   // of gas and dust together
-
-// Ground over the ellipsoid has less air before it: that of the mean density between its height and the eye's.
-void thin_out(vec3 way) {
-  float eye = horizon_from_ecef[3].z;
-  vec3 place = way + vec3(0.0, 0.0, eye);
-  float eye_height = horizon_from_ecef[3].w, scale = kAirScale_m;
-  float above = max(0.0, length(place) - eye + eye_height) / scale, over = eye_height / scale;
-  over = abs(over - above) < 1e-3 ? above + 1e-3 : over;
-  float part = (exp(-above) - exp(-over)) / (over - above) * over / (1.0 - exp(-over));
-  vec3 thinner = pow(clamp(air_through, 0.0, 1.0), vec3(part));
-  air_light *= (1.0 - thinner) / max(1.0 - air_through, vec3(1e-4));
-  air_through = thinner;
-}
+#if defined(NEAR_GROUND)
+out vec3 air_tint;
 #endif
 
 void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   mat3 to_horizon = mat3(horizon_from_ecef);
   vec3 way = to_horizon * position_from_eye;
   float away = max(length(way), 1e-3);
-  vec3 ray = way / away;
   vec3 up = normalize(to_horizon * (normal_ecef * vec3(1.0, 1.0, horizon_from_ecef[3].x)));
-  float over = -dot(ray, up), down = clamp(over, 0.0, 1.0);
-  vec2 size = vec2(textureSize(ground_through, 0));
-  vec2 at = vec2(atan(abs(ray.y), ray.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down)));
-  at = (at * (size - 1.0) + 0.5) / size;
-  air_through = textureLod(ground_through, at, 0.0).rgb;
-  air_light = textureLod(ground_light, at, 0.0).rgb;
+  float over = -dot(way, up) / away, down = clamp(over, 0.0, 1.0);
+  vec2 at = air_place(way, down, vec2(textureSize(ground_through, 0)));
+  vec4 through = textureLod(ground_through, at, 0.0), light_sq = textureLod(ground_light, at, 0.0);
+  vec3 tint = vec3(through.w, light_sq.w, 1.0 - through.w - light_sq.w);
+  tint /= max(tint.r, max(tint.g, tint.b));
+  air_through = through.rgb;
+  air_light = light_sq.rgb;
 #if defined(RELIEF)
-  thin_out(way);
+  // Ground over the ellipsoid has less air before it. Exaggerated mountains have the air of their real heights.
+  vec3 to_ground = clamp(air_through, 1e-6, 1.0);
+  air_through = pow(to_ground, vec3(air_part(way, down, max(relief.x, 1.0))));
+  air_light = air_light_of(air_light, to_ground, air_through);
 #endif
 #if defined(NEAR_GROUND)
   // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
-  float metres = over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away;
+  float metres = air_metres(over < 0.0 ? min(away, 1.0 / horizon_from_ecef[3].y) : away);
   air_through = (1.0 - air_through) / metres;
   air_light /= metres;
+  air_tint = tint;
+#else
+  air_through *= tint;
 #endif
 }
 #endif

@@ -42,6 +42,18 @@ PaintedSource::PaintedSource(const TileGrid& grid, Paint paint, Lacks lacks)
   info_.format = ImageFormat::png;
 }
 
+Color PaintedSource::mean(double west_deg, double north_deg, double texel_deg) const {
+  int sums[3] = {};
+  for (int k = 0; k < side_ * side_; ++k) {
+    const double east = (k % side_ + 0.5) / side_, south = (k / side_ + 0.5) / side_;
+    const Color color = paint_(west_deg + east * texel_deg, north_deg - south * texel_deg);
+    for (std::size_t c = 0; c < 3; ++c) sums[c] += color[c];
+  }
+  const int count = side_ * side_;
+  const auto rounded = [count](int sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
+  return {rounded(sums[0]), rounded(sums[1]), rounded(sums[2])};
+}
+
 Result<EncodedTile, TileFailure> PaintedSource::read(const TileId& id) {
   {
     // The end of the test must not hang on a tile that nobody releases.
@@ -60,7 +72,7 @@ Result<EncodedTile, TileFailure> PaintedSource::read(const TileId& id) {
   auto* texel = image.rgba.data();
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x, texel += 4) {
-      const Color color = paint_(bounds.west_deg + (x + 0.5) * texel_deg, bounds.north_deg - (y + 0.5) * texel_deg);
+      const Color color = mean(bounds.west_deg + x * texel_deg, bounds.north_deg - y * texel_deg, texel_deg);
       std::copy(color.begin(), color.end(), texel);
     }
   }

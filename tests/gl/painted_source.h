@@ -22,6 +22,8 @@ class PaintedSource : public TileSource {
   using Lacks = std::function<bool(const TileId&)>;
 
   PaintedSource(const TileGrid& grid, Paint paint, Lacks lacks = {});
+  /// A texel becomes the mean over `side` by `side` places in it, as a pyramid of tiles has it. Before the first read.
+  void average(int side) { side_ = side; }
 
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
@@ -32,9 +34,11 @@ class PaintedSource : public TileSource {
   [[nodiscard]] int reads() const { return reads_; }
 
  private:
+  [[nodiscard]] Color mean(double west_deg, double north_deg, double texel_deg) const;
   TileSetInfo info_;
   Paint paint_;
   Lacks missing_;
+  int side_ = 1;
   std::mutex mutex_;
   std::condition_variable released_;
   bool held_ = false;

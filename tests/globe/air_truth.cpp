@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace terrella::test {
 namespace {
@@ -183,26 +184,64 @@ glm::dvec3 AirTruth::vertical(double from_m, double to_m) const {
   return glm::exp(-depth);
 }
 
+glm::dvec3 AirTruth::film(const glm::dvec3& light) const { return 1.0 - glm::exp(-air_.exposure * light); }
+
+glm::dvec3 AirTruth::light_on_ground(double sun_cos) const {
+  const double elevation = std::asin(sun_cos);
+  const glm::dvec3 place(0.0, 0.0, body_.b_m()), sun(std::cos(elevation), 0.0, sun_cos);
+  return sunlight(place, sun) * std::max(0.0, sun_cos) + kPi * around(0.0, elevation) + 1e-5;
+}
+
+double AirTruth::sun_cosine(const glm::dvec3& place_m, const glm::dvec3& sun) const {
+  const glm::dvec3 axes(body_.a_m(), body_.a_m(), body_.b_m());
+  return glm::dot(glm::normalize(place_m / (axes * axes)), sun);
+}
+
+// A picture's colours are those under a Sun 20 degrees high.
+glm::dvec3 AirTruth::ground_tint(const glm::dvec3& place_m, const glm::dvec3& sun) const {
+  constexpr double kPictured_cos = 0.35;
+  const double cosine = sun_cosine(place_m, sun);
+  const glm::dvec3 tint = light_on_ground(std::min(cosine, kPictured_cos)) / light_on_ground(kPictured_cos);
+  const glm::dvec3 part = tint / std::max({tint.r, tint.g, tint.b});
+  return {stored(part.r), stored(part.g), stored(part.b)};
+}
+
+// The globe's look: a quarter of the light by night.
+glm::dvec3 AirTruth::ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const {
+  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-0.35, 0.75, sun_cosine(place_m, sun)));
+  return light * ground_tint(place_m, sun);
+}
+
+glm::dvec3 AirTruth::thing(const glm::dvec3& eye_m, const glm::dvec3& ray, double distance_m, const glm::dvec3& sun,
+                           const glm::dvec3& thing_srgb) const {
+  const auto air = crossing(body_, air_.top_m, eye_m, ray);
+  if (!air || air->last <= 0.0) return thing_srgb;
+  const double begin = std::max(0.0, air->first), end = std::min(distance_m, air->last);
+  if (end <= begin) return thing_srgb;
+  const Seen seen = march(eye_m + begin * ray, ray, std::max(end - begin, 1e-3), sun);
+  // A picture of the ground is taken through 1.2 times the air over it.
+  const auto height = [&](const glm::dvec3& p) { return std::clamp(height_m(p), 0.0, air_.top_m); };
+  const std::pair<double, double> ends = std::minmax({height(eye_m), height(eye_m + distance_m * ray)});
+  const glm::dvec3 under = glm::pow(vertical(ends.first, ends.second), glm::dvec3(1.2));
+  const glm::dvec3 left = glm::min(glm::dvec3(1.0), seen.passed / under);
+  const glm::dvec3 light = film(seen.light * (1.0 - left) / glm::max(1.0 - seen.passed, glm::dvec3(1e-12)));
+  glm::dvec3 out;
+  for (int k = 0; k < 3; ++k)
+    out[k] = 255.0 * stored(linear(thing_srgb[k] / 255.0) * left[k] * (1.0 - light[k]) + light[k]);
+  return out;
+}
+
 glm::dvec3 AirTruth::color(const glm::dvec3& eye_m, const glm::dvec3& ray, const glm::dvec3& sun,
                            double ground_srgb) const {
   const auto ground = crossing(body_, 0.0, eye_m, ray), air = crossing(body_, air_.top_m, eye_m, ray);
-  const bool meets = ground && ground->first > 0.0;
   if (!air || air->last <= 0.0) return glm::dvec3(0.0);
-  const double begin = std::max(0.0, air->first), end = meets ? ground->first : air->last;
-  const Seen seen = march(eye_m + begin * ray, ray, std::max(end - begin, 1e-3), sun);
-  const auto film = [&](const glm::dvec3& light) { return 1.0 - glm::exp(-air_.exposure * light); };
-  glm::dvec3 out;
-  if (!meets) {
-    for (int k = 0; k < 3; ++k) out[k] = 255.0 * stored(film(seen.light)[k]);
-    return out;
+  if (ground && ground->first > 0.0) {
+    const glm::dvec3 own = ground_srgb * ground_light(eye_m + ground->first * ray, sun);
+    return thing(eye_m, ray, ground->first, sun, own);
   }
-  const glm::dvec3 under = glm::pow(vertical(0.0, std::min(height_m(eye_m), air_.top_m)), glm::dvec3(1.2));
-  const glm::dvec3 left = glm::min(glm::dvec3(1.0), seen.passed / under);
-  const glm::dvec3 air_light = film(seen.light * (1.0 - left) / glm::max(1.0 - seen.passed, glm::dvec3(1e-12)));
-  for (int k = 0; k < 3; ++k) {
-    out[k] = 255.0 * stored(linear(ground_srgb / 255.0) * left[k] * (1.0 - air_light[k]) + air_light[k]);
-  }
-  return out;
+  const double begin = std::max(0.0, air->first);
+  const glm::dvec3 light = film(march(eye_m + begin * ray, ray, std::max(air->last - begin, 1e-3), sun).light);
+  return {255.0 * stored(light.r), 255.0 * stored(light.g), 255.0 * stored(light.b)};
 }
 
 }  // namespace terrella::test

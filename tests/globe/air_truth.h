@@ -20,10 +20,16 @@ class AirTruth {
  public:
   AirTruth(const Atmosphere& air, const Ellipsoid& body);
 
-  /// The colour that an eye sees along a ray, as stored, 0...255: sky on black, or ground of that stored colour in full
-  /// light.
+  /// The colour that an eye sees along a ray, as stored, 0...255: sky on black, or ground of that stored grey. The
+  /// ground has the globe's soft light of the Sun, and beside the terminator the colour of the light on it.
   [[nodiscard]] glm::dvec3 color(const glm::dvec3& eye_m, const glm::dvec3& ray, const glm::dvec3& sun,
                                  double ground_srgb) const;
+  /// The colour of a thing at a distance, whose own stored colour is `thing_srgb`, as seen from
+  /// straight above.
+  [[nodiscard]] glm::dvec3 thing(const glm::dvec3& eye_m, const glm::dvec3& ray, double distance_m,
+                                 const glm::dvec3& sun, const glm::dvec3& thing_srgb) const;
+  /// Factor of a stored colour by the colour of the light on the ground.
+  [[nodiscard]] glm::dvec3 ground_tint(const glm::dvec3& place_m, const glm::dvec3& sun) const;
 
  private:
   struct Seen {
@@ -39,6 +45,11 @@ class AirTruth {
   [[nodiscard]] glm::dvec3 around_place(const glm::dvec3& p, const glm::dvec3& sun) const;
   [[nodiscard]] Seen march(const glm::dvec3& from, const glm::dvec3& ray, double length_m, const glm::dvec3& sun) const;
   [[nodiscard]] glm::dvec3 vertical(double from_m, double to_m) const;
+  /// Stored colour of white ground, 0...1.
+  [[nodiscard]] glm::dvec3 ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const;
+  [[nodiscard]] glm::dvec3 light_on_ground(double sun_cos) const;
+  [[nodiscard]] double sun_cosine(const glm::dvec3& place_m, const glm::dvec3& sun) const;
+  [[nodiscard]] glm::dvec3 film(const glm::dvec3& light) const;
   void make_around();
 
   Atmosphere air_;

@@ -44,10 +44,13 @@ std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
 
 Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
   std::unique_ptr<MeshPass> pass(new MeshPass);
-  if (Status s = build_into(pass->program_,
-                            {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.vert"}},
-                             {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_mesh.frag"}}},
-                            {depth_define(depth)});
+  if (Status s =
+          build_into(pass->program_,
+                     {{GL_VERTEX_SHADER,
+                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_mesh.vert"}},
+                      {GL_FRAGMENT_SHADER,
+                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_mesh.frag"}}},
+                     {depth_define(depth)});
       !s)
     return s.error();
   constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};

@@ -26,10 +26,11 @@ Result<std::unique_ptr<ObjectPass>> ObjectPass::create(DepthMode depth) {
 
 Status ObjectPass::build_programs(DepthMode depth) {
   const auto build = [depth](gl::Program& program, std::string_view vertex, std::string_view fragment) {
-    return build_into(program,
-                      {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", vertex}},
-                       {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", fragment}}},
-                      {depth_define(depth)});
+    return build_into(
+        program,
+        {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", vertex}},
+         {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", fragment}}},
+        {depth_define(depth)});
   };
   if (Status s = build(fill_, "object_fill.vert", "object_fill.frag"); !s) return s;
   if (Status s = build(line_, "object_line.vert", "object_line.frag"); !s) return s;

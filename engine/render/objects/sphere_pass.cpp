@@ -33,10 +33,14 @@ SphereSight sight_of(const FrameBlock& frame, Viewport viewport, double hiding_r
 Result<std::unique_ptr<SpherePass>> SpherePass::create(DepthMode depth) {
   std::unique_ptr<SpherePass> pass(new SpherePass);
   const auto build = [depth](gl::Program& program, std::string_view vertex, std::string_view fragment) {
-    return build_into(program,
-                      {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_sphere_seen.glsl", vertex}},
-                       {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_sphere_look.glsl", fragment}}},
-                      {depth_define(depth)});
+    return build_into(
+        program,
+        {{GL_VERTEX_SHADER,
+          {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_sphere_seen.glsl", vertex}},
+         {GL_FRAGMENT_SHADER,
+          {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_sphere_look.glsl",
+           fragment}}},
+        {depth_define(depth)});
   };
   if (Status s = build(pass->triangle_, "object_sphere.vert", "object_sphere.frag"); !s) return s.error();
   if (Status s = build(pass->point_, "object_sphere_point.vert", "object_sphere_point.frag"); !s) return s.error();

@@ -77,7 +77,8 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
                         bool numbers) const {
   const bool pictures = !numbers;
   return build_into(place,
-                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, fragment}},
+                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
+                     {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
                      options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", options_.regolith ? "REGOLITH" : "NO_DUST",
                      light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",

@@ -1,0 +1,196 @@
+// Six scenes as the globe draws them, and as marched rays show them, as pairs of PNG files. The ground's own colours in
+// the truth are those of the globe without air; relief has the air of the ellipsoid under it.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "codecs/image.h"
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
+#include "sky/almanac.h"
+#include "streaming/sets/open_tile_set.h"
+#include "tests/gl/painted_source.h"
+#include "tests/globe/air_truth.h"
+
+namespace {
+
+using namespace terrella;
+using Clock = std::chrono::steady_clock;
+
+struct Scene {
+  const char *name, *body, *camera, *time;
+  bool relief = false;
+};
+
+constexpr Viewport kSize{240, 180};
+constexpr double kExaggeration = 2.0;
+constexpr Scene kScenes[] = {{"disc", "earth", "15,20,18000000", "2026-06-21T10:30Z"},
+                             {"terminator", "earth", "25,60,12000000", "2026-03-20T15:30Z"},
+                             {"horizon", "earth", "35,15,400000,60,-20,40", "2026-06-21T10:00Z"},
+                             {"alps", "earth", "45.4,6.2,30000,40,-12,50", "2026-06-21T18:40Z", true},
+                             {"pole", "earth", "78,-20,1500000,0,-52,50", "2026-06-21T14:00Z"},
+                             {"moon", "moon", "0,0,12000000,0,-90,22", "2026-03-03T11:40Z"}};
+
+template <class T>
+T value_or_throw(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+test::Color maria(double lon, double lat) {
+  const double a = std::sin(lon * 0.06 + 1.0) * std::cos(lat * 0.07), b = std::sin(lon * 0.31) * std::sin(lat * 0.27);
+  const auto grey = static_cast<std::uint8_t>((a > 0.35 ? 110 : 175) + 15.0 * b);
+  return {grey, grey, grey};
+}
+
+class Page {
+ public:
+  Page(std::string tiles, std::string elevation, std::string folder)
+      : tiles_(std::move(tiles)), elevation_(std::move(elevation)), folder_(std::move(folder)) {}
+
+  void make(const Scene& scene) {
+    const Body body = value_or_throw(parse_body(scene.body));
+    const auto air = atmosphere_of(body);
+    const auto globe = globe_of(scene, body, false);
+    save(scene, "ours", drawn(*globe));
+    SurfaceLook dull;
+    dull.glint = false;
+    globe->set_surface(dull);
+    globe->set_sky(false);
+    const Image own = air ? drawn(*globe) : drawn(*globe_of(scene, body, true));
+    const View view = globe->view(kSize);
+    const Almanac almanac = value_or_throw(almanac_at(value_or_throw(parse_utc(scene.time))));
+    save(scene, "truth",
+         air ? through_air(own, view, body, test::AirTruth(*air, body.ellipsoid), almanac.sun.xyz)
+             : dust(own, view, body, body_sun(body, scene)));
+  }
+
+ private:
+  static EcefDir body_sun(const Body&, const Scene& scene) {
+    return value_or_throw(almanac_at(value_or_throw(parse_utc(scene.time)))).sun;
+  }
+  std::unique_ptr<Globe> globe_of(const Scene& scene, const Body& body, bool unlit) {
+    GlobeOptions options;
+    options.body = body;
+    options.sky = !unlit;
+    options.unlit = unlit;
+    if (!unlit) options.time = value_or_throw(parse_utc(scene.time));
+    options.exaggeration = kExaggeration;
+    std::shared_ptr<TileSource> source;
+    if (body.name == "moon") {
+      source = std::make_shared<test::PaintedSource>(TileGrid{.tile_px = 128, .max_level = 3}, maria);
+    } else {
+      source = value_or_throw(open_tile_set(tiles_));
+    }
+    std::optional<ElevationSource> heights;
+    if (scene.relief && !elevation_.empty()) {
+      heights = value_or_throw(
+          ElevationSource::open(std::shared_ptr<TileSource>(value_or_throw(open_tile_set(elevation_))), "heights"));
+    }
+    auto globe = value_or_throw(Globe::create(options, source, std::move(heights)));
+    Camera camera = value_or_throw(parse_camera(scene.camera));
+    if (body.name == "moon") {
+      const Geodetic below = Ellipsoid::lat_lon(body_sun(body, scene));
+      camera.eye.lat = below.lat;
+      camera.eye.lon = below.lon;
+    }
+    globe->set_camera(camera);
+    return globe;
+  }
+  Image drawn(Globe& globe) {
+    const OffscreenTarget target{kSize};
+    if (!globe.render_until_settled(target.framebuffer(), kSize, Clock::now() + std::chrono::minutes(3)))
+      throw std::runtime_error("the globe has not settled after three minutes");
+    globe.render(target.framebuffer(), kSize);
+    return {kSize.width_px, kSize.height_px, target.read()};
+  }
+  static bool on_limb(const View& view, const Body& body, const glm::dvec2& px) {
+    int ground = 0;
+    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(2, -1), glm::dvec2(-1, 2), glm::dvec2(2, 2)}) {
+      ground += body.ellipsoid.intersect_m(view.eye, pixel_ray(view, px + corner)) ? 1 : 0;
+    }
+    return ground != 0 && ground != 4;
+  }
+  static Image through_air(const Image& own, const View& view, const Body& body, const test::AirTruth& truth,
+                           const glm::dvec3& sun) {
+    Image out = own;
+    for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
+      const auto at = static_cast<std::size_t>(4 * k);
+      const glm::dvec3 thing(own.rgba[at], own.rgba[at + 1], own.rgba[at + 2]);
+      glm::dvec3 sum(0.0);
+      const int rays = on_limb(view, body, {k % kSize.width_px, k / kSize.width_px}) ? 4 : 1;
+      for (int r = 0; r < rays; ++r) {
+        const glm::dvec2 px = rays == 1 ? glm::dvec2(k % kSize.width_px + 0.5, k / kSize.width_px + 0.5)
+                                        : glm::dvec2(k % kSize.width_px + 0.25 + 0.5 * (r % 2),
+                                                     k / kSize.width_px + 0.25 + 0.5 * (r / 2));
+        const glm::dvec3 ray = pixel_ray(view, px).xyz;
+        const auto metres = body.ellipsoid.intersect_m(view.eye, EcefDir{ray});
+        sum += metres ? truth.thing(view.eye.xyz_m, ray, *metres, sun,
+                                    thing * truth.ground_tint(view.eye.xyz_m + *metres * ray, sun))
+                      : truth.color(view.eye.xyz_m, ray, sun, 0.0);
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+        out.rgba[at + c] = static_cast<std::uint8_t>(std::clamp(sum[int(c)] / rays + 0.5, 0.0, 255.0));
+    }
+    return out;
+  }
+  /// McEwen's lunar-Lambert law, in double, at a full phase of the angle between Sun and eye.
+  static Image dust(const Image& own, const View& view, const Body& body, const EcefDir& sun) {
+    Image out = own;
+    for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
+      const glm::dvec3 ray = pixel_ray(view, {k % kSize.width_px + 0.5, k / kSize.width_px + 0.5}).xyz;
+      const auto metres = body.ellipsoid.intersect_m(view.eye, EcefDir{ray});
+      double light = 0.0;
+      if (metres) {
+        const glm::dvec3 normal = glm::normalize(view.eye.xyz_m + *metres * ray);
+        const double in = glm::dot(normal, sun.xyz), seen = glm::dot(normal, -ray);
+        const double phase = glm::degrees(std::acos(std::clamp(glm::dot(sun.xyz, -ray), -1.0, 1.0)));
+        const double part = std::clamp(1.0 + phase * (-0.019 + phase * (0.242e-3 - 1.46e-6 * phase)), 0.0, 1.0);
+        light = in <= 0.0 ? 0.02 : 0.02 + 0.98 * (part * 2.0 * in / (in + seen) + (1.0 - part) * in);
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        auto& value = out.rgba[static_cast<std::size_t>(4 * k) + c];
+        value = static_cast<std::uint8_t>(std::min(255.0, value * light + 0.5));
+      }
+    }
+    return out;
+  }
+  void save(const Scene& scene, const char* which, const Image& image) const {
+    const std::vector<std::byte> bytes = value_or_throw(encode_png(image));
+    std::ofstream file(fmt::format("{}/{}_{}.png", folder_, scene.name, which), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file) throw std::runtime_error(fmt::format("cannot write into {}", folder_));
+  }
+  std::string tiles_, elevation_, folder_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Six scenes beside marched rays");
+  std::string tiles, elevation, folder = ".", only;
+  app.add_option("--tiles", tiles, "tile set of the Earth")->required();
+  app.add_option("--elevation", elevation, "tile set of heights, for the Alps");
+  app.add_option("--out", folder, "folder for the pictures");
+  app.add_option("--only", only, "one scene");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const auto context = value_or_throw(HeadlessContext::create());
+    Page page(tiles, elevation, folder);
+    for (const Scene& scene : kScenes) {
+      if (only.empty() || only == scene.name) page.make(scene);
+    }
+  } catch (const std::exception& wrong) {
+    fmt::print(stderr, "{}\n", wrong.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,154 @@
+// The limb of the globe beside the same picture drawn 8 by 8 times as large: 10 sizes, 20 cameras, with and without a
+// sky. Prints the table of apps/bench/RESULTS.md and the worst cases.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "globe/globe.h"
+#include "render/gl/offscreen.h"
+#include "tests/gl/limb_rows.h"
+
+namespace {
+
+using namespace terrella;
+using test::LimbPair;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kTimes = 8;
+constexpr int kSizes[] = {200, 256, 320, 400, 512, 700, 1024, 1280, 1600, 2048};
+constexpr int kCameras = 20;
+constexpr double kTruth_px = 1 << 25;  // of a large picture only the rows around the middle are drawn
+constexpr const char* kChannels[] = {"red", "green", "blue"};
+
+/// Straight down or tilted by up to 6 degrees, from 1,000 km to 100,000 km; the globe fills five sixths of the height.
+Camera camera(int k) {
+  constexpr double kShare = 0.84;
+  const double height_m = 1.0e6 * std::pow(100.0, k / (kCameras - 1.0));
+  const double half_rad = std::asin(6378137.0 / (6378137.0 + height_m));
+  Camera c;
+  c.eye = {.lat = Angle::degrees(-85.5 + 9.0 * k),
+           .lon = Angle::degrees(47.0 * k - 180.0 * ((47 * k) / 180)),
+           .height_m = height_m};
+  c.heading = Angle::degrees(61.0 * k);
+  c.pitch = Angle::degrees(-90.0 + (k % 3) * 0.1 * half_rad * 180.0 / std::numbers::pi);
+  c.fov_y = Angle::degrees(2.0 * std::atan(std::tan(half_rad) / kShare) * 180.0 / std::numbers::pi);
+  return c;
+}
+
+/// The rows around the middle of a square picture, at the same scale.
+struct Strip {
+  int width, height;
+  double full;
+  explicit Strip(int size)
+      : width(size),
+        height(2 * static_cast<int>(0.5 * std::min(0.6 * size, kTruth_px / (kTimes * kTimes * double(size))))),
+        full(size) {}
+  [[nodiscard]] Camera of(Camera c) const {
+    c.fov_y = Angle::radians(2.0 * std::atan(std::tan(0.5 * c.fov_y.rad()) * height / full));
+    return c;
+  }
+};
+
+test::Levels drawn(Globe& globe, const Strip& strip, int times) {
+  const Viewport size{times * strip.width, times * strip.height};
+  const OffscreenTarget target{size};
+  if (!globe.render_until_settled(target.framebuffer(), size, Clock::now() + std::chrono::minutes(5)))
+    throw std::runtime_error("the globe has not settled after five minutes");
+  globe.render(target.framebuffer(), size);
+  return test::reduced(target.read(), size, times);
+}
+
+struct Case {
+  int size, camera;
+  bool sky;
+  int channel;
+  LimbPair limb;
+  [[nodiscard]] double peak_off() const { return std::abs(limb.drawn.peak - limb.truth.peak) / limb.truth.peak; }
+  [[nodiscard]] double change_off() const {
+    return std::abs(limb.drawn.change - limb.truth.change) / limb.truth.change;
+  }
+};
+
+void measure(Globe& globe, int size, bool sky, int k, std::vector<Case>& cases) {
+  const Strip strip(size);
+  globe.set_sky(sky);
+  globe.set_camera(strip.of(camera(k)));
+  const test::Levels truth = drawn(globe, strip, kTimes), seen = drawn(globe, strip, 1);
+  for (int c = 0; c < 3; ++c) cases.push_back({size, k, sky, c, test::compare_limbs(seen, truth, 0, strip.height, c)});
+}
+
+double quantile(std::vector<double> values, double part) {
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+void print_row(const std::vector<Case>& cases, int size, bool sky) {
+  std::vector<double> peaks, changes;
+  int outside = 0;
+  for (const Case& c : cases) {
+    if (c.size != size || c.sky != sky) continue;
+    peaks.push_back(100.0 * c.peak_off());
+    changes.push_back(100.0 * c.change_off());
+    outside += c.limb.peak_agrees() && c.limb.change_agrees() ? 0 : 1;
+  }
+  fmt::print("| {} | {} | {:.1f}, {:.1f} | {:.1f}, {:.1f} | {} of {} |\n", size, sky ? "yes" : "no",
+             quantile(peaks, 0.5), quantile(peaks, 1.0), quantile(changes, 0.5), quantile(changes, 1.0), outside,
+             peaks.size());
+  std::fflush(stdout);
+}
+
+void print_worst(std::vector<Case> cases, int count) {
+  std::ranges::sort(cases, std::greater(), &Case::change_off);
+  fmt::print(
+      "\nThe worst changes:\n\n| size | camera | sky | channel | peak, truth | change, truth |\n"
+      "|---|---|---|---|---|---|\n");
+  cases.resize(std::min(cases.size(), static_cast<std::size_t>(count)));
+  for (const Case& c : cases) {
+    fmt::print("| {} | {} | {} | {} | {:.1f}, {:.1f} | {:.2f}, {:.2f} |\n", c.size, c.camera, c.sky ? "yes" : "no",
+               kChannels[c.channel], c.limb.drawn.peak, c.limb.truth.peak, c.limb.drawn.change, c.limb.truth.change);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The limb beside the same picture drawn 8 by 8 times as large");
+  int smallest = 200, largest = 2048, every = 1;
+  app.add_option("--smallest", smallest, "smallest size, pixels");
+  app.add_option("--largest", largest, "largest size, pixels");
+  app.add_option("--every", every, "every n-th camera only")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const auto context = HeadlessContext::create();
+    if (!context) throw std::runtime_error(context.error().message);
+    GlobeOptions options;
+    options.sky = true;
+    auto globe = Globe::create(options, test::floes());
+    if (!globe) throw std::runtime_error(globe.error().message);
+    fmt::print(
+        "| size | sky | peak off, %: median, worst | change off, %: median, worst | outside the limits |\n"
+        "|---|---|---|---|---|\n");
+    std::vector<Case> cases;
+    for (const int size : kSizes) {
+      if (size < smallest || size > largest) continue;
+      for (const bool sky : {true, false}) {
+        for (int k = 0; k < kCameras; k += every) measure(**globe, size, sky, k, cases);
+        print_row(cases, size, sky);
+      }
+    }
+    print_worst(cases, 20);
+  } catch (const std::exception& wrong) {
+    fmt::print(stderr, "{}\n", wrong.what());
+    return 1;
+  }
+  return 0;
+}
