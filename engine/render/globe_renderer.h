@@ -135,7 +135,6 @@ class GlobeRenderer {
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   // globe_renderer.cpp: the order of the passes.
-  [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
   [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
@@ -154,6 +153,8 @@ class GlobeRenderer {
   [[nodiscard]] std::optional<StencilState> stencil(const EyePicture& eye, const Marks& marks) const;
   enum class DepthTest { nearer, nearer_or_equal };
   [[nodiscard]] DepthState depth(DepthTest test) const;
+  /// Depth of pixels in which nothing has been drawn.
+  [[nodiscard]] double no_depth() const { return options_.depth == DepthMode::reversed ? 0.0 : 1.0; }
 
   // globe_surface.cpp: the image layers.
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
@@ -171,7 +172,8 @@ class GlobeRenderer {
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
-  // globe_sight.cpp: what an eye can see.
+  // globe_sight.cpp: the eyes, and what an eye can see.
+  [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
