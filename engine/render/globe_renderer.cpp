@@ -96,7 +96,8 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuf
     if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared.error();
   }
   const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
-  targets_.fit(input.size, input.sky || selective || input.stereo == Stereo::interlaced);
+  const bool through = input.sky && input.surface.alpha < 1.0;
+  targets_.fit(input.size, through || selective || input.stereo == Stereo::interlaced);
   upload_layers(input);
   begin_frame(input, counts);
   // Places for labels are chosen for the first eye, so that both eyes see the same labels.
@@ -185,12 +186,19 @@ void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
 }
 
-// The sky is drawn where there is no surface. It neither reads nor writes depth, so it does not affect the near and the
-// far plane (paper 2, section 2.3).
+// The sky is drawn where there is no surface. It writes no depth, so it does not affect the near and the far plane
+// (paper 2, section 2.3). Depth tells where an opaque surface is, so stencil is not needed. Under a translucent surface
+// objects are marked.
 void GlobeRenderer::draw_sky(const Pass& pass) {
   if (!pass.input.sky || !sky_) return;
   DrawState state = picture_state(pass.eye);
-  state.stencil = stencil(pass.eye, {.clear = kSurfaceBit});
+  if (pass.input.surface.alpha < 1.0) {
+    state.depth.reset();
+    state.stencil = stencil(pass.eye, {.clear = kSurfaceBit});
+  } else {
+    state.depth = {.test = depth(DepthTest::nearer_or_equal).test, .write = false};
+    state.flat_depth = no_depth();
+  }
   pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky, state);
 }
 
@@ -218,10 +226,9 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const bool mountains = mountains_on_limb(pass);
   if (!mountains && !limb_->fit(view, ellipsoid_)) return;
   const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
-  const float no_depth = options_.depth == DepthMode::reversed ? 0.0F : 1.0F;
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
     const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
-    mountains ? outline_->draw(view.viewport, picture, {depth, no_depth}, state)
+    mountains ? outline_->draw(view.viewport, picture, {depth, static_cast<float>(no_depth())}, state)
               : limb_->draw(view, picture, limb_look(pass, air_), air_, state);
     ++pass.counts.draw_calls;
   };
@@ -259,7 +266,7 @@ void GlobeRenderer::begin_picture(const Pass& pass) const {
   DrawState state = picture_state(eye);
   state.stencil = {.write_mask = kSurfaceBit | kThroughBit};  // keeps the bits of the interlaced rows
   apply(state);
-  glClearDepth(options_.depth == DepthMode::reversed ? 0.0 : 1.0);
+  glClearDepth(no_depth());
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 

@@ -162,6 +162,8 @@ class GlobeRenderer {
   [[nodiscard]] std::optional<StencilState> stencil(const EyePicture& eye, const Marks& marks) const;
   enum class DepthTest { nearer, nearer_or_equal };
   [[nodiscard]] DepthState depth(DepthTest test) const;
+  /// Depth of pixels in which nothing has been drawn.
+  [[nodiscard]] double no_depth() const { return options_.depth == DepthMode::reversed ? 0.0 : 1.0; }
 
   // globe_callers.cpp: drawing of the application's own.
   void draw_callers(const Pass& pass, DrawStage stage);

@@ -5,9 +5,9 @@
 #include "render/gl/stencil_bits.h"
 #include "render/globe_renderer.h"
 
-// Sight of one eye: the objects, labels and limb that the surface or the inner sphere hides, and the near plane.
-// Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
-// dissertation, chapter 2.2.
+// The eyes of a picture, and the sight of one eye: the objects, labels and limb that the surface or the inner sphere
+// hides, and the near plane. Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic
+// systems", abstract of a dissertation, chapter 2.2.
 namespace terrella {
 
 std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {

@@ -10,9 +10,13 @@
 namespace terrella {
 namespace {
 
-// From outside, the air is a thin ring. Its chords must stay within 1 % of its height, for which 512 columns suffice.
-// From inside, the air is a dome. Its brightest part, around the Sun, needs steps of a few degrees.
-constexpr int kRingRows = 32, kRingColumns = 65, kRingTurn = 512;
+// From outside, the air is a thin ring. It has as many rows and columns as its pixels can show: a row a pixel, and
+// chords that leave the circle by a twentieth of a pixel. From inside, the air is a dome. Its brightest part, around
+// the Sun, needs steps of a few degrees.
+constexpr int kRingRows = 24, kLeastRingRows = 10, kRingColumns = 65, kRingTurn = 512, kLeastRingTurn = 128;
+constexpr double kRowsAPixel = 1.0, kChord_px = 0.05;
+// Least distance of two rows, in pixels and in heights over which the air thins out to a third, whichever is more.
+constexpr double kRowStep_px = 0.5, kRowStep_scales = 0.15;
 constexpr int kDomeRows = 48, kDomeColumns = 61, kDomeTurn = 120;
 constexpr int kGroundSteps = 20;
 // Satellites look up to 34 degrees away from the vertical, through this many vertical air masses.
@@ -77,13 +81,20 @@ class LimbProfile {
 class Ring {
  public:
   Ring(const AirTables& air, const AirEye& eye, double pixel)
-      : air_(air), eye_(eye), top_(air.top() - 1.0), pixel_(std::max(pixel, 1e-6 * top_)) {}
+      : air_(air),
+        eye_(eye),
+        top_(air.top() - 1.0),
+        pixel_(std::max(pixel, 1e-6 * top_)),
+        rows_(static_cast<int>(
+            std::clamp(3.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
+        turn_(2 * static_cast<int>(std::clamp(0.5 * std::numbers::pi / std::sqrt(2.0 * kChord_px * pixel_),
+                                              0.5 * kLeastRingTurn, 0.5 * kRingTurn))) {}
 
   SkyColors colors() {
-    SkyColors c{.outside = true, .turn = kRingTurn, .columns = kRingColumns, .rows = kRingRows};
+    SkyColors c{.outside = true, .turn = turn_, .columns = kRingColumns, .rows = rows_};
     c.light_srgb.resize(static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows));
     c.limb_light_sum.resize(static_cast<std::size_t>(c.columns) * SkyColors::kLimbRows);
-    for (int row = 0; row < kRingRows; ++row) {
+    for (int row = 0; row < rows_; ++row) {
       const double sine = std::min(1.0, (1.0 + height(row)) / eye_.radius);
       c.zenith.emplace_back(sine, -std::sqrt(1.0 - sine * sine));
     }
@@ -94,7 +105,7 @@ class Ring {
     }
     passed.sum_up();
     const glm::vec3 all(1.0F);
-    for (int row = 0; row < kRingRows; ++row) c.through.emplace_back(passed.mean(height(row), pixel_, all), 0.0F);
+    for (int row = 0; row < rows_; ++row) c.through.emplace_back(passed.mean(height(row), pixel_, all), 0.0F);
     for (int k = 0; k < SkyColors::kLimbRows; ++k) {
       c.limb_through_sum.emplace_back(passed.integral(limb_height(k), all) / float(pixel_), 0.0F);
     }
@@ -103,10 +114,14 @@ class Ring {
   }
 
  private:
+  // Rows are closest at the limb, where the air is densest.
   [[nodiscard]] double height(int row) const {
-    const double first = 0.05 * top_ + pixel_;
-    return row == 0 ? -first
-                    : (top_ + pixel_) * squared((row - 1) / (kRingRows - 2.0)) - (row == 1 ? 0.5 * pixel_ : 0.0);
+    if (row == 0) return -(0.05 * top_ + pixel_);
+    const double part = (row - 1) / (rows_ - 2.0), whole = top_ + pixel_;
+    const double step =
+        std::max(kRowStep_px * pixel_, kRowStep_scales * top_ * air_.air().gas_scale_m / air_.air().top_m);
+    const double even = std::min(1.0, step * (rows_ - 2.0) / whole);
+    return whole * part * (even + (1.0 - even) * part) - (row == 1 ? 0.5 * pixel_ : 0.0);
   }
   [[nodiscard]] double limb_height(int k) const { return pixel_ * k / SkyColors::kLimbSteps; }
 
@@ -120,7 +135,7 @@ class Ring {
     }
     profile.sum_up();
     const glm::vec3 none(0.0F);
-    for (int row = 0; row < kRingRows; ++row) {
+    for (int row = 0; row < rows_; ++row) {
       c.light_srgb[static_cast<std::size_t>(row * kRingColumns + column)] =
           glm::vec4(profile.mean(height(row), pixel_, none), 0.0F);
     }
@@ -133,6 +148,7 @@ class Ring {
   const AirTables& air_;
   AirEye eye_;
   double top_, pixel_;
+  int rows_, turn_;
 };
 
 SkyColors dome_colors(const AirTables& air, const AirEye& eye) {
@@ -202,11 +218,11 @@ GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {
     const AirRay ray =
         air_ray(air, eye, std::min(sine, 1.0), -std::sqrt(std::max(0.0, 1.0 - sine * sine)), RayEnd::ground);
     const RaySteps steps = ray_steps(air, eye, ray, kGroundSteps);
-    const glm::vec3 passed = steps.transmitted.back(), beyond = glm::min(glm::vec3(1.0F), passed / pictured);
+    const glm::vec3 passed = steps.transmitted, beyond = glm::min(glm::vec3(1.0F), passed / pictured);
     const glm::vec3 share = (1.0F - beyond) / glm::max(1.0F - passed, glm::vec3(1e-6F));
     for (int column = 0; column < GroundColors::kColumns; ++column) {
       const double azimuth_cos = std::cos(std::numbers::pi * column / (GroundColors::kColumns - 1.0));
-      const AirLight light = march(air, eye, ray, steps, azimuth_cos).back();
+      const AirLight light = march(air, eye, ray, steps, azimuth_cos);
       const double to_sun = sun_cosine(eye, ray.sine, ray.cosine, azimuth_cos);
       // The Sun over the ground: the eye's place and the ray add up to the ground's.
       const double over_ground = eye.radius * eye.sun_cos + (ray.end - ray.eye) * to_sun;

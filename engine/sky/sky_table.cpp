@@ -40,44 +40,39 @@ AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosi
 RaySteps ray_steps(const AirTables& air, const AirEye& eye, const AirRay& ray, int count) {
   const double middle = std::clamp(0.0, ray.begin, ray.end);
   const int first = middle <= ray.begin ? 0 : middle >= ray.end ? count : count / 2;
-  RaySteps steps;
-  for (int k = 0; k <= count; ++k) {
+  const auto place = [&](int k) {
     const double s = k < first ? 1.0 - double(k) / first : first == count ? 0.0 : double(k - first) / (count - first);
-    steps.places.push_back(middle + (k < first ? ray.begin - middle : ray.end - middle) * s * s);
-  }
+    return middle + (k < first ? ray.begin - middle : ray.end - middle) * s * s;
+  };
+  RaySteps out;
+  out.steps.reserve(static_cast<std::size_t>(count));
   const double across2 = squared(eye.radius * ray.sine);
-  steps.transmitted.emplace_back(1.0F);
   for (int k = 0; k < count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double r = std::sqrt(across2 + squared(0.5 * (steps.places[i] + steps.places[i + 1])));
-    const auto length = static_cast<float>(steps.places[i + 1] - steps.places[i]);
-    steps.transmitted.push_back(steps.transmitted.back() * glm::exp(-air.density(r - 1.0).extinct * length));
+    const double from = place(k), to = place(k + 1), at = 0.5 * (from + to);
+    const double r = std::sqrt(across2 + squared(at));
+    const AirTables::Density d = air.density(r - 1.0);
+    const glm::vec3 passed = out.transmitted * glm::exp(-d.extinct * static_cast<float>(to - from));
+    const glm::vec3 seen = (out.transmitted - passed) / glm::max(d.extinct, glm::vec3(1e-12F));
+    out.steps.push_back({at, std::max(1.0, r), seen * d.gas, seen * d.dust});
+    out.transmitted = passed;
   }
-  return steps;
+  return out;
 }
 
-std::vector<AirLight> march(const AirTables& air, const AirEye& eye, const AirRay& ray, const RaySteps& steps,
-                            double azimuth_cos) {
+AirLight march(const AirTables& air, const AirEye& eye, const AirRay& ray, const RaySteps& steps, double azimuth_cos) {
   const double sun_sin = std::sqrt(std::max(0.0, 1.0 - squared(eye.sun_cos)));
   // Cosine between the ray and the Sun, and the Sun's part across the ray, at the point nearest to the centre.
   const double along = ray.sine * sun_sin * azimuth_cos + ray.cosine * eye.sun_cos;
   const double sun_up = eye.radius * (eye.sun_cos - ray.cosine * along);
-  const double across2 = squared(eye.radius * ray.sine);
-  std::vector<AirLight> sums{AirLight{}};
-  for (std::size_t k = 0; k + 1 < steps.places.size(); ++k) {
-    const double middle = 0.5 * (steps.places[k] + steps.places[k + 1]);
-    const double r = std::max(1.0, std::sqrt(across2 + squared(middle)));
-    const double cosine = (sun_up + middle * along) / r;
-    const AirTables::Density d = air.density(r - 1.0);
-    const glm::vec3 seen = (steps.transmitted[k] - steps.transmitted[k + 1]) / glm::max(d.extinct, glm::vec3(1e-12F));
-    const glm::vec3 sun = seen * air.sunlight(r, cosine);
-    AirLight sum = sums.back();
-    sum.gas += sun * d.gas;
-    sum.dust += sun * d.dust;
-    sum.more += seen * (d.gas + d.dust) * air.skylight(r, cosine);
-    sums.push_back(sum);
+  AirLight sum;
+  for (const RaySteps::Step& step : steps.steps) {
+    const double cosine = (sun_up + step.middle * along) / step.radius;
+    const glm::vec3 sun = air.sunlight(step.radius, cosine);
+    sum.gas += sun * step.gas;
+    sum.dust += sun * step.dust;
+    sum.more += (step.gas + step.dust) * air.skylight(step.radius, cosine);
   }
-  return sums;
+  return sum;
 }
 
 AirLight SkyTable::at(double azimuth, double row) const {
@@ -104,10 +99,10 @@ SkyTable make_sky_table(const AirTables& air, const AirEye& eye) {
     }
     const AirRay ray = air_ray(air, eye, sine, cosine, RayEnd::air);
     const RaySteps steps = ray_steps(air, eye, ray, kSkySteps);
-    table.transmitted.push_back(steps.transmitted.back());
+    table.transmitted.push_back(steps.transmitted);
     for (int column = 0; column < SkyTable::kColumns; ++column) {
       const double azimuth_cos = std::cos(std::numbers::pi * column / (SkyTable::kColumns - 1.0));
-      table.light.push_back(march(air, eye, ray, steps, azimuth_cos).back());
+      table.light.push_back(march(air, eye, ray, steps, azimuth_cos));
     }
   }
   return table;

@@ -33,20 +33,22 @@ struct AirRay {
 enum class RayEnd { ground, air };
 [[nodiscard]] AirRay air_ray(const AirTables& air, const AirEye& eye, double sine, double cosine, RayEnd end);
 
-/// Places at which a ray is looked at, at most kMostSteps + 1 of them, in order from the eye. The light between two
-/// places is computed from their middle.
-constexpr int kMostSteps = 40;
+/// Steps along a ray, in order from the eye. They are alike for all azimuths of the Sun.
 struct RaySteps {
-  std::vector<double> places;          ///< coordinates along the ray
-  std::vector<glm::vec3> transmitted;  ///< from each place to the eye
+  /// The light of a step is computed from its middle.
+  struct Step {
+    double middle, radius;  ///< coordinate along the ray, distance from the planet's centre
+    glm::vec3 gas, dust;    ///< scattering, times the part of the scattered light that reaches the eye
+  };
+  std::vector<Step> steps;
+  glm::vec3 transmitted{1.0F};  ///< from the far end to the eye
 };
 /// Steps are shortest where the air is densest. thread: any
 [[nodiscard]] RaySteps ray_steps(const AirTables& air, const AirEye& eye, const AirRay& ray, int count);
 
-/// Adds up light along a ray, one value per place of `steps`. `azimuth_cos` is the cosine of the ray's azimuth from the
-/// Sun's. thread: any
-[[nodiscard]] std::vector<AirLight> march(const AirTables& air, const AirEye& eye, const AirRay& ray,
-                                          const RaySteps& steps, double azimuth_cos);
+/// Adds up light along a ray. `azimuth_cos` is the cosine of the ray's azimuth from the Sun's. thread: any
+[[nodiscard]] AirLight march(const AirTables& air, const AirEye& eye, const AirRay& ray, const RaySteps& steps,
+                             double azimuth_cos);
 
 /// The sky over an eye. Columns are azimuths from the Sun, from 0 to half a turn, both ends included. Rows are heights
 /// above the horizon. From an eye outside the air, a row is the height of the ray's lowest point, from 0 to the top, by

@@ -12,7 +12,8 @@ const float kPi = 3.14159265;
 
 void main() {
   int row = gl_InstanceID + (gl_VertexID & 1);
-  float turn = 2.0 * float(gl_VertexID >> 1) / steps - 1.0;   // -1...1, in half turns from the Sun's azimuth
+  // -1...1, in half turns from the Sun's azimuth.
+  float turn = 2.0 * fract(float(gl_VertexID >> 1) / steps) - 1.0;
   vec2 zenith = texelFetch(sky_rows, ivec2(1, row), 0).xy;
   vec3 ray = vec3(zenith.x * cos(kPi * turn), zenith.x * sin(kPi * turn), zenith.y);
   vec2 size = vec2(textureSize(sky_light, 0));

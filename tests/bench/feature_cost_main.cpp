@@ -1,8 +1,10 @@
-// What each feature costs: a settled frame with it as a ratio to the plain opaque globe, all in turn in one run.
+// What each feature costs: a frame with it as a ratio to the plain opaque globe, and to imagery alone, all in turn in
+// one run.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -71,62 +73,64 @@ GlobeOptions unlit() {
 /// Globes and what is drawn of them; all on one target.
 class Features {
  public:
-  /// The globe of add_look().
-  void set_first(std::unique_ptr<Globe> globe) { globes_.push_back(std::move(globe)); }
   /// A frame of a new globe.
   void add(const std::string& name, std::unique_ptr<Globe> globe) {
     globes_.push_back(std::move(globe));
-    settle(*globes_.back());
-    add_frame(name, *globes_.back(), [] {});
-  }
-  /// A frame of the first globe with another look.
-  void add_look(const std::string& name, const SurfaceLook& surface, Stereo stereo) {
-    Globe& globe = *globes_.front();
-    const auto look = [&globe, surface, stereo] {
-      globe.set_surface(surface);
-      globe.set_stereo({.mode = stereo, .eye_separation_m = {}});
-    };
-    look();
-    settle(globe);
-    add_frame(name, globe, look);
-  }
-  std::vector<Subject>& subjects() { return subjects_; }
-
- private:
-  void settle(Globe& globe) const {
-    if (!globe.render_until_settled(target_.framebuffer(), kSize, Clock::now() + std::chrono::seconds(60))) {
+    Globe& added = *globes_.back();
+    if (!added.render_until_settled(target_.framebuffer(), kSize, Clock::now() + std::chrono::seconds(60))) {
       throw std::runtime_error("the globe has not settled after a minute");
     }
+    subjects_.push_back({name, [this, &added] { added.render(target_.framebuffer(), kSize); }});
   }
-  template <class Look>
-  void add_frame(const std::string& name, Globe& globe, Look look) {
-    subjects_.push_back({name, [this, &globe, look] {
-                           look();
-                           globe.render(target_.framebuffer(), kSize);
-                         }});
+  /// A frame of a new globe whose eye has come nearer or gone away since the frame before, so that the air is new.
+  void add_moving(const std::string& name, std::unique_ptr<Globe> globe) {
+    constexpr double kStep = 1.01;
+    Camera camera = globe->camera();
+    add(name, std::move(globe));
+    subjects_.back().draw = [this, &moving = *globes_.back(), camera, far = false]() mutable {
+      far = !far;
+      camera.eye.height_m *= far ? kStep : 1.0 / kStep;
+      moving.set_camera(camera);
+      moving.render(target_.framebuffer(), kSize);
+    };
+  }
+  std::vector<Subject>& subjects() { return subjects_; }
+  [[nodiscard]] const Subject& subject(const std::string& name) const {
+    return *std::ranges::find(subjects_, name, &Subject::name);
   }
 
+ private:
   OffscreenTarget target_{kSize};
   std::vector<std::unique_ptr<Globe>> globes_;
   std::vector<Subject> subjects_;
 };
 
 void add_all(const Inputs& inputs, Features& features) {
+  const auto add = [&](const std::string& name, const SurfaceLook& surface, Stereo stereo) {
+    GlobeOptions options;
+    options.surface = surface;
+    options.stereo.mode = stereo;
+    features.add(name, make_globe(inputs, std::move(options), false));
+  };
   const SurfaceLook opaque, glass{.alpha = 0.5};
-  features.set_first(make_globe(inputs, {}, false));
-  features.add_look("plain opaque globe", opaque, Stereo::off);
-  features.add_look("the same again", opaque, Stereo::off);
+  add("plain opaque globe", opaque, Stereo::off);
+  add("the same again", opaque, Stereo::off);
   auto switched_off = make_globe(inputs, with_sky(false), false);
   switched_off->set_sky(false);
   features.add("sky there but off", std::move(switched_off));
-  features.add_look("translucent", glass, Stereo::off);
-  features.add_look("stereo, side by side", opaque, Stereo::side_by_side);
-  features.add_look("stereo, interlaced", opaque, Stereo::interlaced);
-  features.add_look("stereo, anaglyph", opaque, Stereo::anaglyph);
-  features.add_look("translucent, interlaced", glass, Stereo::interlaced);
-  features.add_look("bilinear magnification", {.sharpness = Sharpness::bilinear}, Stereo::off);
+  add("translucent", glass, Stereo::off);
+  add("stereo, side by side", opaque, Stereo::side_by_side);
+  add("stereo, interlaced", opaque, Stereo::interlaced);
+  add("stereo, anaglyph", opaque, Stereo::anaglyph);
+  add("translucent, interlaced", glass, Stereo::interlaced);
+  add("bilinear magnification", {.sharpness = Sharpness::bilinear}, Stereo::off);
   features.add("unlit", make_globe(inputs, unlit(), false));
   features.add("sky", make_globe(inputs, with_sky(false), false));
+  GlobeOptions starless = with_sky(false);
+  starless.stars.clear();
+  features.add("sky without stars", make_globe(inputs, std::move(starless), false));
+  features.add_moving("unlit, moving", make_globe(inputs, unlit(), false));
+  features.add_moving("sky, moving", make_globe(inputs, with_sky(false), false));
   features.add("sky, Sun, Moon, city lights", make_globe(inputs, with_sky(true), false));
   GlobeOptions dull = with_sky(true);
   dull.surface.glint = false;
@@ -153,15 +157,15 @@ int main(int argc, char** argv) {
     inputs.camera.eye = {.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0), .height_m = kHeight_m};
     if (!camera.empty()) inputs.camera = value_or_throw(parse_camera(camera));
     const auto context = value_or_throw(HeadlessContext::create());
-    fmt::print("{}\n\n| frame | processor | wall |\n|---|---|---|\n",
+    fmt::print("{}\n\n| frame | processor | wall | processor, to unlit |\n|---|---|---|---|\n",
                reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
     Features features;
     add_all(inputs, features);
     bench::time_frames(features.subjects(), rounds);
     const Subject& base = features.subjects().front();
     for (const Subject& s : features.subjects()) {
-      fmt::print("| {} | {:.2f} | {:.2f} |\n", s.name, median(s.cpu_ms) / median(base.cpu_ms),
-                 median(s.ms) / median(base.ms));
+      fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} |\n", s.name, median(s.cpu_ms) / median(base.cpu_ms),
+                 median(s.ms) / median(base.ms), median(s.cpu_ms) / median(features.subject("unlit").cpu_ms));
     }
     fmt::print("\nplain opaque globe: {:.1f} ms of processor time, {:.1f} ms\n", median(base.cpu_ms), median(base.ms));
   } catch (const std::exception& wrong) {

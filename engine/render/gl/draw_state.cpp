@@ -33,6 +33,7 @@ void apply_blend(const std::optional<BlendState>& blend) {
 void apply(const DrawState& state) {
   glUseProgram(state.program);
   apply_depth(state.depth);
+  glDepthRange(state.flat_depth.value_or(0.0), state.flat_depth.value_or(1.0));
   apply_stencil(state.stencil);
   apply_blend(state.blend);
   glColorMask(state.color.red, state.color.green, state.color.blue, state.color.alpha);

@@ -37,6 +37,7 @@ struct ColorMask {
 struct DrawState {
   GLuint program = 0;
   std::optional<DepthState> depth = {};      ///< none: neither tests nor writes depth
+  std::optional<double> flat_depth = {};     ///< depth of every fragment; none: its own
   std::optional<StencilState> stencil = {};  ///< none: no test; clears write all bits
   std::optional<BlendState> blend = {};
   ColorMask color = {};

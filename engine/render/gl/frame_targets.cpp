@@ -13,7 +13,7 @@ gl::Texture make_picture(GLenum format, Viewport size) {
 }  // namespace
 
 void FrameTargets::fit(Viewport size, bool with_stencil) {
-  if (size_ == size && (has_stencil_ || !with_stencil)) return;
+  if (size_ == size && has_stencil_ == with_stencil) return;
   size_ = size;
   has_stencil_ = with_stencil;
   color_ = make_picture(GL_RGBA8, size);

@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kGlow_radii = 10.0;
 // Smallest radius of a drawn disc, so that it does not flicker.
 constexpr double kSmallestDisc_px = 1.0;
+constexpr double kPi = std::numbers::pi;
 constexpr BlendState kAdd{GL_ONE, GL_ONE, GL_ONE, GL_ONE};
 constexpr BlendState kOver{GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
 constexpr BlendState kThroughAir{GL_ONE, GL_SRC1_COLOR, GL_ONE, GL_SRC1_COLOR};
@@ -34,6 +36,32 @@ double pixel_rad(const View& view) { return 1.0 / view.pixels_per_radian(); }
 void set(GLint location, const glm::dvec3& v) { glUniform3fv(location, 1, glm::value_ptr(glm::vec3(v))); }
 void set(GLint location, const glm::dmat3& m) {
   glUniformMatrix3fv(location, 1, GL_FALSE, glm::value_ptr(glm::mat3(m)));
+}
+
+/// Columns of the mesh of air, counted from half a turn before the Sun's azimuth; may be 0 or more than once round.
+struct Columns {
+  int first = 0, count = 0;
+};
+
+// The columns that meet a cone around the view, widened by the rows of the mesh.
+Columns columns_in_view(const View& view, const AirTextures& air) {
+  constexpr double kMargin_rad = 0.02;  // scaled space bends angles by the body's flattening
+  const SkyColors& colors = air.sky();
+  const double tan_x = view.tan_half_fov_y * view.aspect() + std::abs(view.shear_x);
+  const auto zenith_rad = [](const glm::vec2& z) { return std::atan2(double(z.x), double(z.y)); };
+  const double low = zenith_rad(colors.zenith.front()), high = zenith_rad(colors.zenith.back());
+  const double reach = std::atan(std::hypot(view.tan_half_fov_y, tan_x)) + 0.5 * std::abs(low - high) + kMargin_rad;
+  const glm::dvec3 ahead = glm::normalize(air.horizon_from_ecef() * view.forward);
+  const double middle = 0.5 * (low + high), sine = std::sin(middle) * std::hypot(ahead.x, ahead.y);
+  // Cosine of the azimuths, from the view's, at which the middle row leaves the cone.
+  const double leaves = (std::cos(std::min(reach, kPi)) - std::cos(middle) * ahead.z) / std::max(sine, 1e-9);
+  if (leaves >= 1.0) return {};
+  if (leaves <= -1.0) return {0, colors.turn};
+  const double columns_per_rad = 0.5 * colors.turn / kPi, half = std::acos(leaves);
+  const double center = std::atan2(ahead.y, ahead.x) + kPi + 2.0 * kPi;  // above 0
+  const int first = static_cast<int>(std::floor((center - half) * columns_per_rad));
+  const int last = static_cast<int>(std::ceil((center + half) * columns_per_rad));
+  return {first, std::min(last - first, colors.turn)};
 }
 
 }  // namespace
@@ -130,15 +158,17 @@ int SkyPass::draw_moon(const View& view, const SkyInput& input, DrawState state)
   return 1;
 }
 
-int SkyPass::draw_air(DrawState state) const {
+int SkyPass::draw_air(const View& view, DrawState state) const {
   const SkyColors& colors = air_->sky();
+  const Columns seen = columns_in_view(view, *air_);
+  if (seen.count == 0) return 0;
   state.blend = kThroughAir;
   apply(state.with(air_program_.name()));
   set(0, air_->ecef_from_horizon());
   glUniform1f(1, static_cast<float>(colors.turn));
   air_->bind_sky();
   glBindVertexArray(empty_array_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (colors.turn + 1), colors.rows - 1);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 2 * seen.first, 2 * (seen.count + 1), colors.rows - 1);
   return 1;
 }
 
@@ -147,13 +177,12 @@ const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {
-  state.depth.reset();
   state.cull.reset();
   int calls = 0;
   if (input.stars) calls += draw_stars(view, input, state);
   if (input.sun) calls += draw_sun(view, input, state);
   if (input.moon && body_.name == earth().name) calls += draw_moon(view, input, state);
-  if (fit_air(view, input) != nullptr) calls += draw_air(state);
+  if (fit_air(view, input) != nullptr) calls += draw_air(view, state);
   return calls;
 }
 

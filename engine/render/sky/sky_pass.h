@@ -24,17 +24,15 @@ struct SkyInput {
   bool atmosphere = true;  ///< false while the eye is under the ground
 };
 
-/// Draws stars, Sun, Moon and atmosphere, in that order, all at infinity: without near and far plane, and without
-/// reading or writing depth. The stencil test decides where the sky is drawn. The caller must have masked out
-/// everything in front of the sky. thread: main
+/// Draws stars, Sun, Moon and atmosphere, in that order, all at infinity: without near and far plane. The depth and
+/// stencil tests of the caller decide where the sky is drawn: where nothing is in front of it. thread: main
 class SkyPass {
  public:
   /// `stars` may be empty. A body without an atmosphere needs no program for it.
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
-  /// Draws into the bound framebuffer and viewport, with the stencil test and color mask of `state`. The frame's
-  /// uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and texture units
-  /// 0 and 1.
+  /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. The frame's uniform block
+  /// must be bound and of this view. Returns the draw calls made. Changes vertex array and texture units 0 and 1.
   int draw(const View& view, const SkyInput& input, DrawState state);
   /// Returns the air of the view for the passes that draw ground and limb; null without air. Valid until the next call.
   [[nodiscard]] const AirTextures* fit_air(const View& view, const SkyInput& input);
@@ -52,7 +50,7 @@ class SkyPass {
   int draw_stars(const View& view, const SkyInput& input, DrawState state) const;
   int draw_sun(const View& view, const SkyInput& input, DrawState state) const;
   int draw_moon(const View& view, const SkyInput& input, DrawState state) const;
-  int draw_air(DrawState state) const;
+  int draw_air(const View& view, DrawState state) const;
   void place_disc(const View& view, const Disc& disc, double square) const;
 
   Body body_;
