@@ -49,26 +49,34 @@ class Input {
   [[nodiscard]] std::vector<const Action*> take_actions();
   /// Positions of left clicks without a drag since the last call, framebuffer pixels.
   [[nodiscard]] std::vector<glm::dvec2> take_clicks();
+  /// Position of the last right click without a drag since the last call, framebuffer pixels.
+  [[nodiscard]] std::optional<glm::dvec2> take_right_click();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
   /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
   /// Enables or disables flying to a place by double click.
   void set_double_clicks(bool on) { double_clicks_ = on; }
-  /// True while the left button is held.
-  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value(); }
+  /// True while the left or the right button is held on the globe.
+  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value() || right_.has_value(); }
   /// True if an event since the last call can change the picture.
   [[nodiscard]] bool take_dirty();
   [[nodiscard]] bool dirty() const { return dirty_; }
   /// Position of the cursor, framebuffer pixels; nullopt outside the window.
   [[nodiscard]] std::optional<glm::dvec2> cursor_px() const;
+  /// True if the cursor is over a panel that takes the mouse.
+  [[nodiscard]] bool is_over_panel() const { return Ui::is_over_panel(pointer_unit()); }
   [[nodiscard]] static Seconds now();
 
  private:
   void listen_to_pointer();
   void listen_to_keys();
   void listen_to_window();
+  [[nodiscard]] glm::dvec2 pointer_unit() const { return pointer_px_ / window_.pixels_per_unit(); }
   void on_button(int button, int action, int modifiers);
+  void on_release(PointerButton which, glm::dvec2 at, double slack_px);
+  void on_further_button(int button, int action);
   void on_key(int key, int action, int modifiers, bool taken);
+  [[nodiscard]] const Action* action_of(int key, int modifiers) const;
   void on_character(unsigned character);
   void queue(const Action& action);
 
@@ -83,7 +91,13 @@ class Input {
   bool double_clicks_ = true;
   std::optional<BookmarkKey> bookmark_;
   std::vector<std::filesystem::path> dropped_;
+  struct RightPress {
+    glm::dvec2 at_px;
+    Camera camera;  ///< before the press
+  };
   std::optional<glm::dvec2> pressed_px_;
+  std::optional<RightPress> right_;
+  std::optional<glm::dvec2> right_click_px_;
   std::vector<glm::dvec2> clicks_px_;
   std::vector<const Action*> queued_;
   bool dirty_ = true;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/setup/console.h"
+#include "apps/viewer/panels/control_column.h"
 
 namespace terrella {
 namespace {
@@ -71,10 +72,12 @@ void Viewer::run() {
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
     const bool dirty = input_.take_dirty();
     if (panel_frames_ > 0) --panel_frames_;
-    if ((dirty || ui_.has_waiting()) && front_panel() != nullptr) panel_frames_ = kPanelFrames;
+    const bool panels = front_panel() != nullptr || input_.is_over_panel();
+    if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
+    history_.follow(navigator_.camera(), navigator_.at_rest(), Input::now());
     draw_frame(framebuffer);
     follow_panels();
     print_camera_at_rest();
@@ -94,6 +97,7 @@ void Viewer::handle_events() {
   for (const Action* action : input_.take_actions()) action->run(*this);
   for (const glm::dvec2 click : input_.take_clicks()) measure_.add(click);
   input_.set_double_clicks(!measure_.is_on());
+  if (const auto click = input_.take_right_click()) menu_.open_at(*click);
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
@@ -121,7 +125,8 @@ void Viewer::follow_panels() {
 
 // True if another frame would differ.
 bool Viewer::work() const {
-  if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || navigator_.animating() || job() != job_text_)
+  if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || button_held_ || navigator_.animating() ||
+      job() != job_text_)
     return true;
   if (std::ranges::any_of(parts_, [](const Part* part) { return part->changed(); })) return true;
   if (!pictures_.is_drawing() && globe_.needs_frame()) return true;
@@ -172,9 +177,18 @@ void Viewer::draw_panels(Viewport framebuffer) {
   } else {
     const float foot = draw_status(status(view), window_.pixels_per_unit().x);
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
-    if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
+    if (!pictures_.is_drawing()) draw_over_panels(view, foot);
   }
   ui_.end_frame();
+}
+
+// What stands where the panels leave room.
+void Viewer::draw_over_panels(const View& view, float foot) {
+  measure_.draw_over(view, input_.is_over_panel() ? std::nullopt : input_.cursor_px(), foot);
+  const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
+  button_held_ = column.held;
+  if (column.clicked != nullptr) column.clicked->run(*this);
+  graticule_.draw_over(view, double(foot));
 }
 
 PanelStatus Viewer::status(const View& view) {
@@ -193,7 +207,6 @@ PanelStatus Viewer::status(const View& view) {
   status.frame = fmt::format("{:.0f} ms", frame_time_.count());
   status.message = messages_.text();
   status.job = job_text_;
-  status.measure = measure_.text();
   status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);

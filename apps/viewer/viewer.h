@@ -20,9 +20,11 @@
 #include "apps/viewer/parts/measure.h"
 #include "apps/viewer/parts/messages.h"
 #include "apps/viewer/parts/pictures.h"
+#include "apps/viewer/parts/place_menu.h"
 #include "apps/viewer/parts/search.h"
 #include "apps/viewer/parts/view_modes.h"
 #include "apps/viewer/tools/kept_settings.h"
+#include "apps/viewer/tools/view_history.h"
 #include "apps/viewer/window.h"
 #include "globe/globe.h"
 
@@ -64,6 +66,9 @@ class Viewer {
   template <int kRight, int kDown>
   static void turn(Viewer& viewer);
   void leave();
+  void quit();
+  void turn_back();
+  void travel(const std::optional<Camera>& to, const char* nowhere);
   void pass_keyboard();
   void handle_events();
   void follow_panels();
@@ -74,6 +79,7 @@ class Viewer {
   void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
+  void draw_over_panels(const View& view, float foot);
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
@@ -97,8 +103,18 @@ class Viewer {
   ViewModes modes_;
   Measure measure_{context_};
   Cutting cutting_;
+  PlaceMenu menu_{context_,
+                  actions(),
+                  {.run = [this](const Action& action) { action.run(*this); },
+                   .measure_from = [this](glm::dvec2 at_px) { measure_.start_from(at_px); },
+                   .bookmark = [this] { bookmarks_.save_as_next(); }}};
+  ViewHistory history_{globe_.options().body.ellipsoid};
+  bool button_held_ = false;        ///< of the control column
+  Clock::time_point quit_until_{};  ///< a second Esc quits until then
+  Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
+  const std::array<Part*, 9> parts_{&help_,   &menu_,  &pictures_, &search_, &bookmarks_,
+                                    &layers_, &modes_, &measure_,  &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   bool was_at_texels_ = false;

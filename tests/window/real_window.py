@@ -128,6 +128,15 @@ class Viewer:
     def key(self, name):
         self.xdotool("key", name)
 
+    def quit(self):
+        """Leaves as a user does, by Esc and Esc again; the exit code."""
+        self.xdotool("key", "--delay", "200", "Escape", "Escape")
+        return self.program.wait(timeout=30)
+
+    def right_click(self, x, y):
+        self.move(x, y)
+        self.xdotool("click", "3")
+
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""
         self.xdotool("mousemove", "799", "599", "windowfocus", "1")

@@ -94,7 +94,7 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - 5.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(title, nullptr, kPanelWindow);
+  begin_panel(title);
   ImGui::PushItemWidth(0.45F * kLayersWidth * unit);
   LayerWish wish;
   for (const LayerSwitch& more : switches) {

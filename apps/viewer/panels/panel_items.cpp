@@ -1,6 +1,7 @@
 #include "apps/viewer/panels/panel_items.h"
 
 #include <cmath>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -20,6 +21,20 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
   ImGui::Begin(name, nullptr, kFixed);
 }
 
+namespace {
+
+bool cross_clicked = false;  // by the cross of the panel that is being drawn; there is one mouse
+
+}  // namespace
+
+void begin_panel(const char* title) {
+  bool open = true;
+  ImGui::Begin(title, &open, kPanelWindow);
+  if (!open) cross_clicked = true;
+}
+
+bool take_panel_closed() { return std::exchange(cross_clicked, false); }
+
 float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
 
 void tip(const char* text) {
@@ -35,6 +50,12 @@ void tip(const char* text) {
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool entered() {
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+  return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible &&
+         (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
 }
 
 void group(const char* name) {

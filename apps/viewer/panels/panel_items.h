@@ -12,6 +12,16 @@ namespace terrella {
 inline constexpr ImGuiWindowFlags kPanelWindow = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
+/// A panel beside the globe that takes the mouse but never the keyboard.
+inline constexpr ImGuiWindowFlags kFloatingWindow =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// Begins a panel with a title and a cross that closes it. End it with ImGui::End().
+void begin_panel(const char* title);
+/// True once after the cross of a panel was clicked.
+[[nodiscard]] bool take_panel_closed();
+
 /// Starts a panel of a given inner size at a corner; pivot (0, 1) is the lower left. The panel takes neither mouse nor
 /// keyboard. ImGui's own fitting follows the text one frame late, and the viewer may draw only one frame.
 void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
@@ -20,6 +30,8 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
 
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);
+/// True if the Enter key was pressed on the preceding item. ImGui itself takes the space bar alone.
+[[nodiscard]] bool entered();
 /// Draws the title of a group and a line below.
 void group(const char* name);
 void slide(const char* name, double& value, double from, double to, const char* format,

@@ -11,10 +11,9 @@
 namespace terrella {
 namespace {
 
-constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
-constexpr float kUnderMessage = 0.4F;   // in text heights, between the message and the status line
-constexpr float kUnderFirstRow = 2.8F;  // in text heights
-constexpr float kTick = 0.35F;          // in text heights, of the scale bar
+constexpr float kMargin = 0.8F;        // in text heights, between panels and the window's edge
+constexpr float kUnderMessage = 0.4F;  // in text heights, between the message and the status line
+constexpr float kTick = 0.35F;         // in text heights, of the scale bar
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
 
@@ -118,8 +117,6 @@ float draw_status(const PanelStatus& status, double unit_px) {
   const float unit = ImGui::GetFontSize(), gap = margin();
   const float foot = draw_foot(status, unit_px);
   draw_row("##attribution", fitted({{status.attribution, true}}, INFINITY), {size.x - gap, gap}, {1.0F, 0.0F});
-  draw_row("##measure", fitted({{status.measure}}, INFINITY), {0.5F * size.x, gap + kUnderFirstRow * unit},
-           {0.5F, 0.0F});
   std::string told = status.job;
   if (!told.empty() && !status.message.empty()) told += "\n";
   draw_paragraph(told + status.message, {0.5F * size.x, size.y - foot - kUnderMessage * unit});

@@ -15,7 +15,6 @@ struct PanelStatus {
   std::string frame;        ///< frame time
   std::string message;      ///< message of the last action, shown for some seconds; may be empty
   std::string job;          ///< running job and its progress; may be empty
-  std::string measure;      ///< current measurement; may be empty
   std::string attribution;  ///< attribution of the visible layers; may be empty
   std::optional<ScaleBar> scale;
 };

@@ -57,7 +57,7 @@ void fit_to(const Window& window) {
   set_style(window.text_scale() / unit_px);
 }
 
-bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
+bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0; }
 
 /// True for keys that panels use; letters only act with Ctrl.
 bool panels_act_on(int key) {
@@ -72,7 +72,7 @@ Ui::Ui(const Window& window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   fit_to(window);
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
   ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -98,9 +98,26 @@ void Ui::end_frame() {
 
 void Ui::take_events(bool on) {
   int& flags = ImGui::GetIO().ConfigFlags;
-  flags = on ? ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NavEnableKeyboard
-             : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
+  flags = ImGuiConfigFlags_NoMouseCursorChange | (on ? int(ImGuiConfigFlags_NavEnableKeyboard) : 0);
 }
+
+// Looks at the last frame's panels. ImGui's own answer is about the pointer's place in the last frame.
+bool Ui::is_over_panel(glm::dvec2 at) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.OpenPopupStack.Size > 0) return true;
+  return std::ranges::any_of(context.Windows, [at](const ImGuiWindow* window) {
+    if (!window->Active || window->Hidden || window->IsFallbackWindow) return false;
+    if ((window->Flags & ImGuiWindowFlags_NoMouseInputs) != 0) return false;
+    return window->Rect().Contains({float(at.x), float(at.y)});
+  });
+}
+
+glm::dvec2 Ui::size_of(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window == nullptr ? glm::dvec2(0.0) : glm::dvec2(window->Size.x, window->Size.y);
+}
+
+void Ui::show_focus() { ImGui::GetCurrentContext()->NavDisableHighlight = false; }
 
 bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
 
@@ -112,16 +129,14 @@ void Ui::rescale(const Window& window) {
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // recreated at the start of the next frame
 }
 
-bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {
-  if (!takes_events()) return false;
+bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const {
   ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
-  return ImGui::GetIO().WantCaptureMouse;
+  return mouse_held_ || is_over_panel(at);
 }
 
-bool Ui::on_scroll(GLFWwindow* window, double x, double y) {
-  if (!takes_events()) return false;
+bool Ui::on_scroll(GLFWwindow* window, double x, double y, glm::dvec2 at) const {
   ImGui_ImplGlfw_ScrollCallback(window, x, y);
-  return ImGui::GetIO().WantCaptureMouse;
+  return mouse_held_ || is_over_panel(at);
 }
 
 bool Ui::on_key(int key, int action) {
@@ -178,6 +193,7 @@ std::vector<UiBox> Ui::panel_boxes() {
   std::vector<UiBox> boxes;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!window->Active || window->IsFallbackWindow || window->RootWindow != window) continue;
+    if ((window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0) continue;
     boxes.push_back({window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y});
   }
   return boxes;

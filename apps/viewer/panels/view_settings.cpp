@@ -152,7 +152,7 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
   ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - foot - 1.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(title, nullptr, kPanelWindow);
+  begin_panel(title);
   ImGui::PushItemWidth(0.5F * kWidth * unit);
   const Action* clicked = draw_buttons(actions);
   group("Surface");

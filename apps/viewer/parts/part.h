@@ -76,9 +76,7 @@ class Panel : public Part {
     toggle();
     return true;
   }
-  void draw(float foot) override {
-    if (open_) draw_open(foot);
-  }
+  void draw(float foot) override;
 
  protected:
   virtual void draw_open(float foot) = 0;

@@ -14,7 +14,7 @@ constexpr float kPictureWidth = 22.0F;  // in text heights
 
 std::filesystem::path next_file() {
   std::error_code unknown;
-  return screenshot_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
+  return new_file_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void Pictures::draw_open(float) {
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  begin_panel(panel());
   ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_fields(largest_picture_side_px());

@@ -74,7 +74,7 @@ void Search::draw_open(float) {
 std::optional<NamedPlace> Search::draw_field() {
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  begin_panel(panel());
   std::array<char, 80> text{};
   text_.copy(text.data(), text.size() - 1);
   if (just_opened) ImGui::SetKeyboardFocusHere();
