@@ -58,7 +58,8 @@ TEST(MeasureTool, IsCopiedAsTextWithEachSegment) {
 TEST(MeasureTool, IsSavedAsGeoJson) {
   const Ellipsoid sphere(6371000.0, 0.0);
   // Clockwise, and across ±180°.
-  const auto json = nlohmann::json::parse(measurement_geojson(sphere, std::vector{at(0, 170), at(10, 175), at(0, -170)}));
+  const auto json =
+      nlohmann::json::parse(measurement_geojson(sphere, std::vector{at(0, 170), at(10, 175), at(0, -170)}));
   EXPECT_EQ(json["type"], "FeatureCollection");
   ASSERT_EQ(json["features"].size(), 2U);
   const auto& way = json["features"][0];

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <string>
@@ -97,11 +96,7 @@ TEST_P(PanelBoxes, TheRowOfAMeasurementAndTheControlColumnOverlapNothing) {
       ImGui::NewFrame();
       draw_all(GetParam().width, GetParam().scale, with_panel);
     }
-    const auto box_of = [](const char* name) {
-      const ImGuiWindow* window = ImGui::FindWindowByName(name);
-      if (window == nullptr || !window->Active) return UiBox{};
-      return UiBox{window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y};
-    };
+    const auto box_of = [](const char* name) { return Ui::panel_box(name).value_or(UiBox{}); };
     for (const char* name : {"##measure", "##controls"}) {
       const UiBox box = box_of(name);
       EXPECT_GE(box.left, 0.0);

@@ -1,9 +1,11 @@
 """Runs the viewer in a private display, and sends real key and pointer events to the viewer."""
 
+import operator
 import os
 import queue
 import re
 import shutil
+import struct
 import subprocess
 import tempfile
 import threading
@@ -28,6 +30,13 @@ def wait_until(what, condition, seconds=PATIENCE_S):
             return value
         time.sleep(0.05)
     raise AssertionError(f"waited {seconds} s in vain for {what}")
+
+
+def differing(one, other, rows=None):
+    """How many pixels of two grabs differ, in the first rows."""
+    if len(one) != len(other) or len(one[0]) != len(other[0]):
+        return len(one) * len(one[0])
+    return sum(sum(map(operator.ne, a, b)) for a, b in zip(one[:rows], other[:rows]) if a != b)
 
 
 class Display:
@@ -127,6 +136,24 @@ class Viewer:
 
     def key(self, name):
         self.xdotool("key", name)
+
+    def grab(self):
+        """The window's pixels as rows of 32-bit numbers; faster than a screenshot."""
+        data = subprocess.run(["xwd", "-silent", "-id", self.window], env=self.environment, capture_output=True,
+                              check=True, timeout=60).stdout
+        header = struct.unpack(">25I", data[:100])
+        start, height, line, colours = header[0], header[5], header[12], header[19]
+        start += 12 * colours
+        return [memoryview(data[start + y * line : start + (y + 1) * line]).cast("I") for y in range(height)]
+
+    def clipboard(self):
+        done = subprocess.run(["xclip", "-selection", "clipboard", "-o"], env=self.environment, capture_output=True,
+                              text=True, timeout=60)
+        return done.stdout
+
+    def set_clipboard(self, text):
+        subprocess.run(["xclip", "-selection", "clipboard", "-i"], env=self.environment, input=text, text=True,
+                       stdout=subprocess.DEVNULL, check=True, timeout=60)
 
     def quit(self):
         """Leaves as a user does, by Esc and Esc again; the exit code."""

@@ -83,7 +83,10 @@ ControlColumn draw_control_column(std::span<const Action> actions, Angle heading
   ControlColumn column;
   if (buttons.size() < kLeast) return column;
   const float height = float(buttons.size()) * button + 2.0F * padding;
-  ImGui::SetNextWindowPos({float(place.left), float(place.height.to) - height});
+  const double top = place.height.to - double(height);
+  const auto menu = Ui::panel_box(kMenuTitle);
+  if (menu && menu->overlaps({place.left, top, place.left + width, place.height.to})) return column;
+  ImGui::SetNextWindowPos({float(place.left), float(top)});
   ImGui::SetNextWindowSize({width, height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});

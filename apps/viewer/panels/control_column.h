@@ -14,7 +14,8 @@ struct ControlColumn {
 };
 
 /// Draws a column of buttons for the actions with an icon: compass, zoom, tilt, home, back, forward. It stands at the
-/// right edge, or further left, where no panel of this frame is; buttons without room are left out. Call this after all
+/// right edge, or further left, where no panel of this frame is. Buttons without room are left out; the menu hides
+/// the column. Call this after all
 /// panels, between Ui::begin_frame() and Ui::end_frame(). `heading`: of the view, for the compass. thread: main
 [[nodiscard]] ControlColumn draw_control_column(std::span<const Action> actions, Angle heading);
 

@@ -36,19 +36,24 @@ float width_of_buttons() {
   return width;
 }
 
-/// The row without padding; a narrow window wraps the text.
+/// The row without padding; a narrow row wraps the text.
 ImVec2 inner_size(const std::string& text, float widest) {
   const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
   return {std::max(words.x, width_of_buttons()), words.y + ImGui::GetStyle().ItemSpacing.y + ImGui::GetFrameHeight()};
 }
 
-std::vector<UiBox> candidates_of(ImVec2 outer, float foot) {
+/// Places for the row, the best first: at the top, over the status line, then both with wrapped text.
+std::vector<UiBox> candidates_of(const std::string& text, float foot) {
   const float unit = ImGui::GetFontSize(), margin = kMeasureMargin * unit;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   std::vector<UiBox> candidates;
-  for (const float top : {kMeasureTop * unit, size.y - foot - kUnder * unit - outer.y}) {
-    for (const float left : {0.5F * (size.x - outer.x), margin, size.x - margin - outer.x}) {
-      candidates.push_back({left, top, left + outer.x, top + outer.y});
+  for (const float widest : {size.x - 2.0F * (margin + padding.x), width_of_buttons()}) {
+    const ImVec2 inner = inner_size(text, widest);
+    const float wide = inner.x + 2.0F * padding.x, high = inner.y + 2.0F * padding.y;
+    for (const float top : {kMeasureTop * unit, size.y - foot - kUnder * unit - high}) {
+      for (const float left : {0.5F * (size.x - wide), margin, size.x - margin - wide}) {
+        candidates.push_back({left, top, left + wide, top + high});
+      }
     }
   }
   return candidates;
@@ -57,18 +62,15 @@ std::vector<UiBox> candidates_of(ImVec2 outer, float foot) {
 }  // namespace
 
 MeasureAsk draw_measure_row(const std::string& text, float foot) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
-  const float widest = window.x - 2.0F * (kMeasureMargin * ImGui::GetFontSize() + padding.x);
-  const ImVec2 inner = inner_size(text, widest);
-  const ImVec2 outer{inner.x + 2.0F * padding.x, inner.y + 2.0F * padding.y};
-  const std::vector<UiBox> candidates = candidates_of(outer, foot);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const std::vector<UiBox> candidates = candidates_of(text, foot);
   const UiBox* free = first_free(candidates, {0.0, 0.0, window.x, window.y}, Ui::panel_boxes());
   MeasureAsk ask = MeasureAsk::none;
   if (free == nullptr) return ask;
   ImGui::SetNextWindowPos({float(free->left), float(free->top)});
-  ImGui::SetNextWindowSize(outer);
+  ImGui::SetNextWindowSize({float(free->right - free->left), float(free->bottom - free->top)});
   ImGui::Begin("##measure", nullptr, kFloatingWindow);
-  ImGui::PushTextWrapPos(padding.x + widest);
+  ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   for (std::size_t i = 0; i < kMeasureButtons.size(); ++i) {

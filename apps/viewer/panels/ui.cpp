@@ -66,6 +66,10 @@ bool panels_act_on(int key) {
   return (!letter || io.KeyCtrl) && std::ranges::find(io.KeyMap, key) != std::end(io.KeyMap);
 }
 
+UiBox box_of(const ImGuiWindow& window) {
+  return {window.Pos.x, window.Pos.y, window.Pos.x + window.Size.x, window.Pos.y + window.Size.y};
+}
+
 }  // namespace
 
 Ui::Ui(const Window& window) {
@@ -191,12 +195,18 @@ double Ui::text_height() { return double(ImGui::GetFontSize()); }
 
 std::vector<UiBox> Ui::panel_boxes() {
   std::vector<UiBox> boxes;
+  const ImGuiWindow* menu = ImGui::FindWindowByName(kMenuTitle);
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window) continue;
+    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window || window == menu) continue;
     if ((window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0) continue;
-    boxes.push_back({window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y});
+    boxes.push_back(box_of(*window));
   }
   return boxes;
+}
+
+std::optional<UiBox> Ui::panel_box(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window != nullptr && window->Active ? std::optional(box_of(*window)) : std::nullopt;
 }
 
 }  // namespace terrella

@@ -2,11 +2,14 @@
 
 #include <deque>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "apps/viewer/window.h"
 
 namespace terrella {
+
+inline constexpr const char* kMenuTitle = "Menu";
 
 /// Rectangle in units of the window.
 struct UiBox {
@@ -62,8 +65,10 @@ class Ui {
   static void use_text(float scale);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
-  /// Rectangles of the panels that this frame has so far, without tips and lists of choices; within a frame.
+  /// Rectangles of the panels that this frame has so far, without tips, lists of choices and the menu; within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
+  /// Rectangle of a panel by its title, if this frame has it; within a frame.
+  [[nodiscard]] static std::optional<UiBox> panel_box(const char* title);
 
  private:
   enum class Stroke { press, release, character };

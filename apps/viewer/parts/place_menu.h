@@ -23,7 +23,7 @@ struct PlaceMenuCalls {
 class PlaceMenu : public Panel {
  public:
   PlaceMenu(const ViewerContext& context, std::span<const Action> actions, PlaceMenuCalls calls)
-      : Panel(context, "Menu"), actions_(actions), calls_(std::move(calls)) {}
+      : Panel(context, kMenuTitle), actions_(actions), calls_(std::move(calls)) {}
 
   /// Opens the menu for the place under a pixel of the framebuffer.
   void open_at(glm::dvec2 at_px);
