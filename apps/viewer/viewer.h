@@ -68,6 +68,7 @@ class Viewer {
   void leave();
   void quit();
   void turn_back();
+  static void toggle_left(Panel& panel, Panel& other);
   void travel(const std::optional<Camera>& to, const char* nowhere);
   void pass_keyboard();
   void handle_events();

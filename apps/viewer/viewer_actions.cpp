@@ -59,6 +59,12 @@ void Viewer::turn_back() {
   navigator_.key(again || has_north_up ? Go::look_down : Go::north_up, Input::now());
 }
 
+// Two panels share the left edge: one closes the other.
+void Viewer::toggle_left(Panel& panel, Panel& other) {
+  other.close();
+  panel.toggle();
+}
+
 void Viewer::travel(const std::optional<Camera>& to, const char* nowhere) {
   to ? navigator_.fly_to(*to, Input::now()) : messages_.say(nowhere);
 }
@@ -180,10 +186,10 @@ constinit const Action Viewer::kActions[] = {
      .key = GLFW_KEY_S,
      .flags = Action::controlled | Action::unlisted,
      .mouse = "Save"},
-    {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
+    {"K", "bookmarks: fly, name, sort, delete", [](V v) { toggle_left(v.bookmarks_, v.modes_); }, U"k"},
     {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
     {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},
-    {"P", "view settings", [](V v) { v.modes_.toggle(); }, U"p"},
+    {"P", "view settings", [](V v) { toggle_left(v.modes_, v.bookmarks_); }, U"p"},
     {"L", "layers: show, opacity, order, remove", [](V v) { v.layers_.toggle(); }, U"l", 0, 0, 0, "Layers"},
     {.keys = "", .what = "add a picture, tile set, GeoJSON or glTF", .mouse = "drop a file"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},

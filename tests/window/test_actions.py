@@ -17,6 +17,7 @@ MENU_AT = (20, 60)
 PLACE_ITEM, FIRST_ACTION, ACTION_STEP, SECOND_COLUMN = 34, 162, 19, 190  # pixels from the menu's corner
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
+ROW_BUTTONS = 83  # row of pixels in the buttons of a measurement, over their texts
 PLACES = {"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"marker-color": "#ff00ff", "marker-size": "large"},
      "geometry": {"type": "Point", "coordinates": [lon, 20]}} for lon in (5, 10, 15)]}
@@ -114,6 +115,14 @@ class Walk(WindowTest):
         self.viewer.click(300, 250)
         time.sleep(0.3)
 
+    def measure_button(self, index):
+        """Clicks a button of the row, found by its blue."""
+        row = self.viewer.grab()[ROW_BUTTONS]
+        blue = [(pixel & 255) - (pixel >> 16 & 255) > 70 for pixel in row]
+        starts = [x for x in range(1, len(blue)) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
+        self.viewer.click(starts[index] + 12, ROW_BUTTONS + 7)
+        time.sleep(0.15)
+
     def after_measuring(self):
         self.key("m")
 
@@ -137,13 +146,14 @@ class Walk(WindowTest):
         time.sleep(0.4)
 
     def panel_open(self):
-        self.key("p")
-        time.sleep(0.3)
+        self.shown(lambda: self.key("p"))
+
+    def close(self):
+        self.shown(lambda: self.key("Escape"))
 
     def bookmark_click(self):
-        self.key("k")
-        time.sleep(0.4)
-        self.viewer.click(100, 81)
+        self.shown(lambda: self.key("k"))
+        self.viewer.click(100, 122)
         time.sleep(0.2)
         self.key("Escape")
 
@@ -157,7 +167,7 @@ class Walk(WindowTest):
     def actions(self):
         key, icon, menu, drag = self.key, self.icon, self.menu, self.viewer.drag
         none = lambda: None  # noqa: E731
-        row_button = lambda x: self.viewer.click(x, 91)  # noqa: E731
+        row_button = self.measure_button
         simple = {
             "graticule": "g", "view settings": "p", "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u", "shortcuts": "F1",
@@ -178,23 +188,23 @@ class Walk(WindowTest):
             "back to the view before": (self.moved, lambda: key("alt+Left"), lambda: icon("back"), self.away, none),
             "forward to the next view": (self.moved, lambda: key("alt+Right"), lambda: icon("forward"), self.back, none),
             "menu of the place: copy, measure, centre, fly there": (
-                self.shown, lambda: key("Menu"), self.open_menu, none, lambda: key("Escape")),
+                self.shown, lambda: key("Menu"), self.open_menu, none, self.close),
             "fly to a place": (self.moved, lambda: key("Menu", *["Down"] * 5, "Return"),
                                lambda: self.viewer.double_click(300, 200), none, none),
             "reset the view: look of the start, whole globe": (
                 self.moved, lambda: key("r"), lambda: menu("reset the view: look of the start, whole globe"), self.away,
                 none),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
-                                   lambda: key("Escape")),
+                                   self.close),
             "measure: add the middle of the view": (self.shown, lambda: key("Return"),
                                                     lambda: self.viewer.click(260, 320), self.measured,
                                                     self.after_measuring),
-            "measure: remove the last place": (self.shown, lambda: key("BackSpace"), lambda: row_button(264),
+            "measure: remove the last place": (self.shown, lambda: key("BackSpace"), lambda: row_button(0),
                                                self.measured, self.after_measuring),
-            "measure: copy the result": (self.copied, lambda: key("ctrl+c"), lambda: row_button(310), self.measured,
+            "measure: copy the result": (self.copied, lambda: key("ctrl+c"), lambda: row_button(1), self.measured,
                                          self.after_measuring),
             "measure: save the result as GeoJSON": (
-                lambda act: self.filed("terrella-*.geojson", act), lambda: key("ctrl+s"), lambda: row_button(353),
+                lambda act: self.filed("terrella-*.geojson", act), lambda: key("ctrl+s"), lambda: row_button(2),
                 self.measured, self.after_measuring),
             "fly to a bookmark": (self.moved, lambda: key("1"), self.bookmark_click, self.away, none),
             "save the view as a bookmark": (self.stored, lambda: key("ctrl+2"), lambda: self.place_item(2), self.away,
@@ -208,7 +218,7 @@ class Walk(WindowTest):
                                   lambda: menu("save a screenshot"), none, none),
             "switch the keyboard between panel and globe": (
                 self.moved, lambda: key("F6", "Up"), lambda: (self.viewer.click(500, 200), key("Up")), self.panel_open,
-                lambda: key("Escape")),
+                self.close),
             "close a panel, cancel; twice: quit": (self.shown, lambda: key("Escape"),
                                                    lambda: self.viewer.click(348, 23), self.panel_open, none),
         }
@@ -225,7 +235,7 @@ class Walk(WindowTest):
                 self.assertEqual(by_keyboard is None, keys == "")
                 for by, way in (("keyboard", by_keyboard), ("mouse", by_mouse)):
                     for time_done in ("first", "second"):
-                        with self.subTest(f"{by}, {time_done} time"):
+                        with self.subTest(f"{what}: {by}, {time_done} time"):
                             if way:
                                 before()
                                 seen(way)

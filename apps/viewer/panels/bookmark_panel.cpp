@@ -10,6 +10,7 @@
 namespace terrella {
 namespace {
 
+constexpr float kBookmarksTop = 3.6F;     // in text heights, below the attribution
 constexpr float kBookmarksWidth = 21.0F;  // in text heights
 constexpr double kNameStep_deg = 0.01;
 
@@ -72,9 +73,10 @@ BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, Bookm
   const float unit = ImGui::GetFontSize(), margin = 0.8F * unit;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float width = std::min(kBookmarksWidth * unit, size.x - 2.0F * margin);
-  ImGui::SetNextWindowPos({margin, margin});
+  ImGui::SetNextWindowPos({margin, kBookmarksTop * unit});
   ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, std::max(0.0F, size.y - foot - 2.2F * margin)});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
+                                      {width, std::max(0.0F, size.y - foot - kBookmarksTop * unit - margin)});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   begin_panel(title);

@@ -45,8 +45,9 @@ void PlaceMenu::draw_open(float) {
   ImGui::SetNextWindowPos(corner_of(panel(), {float(at.x), float(at.y)}));
   ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {size.x - 2.0F * margin, size.y - 2.0F * margin});
   ImGui::SetNextWindowBgAlpha(0.95F);
-  first_item_ = take_just_opened();
-  if (first_item_) ImGui::SetNextWindowFocus();
+  const bool just_opened = take_just_opened();
+  first_item_ = just_opened;
+  if (just_opened) ImGui::SetNextWindowFocus();
   chosen_ = false;
   ImGui::Begin(panel(), nullptr, kPanelWindow | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
   draw_place();
@@ -55,7 +56,8 @@ void PlaceMenu::draw_open(float) {
   const bool beside = !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   const bool pressed = ImGui::IsMouseClicked(ImGuiMouseButton_Left) || ImGui::IsMouseClicked(ImGuiMouseButton_Right);
   ImGui::End();
-  if (!chosen_ && pressed && beside) close();
+  // A quick click that opened the menu is still a press in the first frame.
+  if (!just_opened && !chosen_ && pressed && beside) close();
 }
 
 // A choice closes the menu before it acts, so that the action may open it again.

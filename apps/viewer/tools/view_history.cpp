@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geo/measure.h"
 
@@ -34,7 +35,7 @@ void ViewHistory::follow(const Camera& camera, bool at_rest, Seconds now) {
 }
 
 std::optional<Camera> ViewHistory::step(int by) {
-  if (rest_) enter(rest_->camera);
+  if (const auto rest = std::exchange(rest_, {})) enter(rest->camera);
   if (by < 0 ? current_ == 0 : current_ + 1 >= stops_.size()) return {};
   current_ = by < 0 ? current_ - 1 : current_ + 1;
   return stops_[current_].latest;
