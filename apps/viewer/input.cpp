@@ -59,11 +59,7 @@ void Input::listen(std::optional<double> wait_s) {
   heard_until_ = now();
 }
 
-std::vector<const Action*> Input::take_actions() { return std::exchange(queued_, {}); }
-
-std::vector<glm::dvec2> Input::take_clicks() { return std::exchange(clicks_px_, {}); }
-
-std::optional<glm::dvec2> Input::take_right_click() { return std::exchange(right_click_px_, {}); }
+std::vector<InputEvent> Input::take_events() { return std::exchange(queued_, {}); }
 
 std::vector<std::filesystem::path> Input::take_dropped() { return std::exchange(dropped_, {}); }
 
@@ -153,17 +149,17 @@ void Input::on_release(PointerButton which, glm::dvec2 at, double slack_px) {
     const auto pressed = std::exchange(right_, {});
     if (!pressed || glm::distance(pressed->at_px, at) > slack_px) return;
     navigator_.set_camera(pressed->camera);  // a click turns nothing, even if the hand moves a little
-    right_click_px_ = at;
+    queued_.push_back({.button = which, .at_px = at});
     return;
   }
   const auto pressed = std::exchange(pressed_px_, {});
-  if (pressed && glm::distance(*pressed, at) <= slack_px) clicks_px_.push_back(at);
+  if (pressed && glm::distance(*pressed, at) <= slack_px) queued_.push_back({.button = which, .at_px = at});
 }
 
 void Input::on_further_button(int button, int action) {
   if (action != GLFW_PRESS) return;
   const auto found = std::ranges::find(actions_, button, &Action::mouse_button);
-  if (found != actions_.end()) queued_.push_back(&*found);
+  if (found != actions_.end()) queued_.push_back({.action = &*found});
 }
 
 // The globe gets no key that a panel took, except function keys and Esc, which closes the panel.
@@ -204,7 +200,7 @@ void Input::on_character(unsigned character) {
 void Input::queue(const Action& action) {
   if (repeating_ && (action.flags & Action::repeats) == 0) return;
   if ((action.flags & Action::types) != 0) ui_.expect_text(true);
-  queued_.push_back(&action);
+  queued_.push_back({.action = &action});
 }
 
 }  // namespace terrella

@@ -19,6 +19,13 @@ struct BookmarkKey {
   bool set = false;
 };
 
+/// An action, or a click without a drag.
+struct InputEvent {
+  const Action* action = nullptr;  ///< null: a click
+  PointerButton button = PointerButton::left;
+  glm::dvec2 at_px{0.0};  ///< of a click, framebuffer pixels
+};
+
 /// Detects double clicks by time and distance.
 class ClickPair {
  public:
@@ -45,12 +52,8 @@ class Input {
 
   /// Handles pending events. With `wait_s`, first waits up to this many seconds for an event.
   void listen(std::optional<double> wait_s = {});
-  /// Actions since the last call, in order.
-  [[nodiscard]] std::vector<const Action*> take_actions();
-  /// Positions of left clicks without a drag since the last call, framebuffer pixels.
-  [[nodiscard]] std::vector<glm::dvec2> take_clicks();
-  /// Position of the last right click without a drag since the last call, framebuffer pixels.
-  [[nodiscard]] std::optional<glm::dvec2> take_right_click();
+  /// Actions and clicks since the last call, in order.
+  [[nodiscard]] std::vector<InputEvent> take_events();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
   /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
@@ -97,9 +100,7 @@ class Input {
   };
   std::optional<glm::dvec2> pressed_px_;
   std::optional<RightPress> right_;
-  std::optional<glm::dvec2> right_click_px_;
-  std::vector<glm::dvec2> clicks_px_;
-  std::vector<const Action*> queued_;
+  std::vector<InputEvent> queued_;
   bool dirty_ = true;
   Seconds heard_until_;     ///< time when events were last handled
   Seconds late_{0.0};       ///< greatest possible age of the events being handled

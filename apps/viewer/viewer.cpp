@@ -94,10 +94,12 @@ void Viewer::tell_of_finest_texels() {
 }
 
 void Viewer::handle_events() {
-  for (const Action* action : input_.take_actions()) action->run(*this);
-  for (const glm::dvec2 click : input_.take_clicks()) measure_.add(click);
+  for (const InputEvent& event : input_.take_events()) {
+    if (event.action != nullptr) event.action->run(*this);
+    if (event.action == nullptr && event.button == PointerButton::left) measure_.add(event.at_px);
+    if (event.action == nullptr && event.button == PointerButton::right) menu_.open_at(event.at_px);
+  }
   input_.set_double_clicks(!measure_.is_on());
-  if (const auto click = input_.take_right_click()) menu_.open_at(*click);
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }

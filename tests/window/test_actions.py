@@ -153,7 +153,7 @@ class Walk(WindowTest):
 
     def bookmark_click(self):
         self.shown(lambda: self.key("k"))
-        self.viewer.click(100, 122)
+        self.viewer.click(100, 115)
         time.sleep(0.2)
         self.key("Escape")
 

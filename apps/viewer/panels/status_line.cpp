@@ -11,9 +11,10 @@
 namespace terrella {
 namespace {
 
-constexpr float kMargin = 0.8F;        // in text heights, between panels and the window's edge
-constexpr float kUnderMessage = 0.4F;  // in text heights, between the message and the status line
-constexpr float kTick = 0.35F;         // in text heights, of the scale bar
+constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
+constexpr float kUnderMessage = 0.4F;   // in text heights, between the message and the status line
+constexpr float kBesideMessage = 7.5F;  // in text heights, for the control column and as much on the other side
+constexpr float kTick = 0.35F;          // in text heights, of the scale bar
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
 
@@ -61,7 +62,9 @@ void draw_row(const char* name, const std::vector<Field>& fields, ImVec2 at, ImV
 /// Draws wrapped text over all panels, centred above a position; empty text draws nothing.
 void draw_paragraph(const std::string& text, ImVec2 at) {
   if (text.empty()) return;
-  const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
+  const float window = ImGui::GetIO().DisplaySize.x;
+  const float widest =
+      std::max(0.6F * window, std::min(0.85F * window, window - kBesideMessage * ImGui::GetFontSize()));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const ImVec2 from{std::floor(at.x - 0.5F * size.x), std::floor(at.y - padding.y - size.y)};

@@ -61,38 +61,36 @@ void PlaceMenu::draw_open(float) {
 }
 
 // A choice closes the menu before it acts, so that the action may open it again.
-bool PlaceMenu::item(const char* text) {
-  const bool clicked = ImGui::Selectable(text);
-  if (std::exchange(first_item_, false)) {
+bool PlaceMenu::item(const char* text, bool enabled) {
+  const bool clicked = ImGui::Selectable(text, false, enabled ? 0 : int(ImGuiSelectableFlags_Disabled));
+  if (enabled && std::exchange(first_item_, false)) {
     ImGui::SetItemDefaultFocus();
     Ui::show_focus();
   }
-  if (!clicked && !entered()) return false;
+  if (!enabled || (!clicked && !entered())) return false;
   chosen_ = true;
   close();
   return true;
 }
 
+// Beside the globe the items about the place cannot be chosen.
 void PlaceMenu::draw_place() {
   Navigator& navigator = context_.navigator;
-  if (place_) {
-    const double step_deg = std::max(
-        kLeastStep_deg, pixel_step_deg(context_.globe.view(context_.window.framebuffer()), context_.globe.ground()));
-    ImGui::TextDisabled("%s", place_text(*place_, step_deg).c_str());
-    if (item("Copy the coordinates")) {
-      context_.window.copy(fmt::format("{:.6f}, {:.6f}", place_->lat.deg(), place_->lon.deg()));
-      say("Coordinates copied");
-    }
+  const double step_deg = std::max(
+      kLeastStep_deg, pixel_step_deg(context_.globe.view(context_.window.framebuffer()), context_.globe.ground()));
+  ImGui::TextDisabled("%s", place_ ? place_text(*place_, step_deg).c_str() : "There is no ground here");
+  if (item("Copy the coordinates", place_.has_value())) {
+    context_.window.copy(fmt::format("{:.6f}, {:.6f}", place_->lat.deg(), place_->lon.deg()));
+    say("Coordinates copied");
   }
   if (item("Copy the view as --camera")) {
     context_.window.copy("--camera " + camera_text(navigator.camera()));
     say("View copied: an option for view and render");
   }
   if (item("Save the view as a bookmark")) calls_.bookmark();
-  if (!place_) return;
-  if (item("Measure from here")) calls_.measure_from(at_px_);
-  if (item("Centre here")) navigator.centre_on(at_px_, Input::now());
-  if (item("Fly here")) navigator.double_click(at_px_, Input::now());
+  if (item("Measure from here", place_.has_value())) calls_.measure_from(at_px_);
+  if (item("Centre here", place_.has_value())) navigator.centre_on(at_px_, Input::now());
+  if (item("Fly here", place_.has_value())) navigator.double_click(at_px_, Input::now());
 }
 
 void PlaceMenu::draw_actions() {

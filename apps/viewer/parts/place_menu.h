@@ -33,7 +33,7 @@ class PlaceMenu : public Panel {
   void draw_open(float foot) override;
   void draw_place();
   void draw_actions();
-  [[nodiscard]] bool item(const char* text);
+  [[nodiscard]] bool item(const char* text, bool enabled = true);
 
   std::span<const Action> actions_;
   PlaceMenuCalls calls_;
