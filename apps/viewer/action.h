@@ -14,6 +14,7 @@ struct Action {
     repeats = 1,  ///< a held key repeats the action
     shifted = 2,  ///< only with Shift; such a row stands before the row without Shift
     types = 4,    ///< the characters after the key go to a text field
+    ctrl = 8,     ///< `characters` with Ctrl, also while a panel has the keyboard
   };
   const char* keys;                       ///< text for the list of shortcuts; null: an earlier row names the keys
   const char* what;                       ///< effect, for the list of shortcuts and the tip of the button

@@ -69,6 +69,7 @@ class Input {
   void listen_to_window();
   void on_button(int button, int action, int modifiers);
   void on_key(int key, int action, int modifiers, bool taken);
+  bool on_ctrl(const char* name);
   void on_character(unsigned character);
   void queue(const Action& action);
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "apps/setup/console.h"
@@ -72,6 +73,7 @@ void Viewer::run() {
     const bool dirty = input_.take_dirty();
     if (panel_frames_ > 0) --panel_frames_;
     if ((dirty || ui_.has_waiting()) && front_panel() != nullptr) panel_frames_ = kPanelFrames;
+    modes_.play().advance(Input::now());
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -99,6 +101,7 @@ void Viewer::handle_events() {
   }
   for (std::filesystem::path& file : input_.take_dropped()) layers_.open(std::move(file));
   layers_.take_opened();
+  if (layers_.take_open_wish()) open_.toggle();
   follow_panels();
 }
 
@@ -133,7 +136,7 @@ void Viewer::wait_for_work() {
   keep_settings();
   const double pause_s = globe_.settled() && job().empty() ? kIdlePause_s : kLoadingPause_s;
   do {
-    input_.listen(messages_.seconds_left(pause_s));
+    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s)));
   } while (!work());
 }
 
@@ -159,7 +162,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
   draw_panels(framebuffer);
   if (panel_frames_ == 0) pictures_.after_frame(framebuffer);  // a newly opened panel is not drawn yet
   glfwSwapBuffers(window_.handle());
-  frame_time_ = Clock::now() - start;
+  frame_graph_.note(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 }
 
 void Viewer::draw_panels(Viewport framebuffer) {
@@ -170,11 +173,32 @@ void Viewer::draw_panels(Viewport framebuffer) {
   if (help_.is_open()) {
     help_.draw(0.0F);
   } else {
-    const float foot = draw_status(status(view), window_.pixels_per_unit().x);
+    const PanelStatus told = status(view);
+    const float foot = frame_graph_.draw_above(draw_status(told, window_.pixels_per_unit().x), frame_.stats());
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
+    draw_message(told, foot);
     if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
+    cover_panels(framebuffer);
   }
   ui_.end_frame();
+}
+
+// In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
+void Viewer::cover_panels(Viewport framebuffer) {
+  std::array<Panel*, 5> newest{&pictures_, &search_, &open_, &layers_, &modes_};
+  std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
+  std::vector<UiBox> front;
+  const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now
+  if (resized) panel_frames_ = kPanelFrames;
+  for (Panel* panel : newest) {
+    if (resized) panel->cover(false);
+    const auto box = panel->is_open() ? Ui::panel_box(panel->title()) : std::nullopt;
+    if (!box || resized) continue;
+    const bool covered = std::ranges::any_of(front, [&box](const UiBox& other) { return other.overlaps(*box); });
+    if (covered != panel->is_covered()) panel_frames_ = kPanelFrames;
+    panel->cover(covered);
+    if (!covered) front.push_back(*box);
+  }
 }
 
 PanelStatus Viewer::status(const View& view) {
@@ -190,7 +214,7 @@ PanelStatus Viewer::status(const View& view) {
   status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m);
   const int loading = frame_.stats().tiles_pending;
   if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
-  status.frame = fmt::format("{:.0f} ms", frame_time_.count());
+  if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
   status.job = job_text_;
   status.measure = measure_.text();

@@ -91,7 +91,9 @@ double window_height() { return static_cast<double>(ImGui::GetIO().DisplaySize.y
 void draw_legend(const std::vector<LegendItem>& items, double left, double bottom) {
   if (items.empty()) return;
   const float unit = ImGui::GetFontSize();
-  const ImVec2 inner{kBarWidth * unit, kItemHeight * unit * static_cast<float>(items.size())};
+  const float room = ImGui::GetIO().DisplaySize.x - 2.0F * static_cast<float>(left);
+  const float width = std::min(kBarWidth * unit, room - 2.0F * ImGui::GetStyle().WindowPadding.x);
+  const ImVec2 inner{width, kItemHeight * unit * static_cast<float>(items.size())};
   begin_fixed("##legend", {static_cast<float>(left), static_cast<float>(bottom)}, {0.0F, 1.0F}, inner);
   ImDrawList* list = ImGui::GetWindowDrawList();
   ImVec2 at = ImGui::GetCursorScreenPos();

@@ -13,7 +13,9 @@ namespace {
 
 constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
 constexpr float kUnderMessage = 0.4F;   // in text heights, between the message and the status line
-constexpr float kUnderFirstRow = 2.8F;  // in text heights
+constexpr float kMessageHeight = 4.0F;  // in text heights, of most messages
+constexpr float kLeastMessage = 14.0F;  // in text heights, of a message beside panels
+constexpr float kNarrow = 50.0F;        // in text heights; the attribution takes the whole width of a narrower window
 constexpr float kTick = 0.35F;          // in text heights, of the scale bar
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
@@ -59,17 +61,36 @@ void draw_row(const char* name, const std::vector<Field>& fields, ImVec2 at, ImV
   ImGui::End();
 }
 
-/// Draws wrapped text over all panels, centred above a position; empty text draws nothing.
-void draw_paragraph(const std::string& text, ImVec2 at) {
-  if (text.empty()) return;
-  const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
-  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const ImVec2 from{std::floor(at.x - 0.5F * size.x), std::floor(at.y - padding.y - size.y)};
-  ImDrawList* list = ImGui::GetForegroundDrawList();
-  list->AddRectFilled({from.x - padding.x, from.y - padding.y}, {from.x + size.x + padding.x, at.y}, kMessageShade,
-                      ImGui::GetStyle().WindowRounding);
-  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, kInk, text.c_str(), nullptr, widest);
+/// Draws a panel with wrapped text; empty text draws nothing.
+void draw_wrapped(const char* name, const Field& field, ImVec2 at, ImVec2 pivot, float widest) {
+  if (field.text.empty()) return;
+  const ImVec2 size = ImGui::CalcTextSize(field.text.c_str(), nullptr, false, widest);
+  begin_fixed(name, at, pivot, size);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
+  draw_text(field);
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+/// The room for a message: from left to right, and up from the bottom.
+struct MessageRoom {
+  float left, right, bottom;
+};
+
+/// The room beside the panels that reach down to the message, or the whole width above the texts at the lower edge.
+MessageRoom room_for_message(float foot) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float unit = ImGui::GetFontSize(), bottom = size.y - foot - kUnderMessage * unit;
+  MessageRoom beside{margin(), size.x - margin(), bottom}, above = beside;
+  for (const UiBox& box : Ui::panel_boxes()) {
+    const auto left = static_cast<float>(box.left), right = static_cast<float>(box.right);
+    const auto top = static_cast<float>(box.top);
+    if (static_cast<float>(box.bottom) < bottom - kMessageHeight * unit || top > bottom) continue;
+    0.5F * (left + right) < 0.5F * size.x ? beside.left = std::max(beside.left, right + 0.5F * margin())
+                                          : beside.right = std::min(beside.right, left - 0.5F * margin());
+    if (top > 0.5F * size.y) above.bottom = std::min(above.bottom, top - 0.5F * margin());
+  }
+  return beside.right - beside.left < kLeastMessage * unit ? above : beside;
 }
 
 /// Size of the scale bar with its text, without the panel's padding.
@@ -100,7 +121,7 @@ void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
 float draw_foot(const PanelStatus& status, double unit_px) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), room = size.x - 2.0F * gap;
-  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.frame, true}}, room);
+  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.time, true}}, room);
   draw_row("##status", fields, {gap, size.y - gap}, {0.0F, 1.0F});
   const float row = ImGui::GetFontSize() + 2.0F * padding.y;
   if (!status.scale) return gap + row;
@@ -114,16 +135,32 @@ float draw_foot(const PanelStatus& status, double unit_px) {
 }  // namespace
 
 float draw_status(const PanelStatus& status, double unit_px) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float unit = ImGui::GetFontSize(), gap = margin();
+  const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
+  const float gap = margin(), whole = size.x - 2.0F * gap - 2.0F * padding.x;
   const float foot = draw_foot(status, unit_px);
-  draw_row("##attribution", fitted({{status.attribution, true}}, INFINITY), {size.x - gap, gap}, {1.0F, 0.0F});
-  draw_row("##measure", fitted({{status.measure}}, INFINITY), {0.5F * size.x, gap + kUnderFirstRow * unit},
-           {0.5F, 0.0F});
-  std::string told = status.job;
-  if (!told.empty() && !status.message.empty()) told += "\n";
-  draw_paragraph(told + status.message, {0.5F * size.x, size.y - foot - kUnderMessage * unit});
+  const bool narrow = size.x < kNarrow * ImGui::GetFontSize();
+  draw_wrapped("##attribution", {status.attribution, true}, {size.x - gap, gap}, {1.0F, 0.0F},
+               narrow ? whole : 0.5F * whole);
+  draw_wrapped("##measure", {status.measure}, {0.5F * size.x, Ui::free_top(0.0F, size.x)}, {0.5F, 0.0F}, whole);
   return foot;
+}
+
+std::optional<UiBox> draw_message(const PanelStatus& status, float foot) {
+  std::string text = status.job;
+  if (!text.empty() && !status.message.empty()) text += "\n";
+  text += status.message;
+  if (text.empty()) return {};
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const MessageRoom room = room_for_message(foot);
+  const float widest = std::min(room.right - room.left, 0.85F * ImGui::GetIO().DisplaySize.x) - 2.0F * padding.x;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  const ImVec2 from{std::floor(0.5F * (room.left + room.right - size.x)), std::floor(room.bottom - padding.y - size.y)};
+  const UiBox box{from.x - padding.x, from.y - padding.y, from.x + size.x + padding.x, room.bottom};
+  ImDrawList* list = ImGui::GetForegroundDrawList();
+  list->AddRectFilled({from.x - padding.x, from.y - padding.y}, {from.x + size.x + padding.x, room.bottom},
+                      kMessageShade, ImGui::GetStyle().WindowRounding);
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, kInk, text.c_str(), nullptr, widest);
+  return box;
 }
 
 }  // namespace terrella

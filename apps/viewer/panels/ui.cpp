@@ -14,6 +14,7 @@ namespace terrella {
 namespace {
 
 constexpr float kText_px = 15.0F;
+constexpr float kTopMargin = 0.8F;  // in text heights
 
 // Paths of DejaVu Sans in common distributions; the fallback is ImGui's own small font.
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -55,6 +56,15 @@ void fit_to(const Window& window) {
   load_font(window.text_scale());
   ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
   set_style(window.text_scale() / unit_px);
+}
+
+/// True for a window that the program drew in this frame.
+bool is_panel(const ImGuiWindow& window) {
+  return window.Active && !window.IsFallbackWindow && window.RootWindow == &window;
+}
+
+UiBox box_of(const ImGuiWindow& window) {
+  return {window.Pos.x, window.Pos.y, window.Pos.x + window.Size.x, window.Pos.y + window.Size.y};
 }
 
 bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
@@ -177,10 +187,26 @@ double Ui::text_height() { return double(ImGui::GetFontSize()); }
 std::vector<UiBox> Ui::panel_boxes() {
   std::vector<UiBox> boxes;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window) continue;
-    boxes.push_back({window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y});
+    if (is_panel(*window)) boxes.push_back(box_of(*window));
   }
   return boxes;
+}
+
+std::optional<UiBox> Ui::panel_box(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window == nullptr ? std::nullopt : std::optional(box_of(*window));
+}
+
+float Ui::free_top(float left, float right) {
+  const float margin = kTopMargin * ImGui::GetFontSize();
+  float top = margin;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const bool of_text = (window->Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs;
+    const float low = window->Pos.y + window->Size.y, middle = window->Pos.y + 0.5F * window->Size.y;
+    if (!is_panel(*window) || !of_text || middle > 0.5F * ImGui::GetIO().DisplaySize.y) continue;
+    if (window->Pos.x < right && left < window->Pos.x + window->Size.x) top = std::max(top, low + 0.5F * margin);
+  }
+  return top;
 }
 
 }  // namespace terrella

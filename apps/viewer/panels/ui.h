@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "apps/viewer/window.h"
@@ -54,6 +55,12 @@ class Ui {
   [[nodiscard]] static double text_height();
   /// Rectangles of the panels that this frame has so far; within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
+  /// Rectangle of the panel with this title when it was last drawn; nullopt if it never was.
+  [[nodiscard]] static std::optional<UiBox> panel_box(const char* title);
+  /// Lowest edge of the texts at the window's upper edge between two abscissas, and a margin; within a frame.
+  [[nodiscard]] static float free_top(float left, float right);
+  /// Counts opened panels, so that the newest one can be told.
+  [[nodiscard]] unsigned next_panel() { return ++panels_; }
 
  private:
   enum class Stroke { press, release, character };
@@ -64,6 +71,7 @@ class Ui {
   void hand_over_waiting();
 
   std::deque<KeyEvent> waiting_;  ///< in order of arrival
+  unsigned panels_ = 0;
   bool text_expected_ = false;
   bool field_ready_ = false;
 };

@@ -10,13 +10,16 @@
 #include <ctime>
 
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/panels/ui.h"
+#include "apps/viewer/parts/time_play.h"
 
 namespace terrella {
 namespace {
 
 constexpr float kWidth = 23.0F;  // in text heights
 constexpr double kDeepest_km = 6000.0, kShallowest_km = 150.0;
-constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours{12}};
+constexpr std::array kSpeeds = {1.0, 60.0, 600.0, 3600.0, 86400.0};
+constexpr std::array kSpeedNames = {"1x", "60x", "600x", "3600x", "86400x"};
 
 void draw_surface(SurfaceLook& surface) {
   slide("Opacity", surface.alpha, 0.0, 1.0, "%.2f");
@@ -85,6 +88,23 @@ void draw_time_sliders(ViewSettings& settings) {
   set_time(settings, new_year + days{of_year - 1} + minutes{static_cast<int>(hour * 60.0)});
 }
 
+void draw_play(ViewSettings& settings) {
+  if (ImGui::Button(settings.playing ? "Pause" : "Play")) settings.playing = !settings.playing;
+  tip("T: lets the time run, or stops it.");
+  ImGui::SameLine();
+  auto speed = std::size_t(std::ranges::find(kSpeeds, settings.speed) - kSpeeds.begin()) % kSpeeds.size();
+  ImGui::SetNextItemWidth(0.3F * kWidth * ImGui::GetFontSize());
+  choose("Speed", speed, kSpeedNames);
+  settings.speed = kSpeeds[speed];
+  tip("At 60x a minute passes in a second, at 3600x an hour, at 86400x a day.");
+}
+
+void draw_night_lights(ViewSettings& settings) {
+  if (!settings.has_lights) return;
+  ImGui::Checkbox("Night lights", &settings.night_lights);
+  tip("Lights of the cities on the night side.");
+}
+
 void draw_time(ViewSettings& settings) {
   if (settings.written != settings.time) set_time(settings, settings.time);
   std::array<char, 40> text{};
@@ -93,6 +113,7 @@ void draw_time(ViewSettings& settings) {
                                ImGuiInputTextFlags_EnterReturnsTrue)) {
     settings.time_text = text.data();
     const Result<UtcTime> time = parse_utc(settings.time_text);
+    if (time && !settings.time) settings.night_lights = settings.has_lights;
     if (time) set_time(settings, *time);
     if (!time) settings.time_problem = time.error().message;
   }
@@ -100,11 +121,15 @@ void draw_time(ViewSettings& settings) {
       "viewer's shoulder.");
   if (!settings.time_problem.empty()) ImGui::TextWrapped("%s", settings.time_problem.c_str());
   bool has_time = settings.time.has_value();
-  if (ImGui::Checkbox("Sun, Moon and stars at a time", &has_time)) {
-    set_time(settings, has_time ? std::optional<UtcTime>(kFirstTime) : std::nullopt);
+  if (ImGui::Checkbox("Use date and time", &has_time)) {
+    set_time(settings, has_time ? std::optional<UtcTime>(present_time()) : std::nullopt);
+    settings.night_lights = has_time && settings.has_lights;
   }
-  tip("City lights need a start with --time.");
-  if (settings.time) draw_time_sliders(settings);
+  tip("Places Sun, Moon and stars as they are at the time above. The first time is the present.");
+  if (!settings.time) return;
+  draw_time_sliders(settings);
+  draw_play(settings);
+  draw_night_lights(settings);
 }
 
 void draw_stereo(StereoLook& stereo) {
@@ -147,9 +172,11 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
                                  bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.8F * unit, 0.8F * unit});
-  ImGui::SetNextWindowSize({kWidth * unit, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - foot - 1.8F * unit});
+  const float left = 0.8F * unit, width = std::min(kWidth * unit, size.x - 2.0F * left);
+  const float top = Ui::free_top(left, left + width);
+  ImGui::SetNextWindowPos({left, top});
+  ImGui::SetNextWindowSize({width, 0.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - top - 0.8F * unit});
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   ImGui::Begin(title, nullptr, kPanelWindow);

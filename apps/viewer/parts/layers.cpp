@@ -8,6 +8,7 @@
 
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
+#include "apps/viewer/tools/recent_files.h"
 
 namespace terrella {
 namespace {
@@ -27,6 +28,16 @@ Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, do
   camera.eye = {.lat = Angle::degrees(lat_deg), .lon = bounds.west + 0.5 * width_of(bounds)};
   camera.eye.height_m = std::max(kNearestLayer_m, 0.5 * span_m / std::tan(0.5 * fov_y.rad()));
   return camera;
+}
+
+/// Puts an opened file into the list of recent files.
+Status remember(const std::filesystem::path& opened) {
+  const auto file = recent_file();
+  if (!file) return Done{};
+  Result<RecentFiles> recent = RecentFiles::load(*file);
+  if (!recent) return recent.error();
+  recent->add(opened.string());
+  return recent->save(*file);
 }
 
 }  // namespace
@@ -56,6 +67,9 @@ void Layers::draw_open(float foot) {
       return look_at(*rows_[wish.row].bounds);
     case LayerAsk::remove:
       return remove(wish.row);
+    case LayerAsk::open:
+      open_wish_ = true;
+      return;
   }
 }
 
@@ -148,8 +162,7 @@ bool Layers::cancel() {
 }
 
 void Layers::add(OpenedFile file) {
-  LayerRow row{.name = file.path.filename().string()};
-  if (row.name.empty()) row.name = file.path.string();
+  LayerRow row{.name = shown_name(file.path)};
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
   if (auto* layer = std::get_if<ImageryLayer>(&file.what)) {
@@ -167,12 +180,14 @@ void Layers::add(OpenedFile file) {
   if (!added) return say(row.name + ": " + added.error().message);
   if (row.bounds) look_at(*row.bounds);
   insert(std::move(row));
-  say(std::move(told));
+  const Status kept = remember(file.path);
+  say(kept ? std::move(told) : kept.error().message);
 }
 
 Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
   row.bounds = if_a_part(layer.tiles->info().grid.bounds);
   row.finest_level = layer.tiles->info().grid.max_level;
+  row.attribution = layer.tiles->info().attribution;
   const auto id = context_.globe.add_imagery(std::move(layer.tiles), layer.look);
   if (!id) return id.error();
   row.look = layer.look;
@@ -183,6 +198,7 @@ Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
 
 Status Layers::add_heights(const ElevationSource& heights, LayerRow& row) {
   row.kind = LayerKind::heights;
+  row.attribution = heights.tiles()->info().attribution;
   if (Status used = use_heights(heights); !used) return used;
   heights_ = heights;
   std::erase_if(rows_, [](const LayerRow& layer) { return layer.kind == LayerKind::heights; });

@@ -20,7 +20,6 @@ constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
 constexpr std::size_t kMostFound = 8;
 constexpr double kCoordinateStep_deg = 1e-4;  // of coordinates as the list shows them
 constexpr float kSearchWidth = 22.0F;         // in text heights
-constexpr float kTop = 3.6F;                  // below the attribution
 
 std::string full_name(const NamedPlace& place) {
   return place.country.empty() ? place.name : place.name + ", " + place.country;
@@ -63,8 +62,11 @@ void Search::take_keyboard() {
 
 void Search::draw_open(float) {
   const float unit = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({0.5F * ImGui::GetIO().DisplaySize.x, kTop * unit}, ImGuiCond_Always, {0.5F, 0.0F});
-  ImGui::SetNextWindowSize({kSearchWidth * unit, 0.0F});
+  const float middle = 0.5F * ImGui::GetIO().DisplaySize.x;
+  const float width = std::min(kSearchWidth * unit, 2.0F * middle - 1.6F * unit);
+  const float top = Ui::free_top(middle - 0.5F * width, middle + 0.5F * width);
+  ImGui::SetNextWindowPos({middle, top}, ImGuiCond_Always, {0.5F, 0.0F});
+  ImGui::SetNextWindowSize({width, 0.0F});
   ImGui::SetNextWindowBgAlpha(0.9F);
   const auto chosen = draw_field();
   if (chosen) fly_to(*chosen);
