@@ -29,10 +29,10 @@ constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower
 
 constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
-    "turn, double-click to fly there. Drop files onto the window to add layers.\n"
+    "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, F full screen, / search,\n"
-    "M measure, U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save\n"
-    "pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
+    "M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, L layers,\n"
+    "I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"

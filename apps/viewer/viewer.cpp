@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "apps/setup/console.h"
+#include "apps/viewer/panels/legend.h"
 
 namespace terrella {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
+constexpr double kTinyWindow = 18.0;            // height, in text heights
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kScaleBarShare = 0.5;          // of the window's width, at most
 
@@ -173,14 +175,24 @@ void Viewer::draw_panels(Viewport framebuffer) {
   if (help_.is_open()) {
     help_.draw(0.0F);
   } else {
-    const PanelStatus told = status(view);
-    const float foot = frame_graph_.draw_above(draw_status(told, window_.pixels_per_unit().x), frame_.stats());
+    // A tiny window shows an open panel alone.
+    const bool alone = front_panel() != nullptr && window_height() < kTinyWindow * Ui::text_height();
+    const float foot = alone ? 0.0F : draw_texts(status(view));
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
-    draw_message(told, foot);
+    if (!alone) layers_.draw_legend(foot, false);
     if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
     cover_panels(framebuffer);
   }
   ui_.end_frame();
+}
+
+// Draws the texts that the panels leave room. Returns the height of those at the lower edge.
+float Viewer::draw_texts(const PanelStatus& status) {
+  const float foot = frame_graph_.draw_above(draw_status(status, window_.pixels_per_unit().x), frame_.stats());
+  layers_.draw_legend(foot, true);
+  draw_message(status, foot);
+  draw_head(status);
+  return foot;
 }
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.

@@ -76,6 +76,7 @@ class Viewer {
   void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
+  [[nodiscard]] float draw_texts(const PanelStatus& status);
   void cover_panels(Viewport framebuffer);
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();

@@ -83,7 +83,7 @@ constinit const Action Viewer::kActions[] = {
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
     {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
     {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},
-    {"T", "play or stop the time", [](V v) { v.modes_.toggle_play(); }, U"t"},
+    {"T", "play or pause the time", [](V v) { v.modes_.toggle_play(); }, U"t"},
     {"S", "stereo: anaglyph, side by side, interlaced, off", [](V v) { v.modes_.next_stereo(); }, U"s"},
     {"F", "full screen", [](V v) { v.window_.toggle_full_screen(); }, U"f"},
     {"I", "save a picture of any size", [](V v) { v.pictures_.toggle(); }, U"i", 0, 0, 0, "Picture"},

@@ -51,7 +51,7 @@ TEST_P(PanelBoxes, TheStatusLineAndTheScaleBarDoNotOverlap) {
   status.cursor = "46.02100 N   7.74900 E   4,478 m";
   status.eye = "Altitude 15,200 km";
   status.tiles = "127 tiles loading";
-  status.frame = "8 ms";
+  status.time = "2026-06-21 12:00 UTC";
   status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
   const float foot = draw_status(status, 1.0);
   const std::vector<UiBox> boxes = Ui::panel_boxes();

@@ -4,7 +4,6 @@
 
 #include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_items.h"
-#include "apps/viewer/panels/ui.h"
 
 namespace terrella {
 namespace {
@@ -97,11 +96,8 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
                       float foot, bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = std::min(kLayersWidth * unit, size.x - 1.6F * unit);
-  const float right = size.x - 0.8F * unit, top = Ui::free_top(right - width, right);
-  ImGui::SetNextWindowPos({right, top}, ImGuiCond_Always, {1.0F, 0.0F});
-  ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - top - 0.8F * unit});
+  const float right = size.x - 0.8F * unit, left = std::max(0.8F * unit, right - kLayersWidth * unit);
+  place_panel(Ui::panel_room(left, right, foot));
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   ImGui::Begin(title, nullptr, kPanelWindow);

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "apps/viewer/panels/readout.h"
-#include "apps/viewer/panels/ui.h"
 
 namespace terrella {
 
@@ -21,14 +20,19 @@ struct PanelStatus {
   std::optional<ScaleBar> scale;
 };
 
-/// Draws the status line, the scale bar, the attribution and the measurement, between Ui::begin_frame() and
-/// Ui::end_frame(). A narrow window shows the scale bar above the status line, and leaves out the last fields. The
-/// attribution is wrapped, never cut. `unit_px`: framebuffer pixels per unit of the window. Returns the height that the
-/// panels at the lower edge use, in units. thread: main
+// The following functions draw between Ui::begin_frame() and Ui::end_frame(), in this order. thread: main
+
+/// Draws the status line and the scale bar. A narrow window shows the scale bar above the status line, and leaves out
+/// the last fields; a low one has no scale bar. `unit_px`: framebuffer pixels per unit of the window. Returns the
+/// height that they use at the lower edge, in units.
 float draw_status(const PanelStatus& status, double unit_px);
 
-/// Draws the job and the message over the globe, beside or above the panels that are drawn by now, and above the `foot`
-/// units at the lower edge. Returns their rectangle; nullopt without text. thread: main
-std::optional<UiBox> draw_message(const PanelStatus& status, float foot);
+/// Draws the job and the message above the `foot` units at the lower edge, beside the panels of the last frame if there
+/// is room.
+void draw_message(const PanelStatus& status, float foot);
+
+/// Draws the attribution and the measurement at the upper edge, wrapped, unless a tiny window has no room beside the
+/// message.
+void draw_head(const PanelStatus& status);
 
 }  // namespace terrella

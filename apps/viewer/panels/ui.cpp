@@ -63,6 +63,11 @@ bool is_panel(const ImGuiWindow& window) {
   return window.Active && !window.IsFallbackWindow && window.RootWindow == &window;
 }
 
+/// True for texts, which take neither mouse nor keyboard.
+bool is_text(const ImGuiWindow& window) {
+  return (window.Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs;
+}
+
 UiBox box_of(const ImGuiWindow& window) {
   return {window.Pos.x, window.Pos.y, window.Pos.x + window.Size.x, window.Pos.y + window.Size.y};
 }
@@ -197,16 +202,29 @@ std::optional<UiBox> Ui::panel_box(const char* title) {
   return window == nullptr ? std::nullopt : std::optional(box_of(*window));
 }
 
-float Ui::free_top(float left, float right) {
-  const float margin = kTopMargin * ImGui::GetFontSize();
-  float top = margin;
+std::vector<UiBox> Ui::last_panels() {
+  std::vector<UiBox> boxes;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    const bool of_text = (window->Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs;
-    const float low = window->Pos.y + window->Size.y, middle = window->Pos.y + 0.5F * window->Size.y;
-    if (!is_panel(*window) || !of_text || middle > 0.5F * ImGui::GetIO().DisplaySize.y) continue;
-    if (window->Pos.x < right && left < window->Pos.x + window->Size.x) top = std::max(top, low + 0.5F * margin);
+    const bool drawn = window->WasActive && !window->IsFallbackWindow && window->RootWindow == window;
+    const bool tip = (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    if (drawn && !tip && !is_text(*window)) boxes.push_back(box_of(*window));
   }
-  return top;
+  return boxes;
+}
+
+UiBox Ui::panel_room(float left, float right, float foot) {
+  const double margin = double(kTopMargin) * text_height(), height = double(ImGui::GetIO().DisplaySize.y);
+  UiBox room{left, margin, right, height - double(foot) - margin};
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const UiBox box = box_of(*window);
+    if (!is_panel(*window) || !is_text(*window) || box.left >= room.right || box.right <= room.left) continue;
+    if (0.5 * (box.top + box.bottom) < 0.5 * height) {
+      room.top = std::max(room.top, box.bottom + margin);
+    } else {
+      room.bottom = std::min(room.bottom, box.top - 0.5 * margin);
+    }
+  }
+  return room;
 }
 
 }  // namespace terrella

@@ -53,12 +53,15 @@ class Ui {
   static void use_text(float scale);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
-  /// Rectangles of the panels that this frame has so far; within a frame.
+  /// Rectangles of the panels that this frame has so far, and of those with mouse and keyboard that the last frame had;
+  /// within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
+  [[nodiscard]] static std::vector<UiBox> last_panels();
   /// Rectangle of the panel with this title when it was last drawn; nullopt if it never was.
   [[nodiscard]] static std::optional<UiBox> panel_box(const char* title);
-  /// Lowest edge of the texts at the window's upper edge between two abscissas, and a margin; within a frame.
-  [[nodiscard]] static float free_top(float left, float right);
+  /// The room of a panel between two abscissas: under the texts at the window's upper edge, and above those at the
+  /// lower edge, of which the status line takes `foot` units. Within a frame.
+  [[nodiscard]] static UiBox panel_room(float left, float right, float foot);
   /// Counts opened panels, so that the newest one can be told.
   [[nodiscard]] unsigned next_panel() { return ++panels_; }
 

@@ -10,7 +10,6 @@
 #include <ctime>
 
 #include "apps/viewer/panels/panel_items.h"
-#include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/time_play.h"
 
 namespace terrella {
@@ -90,7 +89,7 @@ void draw_time_sliders(ViewSettings& settings) {
 
 void draw_play(ViewSettings& settings) {
   if (ImGui::Button(settings.playing ? "Pause" : "Play")) settings.playing = !settings.playing;
-  tip("T: lets the time run, or stops it.");
+  tip("T: plays or pauses the time.");
   ImGui::SameLine();
   auto speed = std::size_t(std::ranges::find(kSpeeds, settings.speed) - kSpeeds.begin()) % kSpeeds.size();
   ImGui::SetNextItemWidth(0.3F * kWidth * ImGui::GetFontSize());
@@ -125,7 +124,7 @@ void draw_time(ViewSettings& settings) {
     set_time(settings, has_time ? std::optional<UtcTime>(present_time()) : std::nullopt);
     settings.night_lights = has_time && settings.has_lights;
   }
-  tip("Places Sun, Moon and stars as they are at the time above. The first time is the present.");
+  tip("Places Sun, Moon and stars as they are at the time above. Begins with the present.");
   if (!settings.time) return;
   draw_time_sliders(settings);
   draw_play(settings);
@@ -134,7 +133,8 @@ void draw_time(ViewSettings& settings) {
 
 void draw_stereo(StereoLook& stereo) {
   choose("Stereo", stereo.mode, std::array{"off", "side by side", "interlaced", "anaglyph"});
-  tip("S. anaglyph: red glass for the left eye, cyan for the right. interlaced: even rows for the left eye. side by "
+  tip("S: next kind. anaglyph: red glass for the left eye, cyan for the right. interlaced: even rows for the left eye. "
+      "side by "
       "side: the left eye's picture is on the left.");
   bool by_itself = !stereo.eye_separation_m.has_value();
   if (ImGui::Checkbox("Automatic eye separation", &by_itself)) {
@@ -172,11 +172,8 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
                                  bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float left = 0.8F * unit, width = std::min(kWidth * unit, size.x - 2.0F * left);
-  const float top = Ui::free_top(left, left + width);
-  ImGui::SetNextWindowPos({left, top});
-  ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - top - 0.8F * unit});
+  const float left = 0.8F * unit, right = std::min(left + kWidth * unit, size.x - left);
+  place_panel(Ui::panel_room(left, right, foot));
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   ImGui::Begin(title, nullptr, kPanelWindow);

@@ -38,8 +38,9 @@ void Cutting::draw(float) {
   const float unit = ImGui::GetFontSize(), line = ImGui::GetFrameHeightWithSpacing();
   const float middle = 0.5F * ImGui::GetIO().DisplaySize.x,
               half = std::min(0.5F * kBarWidth * unit, middle - 2.0F * unit);
-  begin_fixed("##cutting", {middle, Ui::free_top(middle - half - unit, middle + half + unit)}, {0.5F, 0.0F},
-              {2.0F * half, static_cast<float>(rows_.size()) * line});
+  begin_fixed("##cutting",
+              {middle, static_cast<float>(Ui::panel_room(middle - half - unit, middle + half + unit, 0.0F).top)},
+              {0.5F, 0.0F}, {2.0F * half, static_cast<float>(rows_.size()) * line});
   for (Row& row : rows_) {
     row.percent = percent_of(row.cut->state());
     const std::string name = row.cut->picture().filename().string();

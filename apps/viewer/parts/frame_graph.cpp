@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kGraphWidth = 17.0F, kGraphHeight = 3.2F;  // in text heights
 constexpr float kGraphGap = 0.8F;
+constexpr float kGraphMost = 0.7F;       // of the window's height, with what lies below
 constexpr float kGraphLeast_ms = 33.0F;  // top of the graph, at least
 constexpr double kMegabyte = 1e6;
 
@@ -28,6 +29,7 @@ float FrameGraph::draw_above(float foot, const FrameStats& stats) const {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const ImVec2 inner{std::min(kGraphWidth * unit, size.x - 2.0F * gap - 2.0F * padding.x),
                      kGraphHeight * unit + 3.0F * line};
+  if (inner.y + foot > kGraphMost * size.y) return foot;
   const float last_ms = frames_ms_[(next_ + kFrames - 1) % kFrames];
   const float most_ms = std::max(kGraphLeast_ms, *std::ranges::max_element(frames_ms_));
   begin_fixed("##frames", {size.x - gap, size.y - foot - 0.5F * gap}, {1.0F, 1.0F}, inner);

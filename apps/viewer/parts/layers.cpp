@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
 constexpr double kLegendGap = 0.8;         // in text heights, to the window's edge and the status line
+constexpr double kHighWindow = 18.0;       // in text heights, over the legend
 constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
 
 /// Looks straight down on the middle, from a height that shows the whole rectangle.
@@ -73,16 +74,19 @@ void Layers::draw_open(float foot) {
   }
 }
 
-void Layers::draw(float foot) {
+void Layers::draw_legend(float foot, bool before_panels) const {
   std::vector<LegendItem> items;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
     if (!row->numbers || !row->look.numbers || !row->look.shown) continue;
     items.push_back(
         {.title = legend_title(row->name, *row->numbers), .unit = row->numbers->unit, .look = *row->look.numbers});
   }
-  const double gap = kLegendGap * Ui::text_height();
-  draw_legend(items, gap, window_height() - static_cast<double>(foot) - gap);
-  Panel::draw(foot);
+  const double gap = kLegendGap * Ui::text_height(), bottom = window_height() - double(foot) - gap;
+  const UiBox box = legend_box(items.size(), gap, bottom);
+  const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
+  const bool high = box.top > kHighWindow * Ui::text_height();
+  if (high == before_panels && std::ranges::none_of(Ui::panel_boxes(), covers))
+    terrella::draw_legend(items, gap, bottom);
 }
 
 std::string Layers::value_at(const Geodetic& place) {

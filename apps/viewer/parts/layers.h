@@ -31,8 +31,9 @@ class Layers : public Panel {
   [[nodiscard]] std::string job() const override { return files_.text(); }
   [[nodiscard]] bool changed() const override { return files_.ready() || value_.ready() || open_wish_; }
   bool cancel() override;
-  /// Draws the legend of the shown layers of numbers, and the panel if it is open.
-  void draw(float foot) override;
+  /// Draws the legend of the shown layers of numbers above the `foot` units at the lower edge. A high window shows the
+  /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
+  void draw_legend(float foot, bool before_panels) const;
   /// The value that the highest shown layer of numbers stores at a place; empty while it is not known.
   [[nodiscard]] std::string value_at(const Geodetic& place);
 

@@ -136,12 +136,10 @@ void OpenDialog::take(const std::string& text) {
 void OpenDialog::draw_open(float foot) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = std::min(kOpenWidth * unit, size.x - 1.6F * unit);
-  const float top = Ui::free_top(0.5F * (size.x - width), 0.5F * (size.x + width));
-  const float most = size.y - foot - top - 0.8F * unit;
-  ImGui::SetNextWindowPos({0.5F * size.x, top}, ImGuiCond_Always, {0.5F, 0.0F});
-  ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
+  const float half = std::min(0.5F * kOpenWidth * unit, 0.5F * size.x - 0.8F * unit);
+  const UiBox room = Ui::panel_room(0.5F * size.x - half, 0.5F * size.x + half, foot);
+  const auto most = static_cast<float>(room.bottom - room.top);
+  place_panel(room);
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();

@@ -60,13 +60,11 @@ void Search::take_keyboard() {
   context_.ui.expect_text(true);
 }
 
-void Search::draw_open(float) {
+void Search::draw_open(float foot) {
   const float unit = ImGui::GetFontSize();
   const float middle = 0.5F * ImGui::GetIO().DisplaySize.x;
-  const float width = std::min(kSearchWidth * unit, 2.0F * middle - 1.6F * unit);
-  const float top = Ui::free_top(middle - 0.5F * width, middle + 0.5F * width);
-  ImGui::SetNextWindowPos({middle, top}, ImGuiCond_Always, {0.5F, 0.0F});
-  ImGui::SetNextWindowSize({width, 0.0F});
+  const float half = std::min(0.5F * kSearchWidth * unit, middle - 0.8F * unit);
+  place_panel(Ui::panel_room(middle - half, middle + half, foot));
   ImGui::SetNextWindowBgAlpha(0.9F);
   const auto chosen = draw_field();
   if (chosen) fly_to(*chosen);
@@ -81,8 +79,8 @@ std::optional<NamedPlace> Search::draw_field() {
   text_.copy(text.data(), text.size() - 1);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0F);
-  const bool entered = ImGui::InputTextWithHint("##place", "Place name or coordinates, then Enter; Esc closes",
-                                                text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##place", "Place name or coordinates, then Enter", text.data(),
+                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive()) context_.ui.field_is_ready();
   text_ = text.data();
   std::optional<NamedPlace> chosen;
@@ -104,7 +102,7 @@ std::optional<NamedPlace> Search::draw_found(bool entered) const {
     if (ImGui::Selectable(fmt::format("{}##{}", full_name(*found[k]), k).c_str())) chosen = *found[k];
   }
   if (found.empty() && !text_.empty()) {
-    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one by --places"
+    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one with --places"
                                                    : "No place has this name");
   }
   if (entered && !found.empty()) chosen = *found.front();

@@ -30,7 +30,7 @@ Result<RecentFiles> RecentFiles::load(const std::filesystem::path& file) {
   if (!json) return json.error();
   const auto kept = json->find(kRecentField);
   if (kept == json->end() || !kept->is_array()) {
-    return Error{file.string() + ": no list of recent files; remove this file to begin a new list"};
+    return Error{file.string() + ": not a list of recent files; remove this file to begin a new list"};
   }
   for (auto one = kept->rbegin(); one != kept->rend(); ++one) {
     if (one->is_string()) recent.add(one->get<std::string>());
