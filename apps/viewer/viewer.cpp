@@ -21,7 +21,7 @@ constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
-constexpr double kTinyWindow = 18.0;            // height, in text heights
+constexpr double kTinyWindow = 22.0;            // height, in text heights
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kScaleBarShare = 0.5;          // of the window's width, at most
 

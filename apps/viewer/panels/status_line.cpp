@@ -43,9 +43,9 @@ float row_width(const std::vector<Field>& fields) {
   return fields.empty() ? 0.0F : width;
 }
 
-/// Returns the fields with text, without the last ones if the panel would be wider than `most`.
+/// Returns the fields with text that fit alone, without the last ones if the panel would be wider than `most`.
 std::vector<Field> fitted(std::vector<Field> fields, float most) {
-  std::erase_if(fields, [](const Field& field) { return field.text.empty(); });
+  std::erase_if(fields, [most](const Field& field) { return field.text.empty() || row_width({field}) > most; });
   while (row_width(fields) > most) fields.pop_back();
   return fields;
 }
@@ -80,6 +80,7 @@ void draw_at_head(const char* name, const Field& field, ImVec2 at, float share, 
   const double width = double(size.x + 2.0F * padding.x), left = double(at.x) - double(share) * width;
   const UiBox box{left, double(at.y), left + width, double(at.y + size.y + 2.0F * padding.y)};
   const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
+  if (box.bottom > double(ImGui::GetIO().DisplaySize.y)) return;
   if (std::ranges::none_of(Ui::panel_boxes(), covers)) draw_wrapped(name, field, at, {share, 0.0F}, widest);
 }
 
