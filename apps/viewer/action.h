@@ -15,13 +15,13 @@ enum class Icon { none, menu, compass, plus, minus, tilted, flat, home, back, fo
 struct Action {
   enum Flags : unsigned {
     plain = 0,
-    repeats = 1,      ///< a held key repeats the action
-    shifted = 2,      ///< only with Shift
-    types = 4,        ///< the characters after the key go to a text field
-    alted = 8,        ///< only with Alt
-    controlled = 16,  ///< only with Ctrl
-    unlisted = 32,    ///< not in the menu
-    kModifiers = shifted | alted | controlled,
+    repeats = 1,    ///< a held key repeats the action
+    shifted = 2,    ///< only with Shift
+    types = 4,      ///< the characters after the key go to a text field
+    alted = 8,      ///< only with Alt
+    ctrl = 16,      ///< `characters` with Ctrl, also while a panel has the keyboard
+    unlisted = 32,  ///< not in the menu
+    kModifiers = shifted | alted,
   };
   const char* keys;                       ///< way by keyboard, for the list of shortcuts; null: an earlier row names it
   const char* what;                       ///< effect, for the list of shortcuts and the tip of the button

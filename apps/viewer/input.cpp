@@ -99,8 +99,12 @@ void Input::listen_to_pointer() {
 }
 
 void Input::listen_to_keys() {
-  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int, int action, int modifiers) {
-    input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(key, action));
+  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    Input& self = input_of(w);
+    const bool taken = self.ui_.on_key(key, action);
+    const bool with_ctrl = action == GLFW_PRESS && (modifiers & GLFW_MOD_CONTROL) != 0;
+    if (with_ctrl && self.on_ctrl(glfwGetKeyName(key, scancode))) return;
+    self.on_key(key, action, modifiers, taken);
   });
   // Letters and symbols arrive as characters, so that they follow the keyboard's layout.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
@@ -178,7 +182,6 @@ const Action* Input::action_of(int key, int modifiers) const {
   unsigned held = 0;
   if ((modifiers & GLFW_MOD_SHIFT) != 0) held |= Action::shifted;
   if ((modifiers & GLFW_MOD_ALT) != 0) held |= Action::alted;
-  if ((modifiers & GLFW_MOD_CONTROL) != 0) held |= Action::controlled;
   const Action* best = nullptr;
   for (const Action& one : actions_) {
     const unsigned wanted = one.flags & Action::kModifiers;
@@ -188,12 +191,28 @@ const Action* Input::action_of(int key, int modifiers) const {
   return best;
 }
 
+// The name of a key is its letter in the keyboard's layout; keys with Ctrl are no characters. A text field keeps its
+// own keys with Ctrl. True if an action runs.
+bool Input::on_ctrl(const char* name) {
+  if (name == nullptr || name[1] != '\0') return false;
+  const auto found = std::ranges::find_if(actions_, [name](const Action& one) {
+    const bool free = (one.flags & Action::types) != 0 || !Ui::has_text_field();
+    return (one.flags & Action::ctrl) != 0 && free && one.characters.find(char32_t(name[0])) != one.characters.npos;
+  });
+  if (found == actions_.end()) return false;
+  dirty_ = true;
+  repeating_ = false;
+  queue(*found);
+  return true;
+}
+
 void Input::on_character(unsigned character) {
   dirty_ = true;
   const bool capital = character >= 'A' && character <= 'Z';
   const char32_t low = capital ? character - 'A' + 'a' : character;
-  const auto found = std::ranges::find_if(
-      actions_, [low](const Action& one) { return one.characters.find(low) != one.characters.npos; });
+  const auto found = std::ranges::find_if(actions_, [low](const Action& one) {
+    return (one.flags & Action::ctrl) == 0 && one.characters.find(low) != one.characters.npos;
+  });
   if (found != actions_.end()) queue(*found);
 }
 

@@ -80,6 +80,7 @@ class Input {
   void on_further_button(int button, int action);
   void on_key(int key, int action, int modifiers, bool taken);
   [[nodiscard]] const Action* action_of(int key, int modifiers) const;
+  bool on_ctrl(const char* name);
   void on_character(unsigned character);
   void queue(const Action& action);
 

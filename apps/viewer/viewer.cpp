@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "apps/setup/console.h"
 #include "apps/viewer/panels/control_column.h"
+#include "apps/viewer/panels/legend.h"
 
 namespace terrella {
 namespace {
@@ -20,6 +22,7 @@ constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
+constexpr double kTinyWindow = 22.0;            // height, in text heights
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kScaleBarShare = 0.5;          // of the window's width, at most
 
@@ -74,6 +77,7 @@ void Viewer::run() {
     if (panel_frames_ > 0) --panel_frames_;
     const bool panels = front_panel() != nullptr || input_.is_over_panel();
     if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
+    modes_.play().advance(Input::now());
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -105,6 +109,7 @@ void Viewer::handle_events() {
   }
   for (std::filesystem::path& file : input_.take_dropped()) layers_.open(std::move(file));
   layers_.take_opened();
+  if (layers_.take_open_wish()) open_.toggle();
   follow_panels();
 }
 
@@ -140,7 +145,7 @@ void Viewer::wait_for_work() {
   keep_settings();
   const double pause_s = globe_.settled() && job().empty() ? kIdlePause_s : kLoadingPause_s;
   do {
-    input_.listen(messages_.seconds_left(pause_s));
+    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s)));
   } while (!work());
 }
 
@@ -166,7 +171,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
   draw_panels(framebuffer);
   if (panel_frames_ == 0) pictures_.after_frame(framebuffer);  // a newly opened panel is not drawn yet
   glfwSwapBuffers(window_.handle());
-  frame_time_ = Clock::now() - start;
+  frame_graph_.note(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 }
 
 void Viewer::draw_panels(Viewport framebuffer) {
@@ -177,9 +182,13 @@ void Viewer::draw_panels(Viewport framebuffer) {
   if (help_.is_open()) {
     help_.draw(0.0F);
   } else {
-    const float foot = draw_status(status(view), window_.pixels_per_unit().x);
+    // A tiny window shows an open panel alone.
+    const bool alone = front_panel() != nullptr && window_height() < kTinyWindow * Ui::text_height();
+    const float foot = alone ? 0.0F : draw_texts(status(view));
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
+    if (!alone) layers_.draw_legend(foot, false);
     if (!pictures_.is_drawing()) draw_over_panels(view, foot);
+    cover_panels(framebuffer);
   }
   ui_.end_frame();
 }
@@ -191,6 +200,33 @@ void Viewer::draw_over_panels(const View& view, float foot) {
   button_held_ = column.held;
   if (column.clicked != nullptr) column.clicked->run(*this);
   graticule_.draw_over(view, double(foot));
+}
+
+// Draws the texts that the panels leave room. Returns the height of those at the lower edge.
+float Viewer::draw_texts(const PanelStatus& status) {
+  const float foot = frame_graph_.draw_above(draw_status(status, window_.pixels_per_unit().x), frame_.stats());
+  layers_.draw_legend(foot, true);
+  draw_message(status, foot);
+  draw_head(status);
+  return foot;
+}
+
+// In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
+void Viewer::cover_panels(Viewport framebuffer) {
+  std::array<Panel*, 6> newest{&pictures_, &search_, &open_, &bookmarks_, &layers_, &modes_};
+  std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
+  std::vector<UiBox> front;
+  const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now
+  if (resized) panel_frames_ = kPanelFrames;
+  for (Panel* panel : newest) {
+    if (resized) panel->cover(false);
+    const auto box = panel->is_open() ? Ui::panel_box(panel->title()) : std::nullopt;
+    if (!box || resized) continue;
+    const bool covered = std::ranges::any_of(front, [&box](const UiBox& other) { return other.overlaps(*box); });
+    if (covered != panel->is_covered()) panel_frames_ = kPanelFrames;
+    panel->cover(covered);
+    if (!covered) front.push_back(*box);
+  }
 }
 
 PanelStatus Viewer::status(const View& view) {
@@ -206,7 +242,7 @@ PanelStatus Viewer::status(const View& view) {
   status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m);
   const int loading = frame_.stats().tiles_pending;
   if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
-  status.frame = fmt::format("{:.0f} ms", frame_time_.count());
+  if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
   status.job = job_text_;
   status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));

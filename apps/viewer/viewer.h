@@ -13,12 +13,14 @@
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/bookmark_views.h"
 #include "apps/viewer/parts/cutting.h"
+#include "apps/viewer/parts/frame_graph.h"
 #include "apps/viewer/parts/globe_frame.h"
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/parts/help.h"
 #include "apps/viewer/parts/layers.h"
 #include "apps/viewer/parts/measure.h"
 #include "apps/viewer/parts/messages.h"
+#include "apps/viewer/parts/open_dialog.h"
 #include "apps/viewer/parts/pictures.h"
 #include "apps/viewer/parts/place_menu.h"
 #include "apps/viewer/parts/search.h"
@@ -68,7 +70,6 @@ class Viewer {
   void leave();
   void quit();
   void turn_back();
-  static void toggle_left(Panel& panel, Panel& other);
   void travel(const std::optional<Camera>& to, const char* nowhere);
   void pass_keyboard();
   void handle_events();
@@ -81,6 +82,8 @@ class Viewer {
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
   void draw_over_panels(const View& view, float foot);
+  [[nodiscard]] float draw_texts(const PanelStatus& status);
+  void cover_panels(Viewport framebuffer);
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
@@ -100,7 +103,9 @@ class Viewer {
   Help help_{context_, actions()};
   Pictures pictures_{context_};
   Search search_{context_, options_.places};
+  FrameGraph frame_graph_{context_};
   Layers layers_;
+  OpenDialog open_{context_, [this](std::filesystem::path file) { layers_.open(std::move(file)); }};
   ViewModes modes_;
   Measure measure_{context_};
   Cutting cutting_;
@@ -114,15 +119,15 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 9> parts_{&help_,   &menu_,  &pictures_, &search_, &bookmarks_,
-                                    &layers_, &modes_, &measure_,  &cutting_};
+  const std::array<Part*, 10> parts_{&help_,      &menu_,   &pictures_, &search_,  &open_,
+                                     &bookmarks_, &layers_, &modes_,    &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
+  Viewport panels_size_;   ///< of the last frame with panels
   bool was_at_texels_ = false;
   std::string job_text_;  ///< job() in the last frame
   KeptSettings started_;  ///< settings at the start of the run
   KeptSettings saved_;    ///< settings in the file
-  std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };
 

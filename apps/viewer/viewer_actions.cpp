@@ -59,12 +59,6 @@ void Viewer::turn_back() {
   navigator_.key(again || has_north_up ? Go::look_down : Go::north_up, Input::now());
 }
 
-// Two panels share the left edge: one closes the other.
-void Viewer::toggle_left(Panel& panel, Panel& other) {
-  other.close();
-  panel.toggle();
-}
-
 void Viewer::travel(const std::optional<Camera>& to, const char* nowhere) {
   to ? navigator_.fly_to(*to, Input::now()) : messages_.say(nowhere);
 }
@@ -177,28 +171,36 @@ constinit const Action Viewer::kActions[] = {
     {.keys = "Ctrl + C",
      .what = "measure: copy the result",
      .run = [](V v) { v.measure_.copy(); },
-     .key = GLFW_KEY_C,
-     .flags = Action::controlled | Action::unlisted,
+     .characters = U"c",
+     .flags = Action::ctrl | Action::unlisted,
      .mouse = "Copy"},
     {.keys = "Ctrl + S",
      .what = "measure: save the result as GeoJSON",
      .run = [](V v) { v.measure_.save(); },
-     .key = GLFW_KEY_S,
-     .flags = Action::controlled | Action::unlisted,
+     .characters = U"s",
+     .flags = Action::ctrl | Action::unlisted,
      .mouse = "Save"},
-    {"K", "bookmarks: fly, name, sort, delete", [](V v) { toggle_left(v.bookmarks_, v.modes_); }, U"k"},
+    {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
     {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
     {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},
-    {"P", "view settings", [](V v) { toggle_left(v.modes_, v.bookmarks_); }, U"p"},
+    {"P", "view settings", [](V v) { v.modes_.toggle(); }, U"p"},
     {"L", "layers: show, opacity, order, remove", [](V v) { v.layers_.toggle(); }, U"l", 0, 0, 0, "Layers"},
-    {.keys = "", .what = "add a picture, tile set, GeoJSON or glTF", .mouse = "drop a file"},
+    {.keys = "Ctrl + O",
+     .what = "open a file, folder or address",
+     .run = [](V v) { v.open_.toggle(); },
+     .characters = U"o",
+     .flags = Action::ctrl | Action::types,
+     .button = "Open",
+     .mouse = "menu, drop a file"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
     {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
     {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},
+    {"T", "play or pause the time", [](V v) { v.modes_.toggle_play(); }, U"t"},
     {"S", "stereo: anaglyph, side by side, interlaced, off", [](V v) { v.modes_.next_stereo(); }, U"s"},
     {"F", "full screen", [](V v) { v.window_.toggle_full_screen(); }, U"f"},
     {"I", "save a picture of any size", [](V v) { v.pictures_.toggle(); }, U"i", 0, 0, 0, "Picture"},
     {"F12", "save a screenshot", [](V v) { v.pictures_.want_screenshot(); }, U"", GLFW_KEY_F12},
+    {"F3", "frame time, tiles, memory", [](V v) { v.frame_graph_.toggle(); }, U"", GLFW_KEY_F3},
     {.keys = "F6",
      .what = "switch the keyboard between panel and globe",
      .run = [](V v) { v.pass_keyboard(); },
@@ -212,7 +214,7 @@ constinit const Action Viewer::kActions[] = {
      .key = GLFW_KEY_ESCAPE,
      .flags = Action::unlisted,
      .mouse = "cross of the panel"},
-    {.keys = "Ctrl + Q", .what = "quit", .run = [](V v) { v.quit(); }, .key = GLFW_KEY_Q, .flags = Action::controlled},
+    {.keys = "Ctrl + Q", .what = "quit", .run = [](V v) { v.quit(); }, .characters = U"q", .flags = Action::ctrl},
 };
 
 std::span<const Action> Viewer::actions() { return kActions; }

@@ -14,10 +14,11 @@ namespace terrella {
 namespace {
 
 TEST(Actions, EachKeyHasOneAction) {
-  std::set<char32_t> characters;
+  std::set<std::pair<char32_t, unsigned>> characters;
   std::set<std::pair<int, unsigned>> keys;
   for (const Action& action : Viewer::actions()) {
-    for (const char32_t character : action.characters) EXPECT_TRUE(characters.insert(character).second) << action.what;
+    for (const char32_t character : action.characters)
+      EXPECT_TRUE(characters.insert({character, action.flags & Action::ctrl}).second) << action.what;
     for (const int key : {action.key, action.other_key}) {
       EXPECT_TRUE(key == 0 || keys.insert({key, action.flags & Action::kModifiers}).second) << key;
     }

@@ -56,7 +56,7 @@ TEST_P(PanelBoxes, TheStatusLineAndTheScaleBarDoNotOverlap) {
   status.cursor = "46.02100 N   7.74900 E   4,478 m";
   status.eye = "Altitude 15,200 km";
   status.tiles = "127 tiles loading";
-  status.frame = "8 ms";
+  status.time = "2026-06-21 12:00 UTC";
   status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
   const float foot = draw_status(status, 1.0);
   const std::vector<UiBox> boxes = Ui::panel_boxes();
@@ -76,6 +76,7 @@ void draw_all(float width, float scale, bool with_panel) {
   status.attribution = "NASA Blue Marble, Natural Earth";
   status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * scale, 0.5 * width)};
   const float foot = draw_status(status, 1.0);
+  draw_head(status);
   if (with_panel) {
     ViewSettings settings;
     EXPECT_EQ(draw_view_settings("View", settings, Viewer::actions(), foot, false), nullptr);
@@ -96,7 +97,7 @@ TEST_P(PanelBoxes, TheRowOfAMeasurementAndTheControlColumnOverlapNothing) {
       ImGui::NewFrame();
       draw_all(GetParam().width, GetParam().scale, with_panel);
     }
-    const auto box_of = [](const char* name) { return Ui::panel_box(name).value_or(UiBox{}); };
+    const auto box_of = [](const char* name) { return Ui::shown_box(name).value_or(UiBox{}); };
     for (const char* name : {"##measure", "##controls"}) {
       const UiBox box = box_of(name);
       EXPECT_GE(box.left, 0.0);

@@ -201,7 +201,7 @@ class WindowTest(unittest.TestCase):
         kept = tempfile.TemporaryDirectory(prefix="terrella-kept-")
         self.addCleanup(kept.cleanup)
         self.kept = Path(kept.name)
-        for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+        for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_STATE_HOME"):
             self.display.environment[name] = kept.name
         # No hint over the pictures: what is kept is there, and empty.
         self.settings = self.kept / "terrella" / "settings.json"

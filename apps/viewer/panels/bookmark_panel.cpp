@@ -10,7 +10,6 @@
 namespace terrella {
 namespace {
 
-constexpr float kBookmarksTop = 3.6F;     // in text heights, below the attribution
 constexpr float kBookmarksWidth = 21.0F;  // in text heights
 constexpr double kNameStep_deg = 0.01;
 
@@ -70,13 +69,9 @@ std::string shown_name(const Bookmark& bookmark) {
 
 BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit, bool removed, float foot,
                             bool just_opened) {
-  const float unit = ImGui::GetFontSize(), margin = 0.8F * unit;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = std::min(kBookmarksWidth * unit, size.x - 2.0F * margin);
-  ImGui::SetNextWindowPos({margin, kBookmarksTop * unit});
-  ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
-                                      {width, std::max(0.0F, size.y - foot - kBookmarksTop * unit - margin)});
+  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
+  const float right = std::min(left + kBookmarksWidth * unit, ImGui::GetIO().DisplaySize.x - left);
+  place_panel(Ui::panel_room(left, right, foot));
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
   begin_panel(title);

@@ -84,7 +84,7 @@ ControlColumn draw_control_column(std::span<const Action> actions, Angle heading
   if (buttons.size() < kLeast) return column;
   const float height = float(buttons.size()) * button + 2.0F * padding;
   const double top = place.height.to - double(height);
-  const auto menu = Ui::panel_box(kMenuTitle);
+  const auto menu = Ui::shown_box(kMenuTitle);
   if (menu && menu->overlaps({place.left, top, place.left + width, place.height.to})) return column;
   ImGui::SetNextWindowPos({float(place.left), float(top)});
   ImGui::SetNextWindowSize({width, height});

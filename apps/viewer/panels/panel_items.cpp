@@ -1,11 +1,13 @@
 #include "apps/viewer/panels/panel_items.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace terrella {
 namespace {
 
+constexpr float kLeastPanel = 4.0F;     // in text heights
 constexpr float kTipWidth = 18.0F;      // in text heights
 constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
@@ -36,6 +38,15 @@ void begin_panel(const char* title) {
 bool take_panel_closed() { return std::exchange(cross_clicked, false); }
 
 float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
+
+void place_panel(const UiBox& room) {
+  const ImVec2 at{static_cast<float>(room.left), static_cast<float>(room.top)};
+  const float width = static_cast<float>(room.right) - at.x;
+  const float most = std::max(static_cast<float>(room.bottom) - at.y, kLeastPanel * ImGui::GetFontSize());
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize({width, 0.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
+}
 
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "apps/viewer/panels/ui.h"
+
 namespace terrella {
 
 // Parts of panels, for use between Ui::begin_frame() and Ui::end_frame(). thread: main
@@ -27,6 +29,10 @@ void begin_panel(const char* title);
 void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
 /// Converts a line width at 96 dots per inch to units of the window.
 [[nodiscard]] float line_width(float width_px);
+
+/// Places the next panel at the room's upper edge with the room's width, as high as its contents, and at most as the
+/// room.
+void place_panel(const UiBox& room);
 
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);

@@ -14,6 +14,7 @@ namespace terrella {
 namespace {
 
 constexpr float kText_px = 15.0F;
+constexpr float kTopMargin = 0.8F;  // in text heights
 
 // Paths of DejaVu Sans in common distributions; the fallback is ImGui's own small font.
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -55,6 +56,16 @@ void fit_to(const Window& window) {
   load_font(window.text_scale());
   ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
   set_style(window.text_scale() / unit_px);
+}
+
+/// True for a window that the program drew in this frame.
+bool is_panel(const ImGuiWindow& window) {
+  return window.Active && !window.IsFallbackWindow && window.RootWindow == &window;
+}
+
+/// True for texts, which take neither mouse nor keyboard.
+bool is_text(const ImGuiWindow& window) {
+  return (window.Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs;
 }
 
 bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0; }
@@ -120,6 +131,8 @@ glm::dvec2 Ui::size_of(const char* title) {
   const ImGuiWindow* window = ImGui::FindWindowByName(title);
   return window == nullptr ? glm::dvec2(0.0) : glm::dvec2(window->Size.x, window->Size.y);
 }
+
+bool Ui::has_text_field() { return ImGui::GetIO().WantTextInput; }
 
 void Ui::show_focus() { ImGui::GetCurrentContext()->NavDisableHighlight = false; }
 
@@ -197,16 +210,45 @@ std::vector<UiBox> Ui::panel_boxes() {
   std::vector<UiBox> boxes;
   const ImGuiWindow* menu = ImGui::FindWindowByName(kMenuTitle);
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window || window == menu) continue;
-    if ((window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0) continue;
-    boxes.push_back(box_of(*window));
+    const bool over_panels = (window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0;
+    if (is_panel(*window) && window != menu && !over_panels) boxes.push_back(box_of(*window));
   }
   return boxes;
 }
 
 std::optional<UiBox> Ui::panel_box(const char* title) {
   const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window == nullptr ? std::nullopt : std::optional(box_of(*window));
+}
+
+std::optional<UiBox> Ui::shown_box(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
   return window != nullptr && window->Active ? std::optional(box_of(*window)) : std::nullopt;
+}
+
+std::vector<UiBox> Ui::last_panels() {
+  std::vector<UiBox> boxes;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const bool drawn = window->WasActive && !window->IsFallbackWindow && window->RootWindow == window;
+    const bool tip = (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    if (drawn && !tip && !is_text(*window)) boxes.push_back(box_of(*window));
+  }
+  return boxes;
+}
+
+UiBox Ui::panel_room(float left, float right, float foot) {
+  const double margin = double(kTopMargin) * text_height(), height = double(ImGui::GetIO().DisplaySize.y);
+  UiBox room{left, margin, right, height - double(foot) - margin};
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const UiBox box = box_of(*window);
+    if (!is_panel(*window) || !is_text(*window) || box.left >= room.right || box.right <= room.left) continue;
+    if (0.5 * (box.top + box.bottom) < 0.5 * height) {
+      room.top = std::max(room.top, box.bottom + margin);
+    } else {
+      room.bottom = std::min(room.bottom, box.top - 0.5 * margin);
+    }
+  }
+  return room;
 }
 
 }  // namespace terrella

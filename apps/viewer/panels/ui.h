@@ -39,6 +39,8 @@ class Ui {
   [[nodiscard]] static bool is_over_panel(glm::dvec2 at);
   /// Size of a panel by its title, in units of the window; 0 × 0 before its first frame.
   [[nodiscard]] static glm::dvec2 size_of(const char* title);
+  /// True if a text field has the keyboard.
+  [[nodiscard]] static bool has_text_field();
   /// Marks the item that has the keyboard, before the first key.
   static void show_focus();
   /// Moves the keyboard from the globe to the panel with this title, or from any panel to the globe.
@@ -67,8 +69,17 @@ class Ui {
   [[nodiscard]] static double text_height();
   /// Rectangles of the panels that this frame has so far, without tips, lists of choices and the menu; within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
-  /// Rectangle of a panel by its title, if this frame has it; within a frame.
+  /// Rectangles of the panels with mouse and keyboard that the last frame had; within a frame.
+  [[nodiscard]] static std::vector<UiBox> last_panels();
+  /// Rectangle of the panel with this title when it was last drawn; nullopt if it never was.
   [[nodiscard]] static std::optional<UiBox> panel_box(const char* title);
+  /// Rectangle of the panel with this title, if this frame has it so far.
+  [[nodiscard]] static std::optional<UiBox> shown_box(const char* title);
+  /// The room of a panel between two abscissas: under the texts at the window's upper edge, and above those at the
+  /// lower edge, of which the status line takes `foot` units. Within a frame.
+  [[nodiscard]] static UiBox panel_room(float left, float right, float foot);
+  /// Counts opened panels, so that the newest one can be told.
+  [[nodiscard]] unsigned next_panel() { return ++panels_; }
 
  private:
   enum class Stroke { press, release, character };
@@ -79,6 +90,7 @@ class Ui {
   void hand_over_waiting();
 
   std::deque<KeyEvent> waiting_;  ///< in order of arrival
+  unsigned panels_ = 0;
   bool text_expected_ = false;
   bool field_ready_ = false;
   bool mouse_held_ = false;

@@ -5,7 +5,7 @@
 namespace terrella {
 
 void Panel::draw(float foot) {
-  if (!open_) return;
+  if (!open_ || covered_) return;
   draw_open(foot);
   if (take_panel_closed()) close();
 }

@@ -10,7 +10,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kPictureWidth = 22.0F;  // in text heights
+constexpr float kPictureWidth = 22.0F, kPictureHeight = 9.0F;  // in text heights
 
 std::filesystem::path next_file() {
   std::error_code unknown;
@@ -19,11 +19,13 @@ std::filesystem::path next_file() {
 
 }  // namespace
 
-void Pictures::draw_open(float) {
+void Pictures::draw_open(float foot) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(kPictureWidth * unit, size.x), 0.0F});
+  const float half = std::min(0.5F * kPictureWidth * unit, 0.5F * size.x - 0.8F * unit);
+  UiBox room = Ui::panel_room(0.5F * size.x - half, 0.5F * size.x + half, foot);
+  room.top += std::max(0.0, 0.5 * (room.bottom - room.top - double(kPictureHeight * unit)));
+  place_panel(room);
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();

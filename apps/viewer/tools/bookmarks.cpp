@@ -30,7 +30,7 @@ Result<Bookmarks> Bookmarks::load(const std::filesystem::path& file) {
   const Result<nlohmann::json> json = parse_json_object(text, kMostBookmarkBytes, file.string());
   if (!json) return json.error();
   const auto kept = json->find(kField);
-  if (kept == json->end() || !kept->is_object()) return Error{file.string() + ": no file of bookmarks"};
+  if (kept == json->end() || !kept->is_object()) return Error{file.string() + ": not a file of bookmarks"};
   const auto names = json->find(kNames);
   for (int number = 1; number <= kMost; ++number) {
     const auto found = kept->find(std::to_string(number));

@@ -20,10 +20,15 @@ struct OpenedFile {
   std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
 };
 
-/// Opens a picture (cut into the cache), a tile set of pictures, numbers or heights, GeoJSON, or a glTF model. A model
-/// stands at `place`. `options` sets the cache. The error names the file and the reason. thread: any, one at a time
+/// Opens a file, a folder or an address: a picture (cut into the cache), a tile set of pictures, numbers or heights,
+/// GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The error names the file and the
+/// reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
+
+/// The file's name, or the whole address without its query: the last part of most addresses is just "{y}.jpg".
+/// thread: any
+[[nodiscard]] std::string shown_name(const std::filesystem::path& path);
 
 /// Opens files one after another on a background thread while the window continues. thread: main
 class DroppedFiles {

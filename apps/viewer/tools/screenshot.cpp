@@ -53,7 +53,7 @@ Status save_back_buffer(const std::filesystem::path& file, Viewport framebuffer)
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
   out.close();
-  if (!out) return Error{file.string() + " cannot be written: start the viewer in a folder that can"};
+  if (!out) return Error{file.string() + " cannot be written: start the program in a folder that can be written"};
   return Done{};
 }
 
