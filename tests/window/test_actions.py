@@ -221,7 +221,7 @@ class Walk(WindowTest):
                 self.moved, lambda: key("F6", "Up"), lambda: (self.viewer.click(500, 200), key("Up")), self.panel_open,
                 self.close),
             "close a panel, cancel; twice: quit": (self.shown, lambda: key("Escape"),
-                                                   lambda: self.viewer.click(348, 23), self.panel_open, none),
+                                                   lambda: self.viewer.click(348, 63), self.panel_open, none),
         }
         return ways
 
