@@ -51,11 +51,13 @@ void place_panel(const UiBox& room) {
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
-  // Beside the panel, where the tip does not hide the next items.
+  // Beside the panel, where the tip does not hide the next items, if there is room.
   const ImVec2 panel = ImGui::GetWindowPos();
   const bool left = panel.x + 0.5F * ImGui::GetWindowWidth() < 0.5F * ImGui::GetIO().DisplaySize.x;
   const float side = left ? panel.x + ImGui::GetWindowWidth() : panel.x;
-  ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
+  const float room = left ? ImGui::GetIO().DisplaySize.x - side : side;
+  const bool beside = room > kTipWidth * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+  if (beside) ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::TextUnformatted(text);
