@@ -19,6 +19,7 @@ PROGRAM = os.environ.get("TERRELLA", "terrella")
 DROP_FILES = os.environ.get("DROP_FILES", "drop_files")
 ARTEFACTS = Path(os.environ.get("WINDOW_ARTEFACTS", "window-artefacts"))
 SIZE = (640, 480)
+MENU_PIXELS = 20000  # the least that a menu covers
 PATIENCE_S = 60.0  # software GL on a loaded machine
 
 
@@ -163,6 +164,14 @@ class Viewer:
     def right_click(self, x, y):
         self.move(x, y)
         self.xdotool("click", "3")
+
+    def open_menu(self, x, y):
+        """By a right click; waits until the menu is there and stands still."""
+        self.move(x, y)
+        before = self.grab()
+        self.xdotool("click", "3")
+        wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
+        wait_until("the whole menu", lambda: differing(self.grab(), self.grab()) == 0, 20)
 
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""

@@ -47,8 +47,7 @@ class Walk(WindowTest):
         time.sleep(0.15)
 
     def open_menu(self):
-        self.viewer.right_click(*MENU_AT)
-        time.sleep(0.4)
+        self.viewer.open_menu(*MENU_AT)
 
     def menu(self, what):
         """Chooses an action in the menu."""

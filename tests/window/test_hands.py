@@ -17,8 +17,7 @@ class Hands(WindowTest):
         viewer.click(ICON_X, LAST_ICON - 7 * ICON_STEP)
 
     def menu_item(self, viewer, x, y, index):
-        viewer.right_click(x, y)
-        time.sleep(0.5)
+        viewer.open_menu(x, y)
         viewer.click(x + 50, y + MENU_FIRST + MENU_STEP * index)
         time.sleep(0.3)
 

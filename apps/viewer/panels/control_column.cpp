@@ -19,6 +19,7 @@ constexpr float kButton = 1.75F;        // in text heights
 constexpr float kColumnPadding = 0.2F;  // in text heights, around the buttons
 constexpr float kColumnMargin = 0.8F;   // in text heights, to the window's edge
 constexpr float kBetween = 0.5F;        // in text heights, to other panels
+constexpr std::size_t kEnough = 5;      // so many buttons at the right edge are better than more elsewhere
 constexpr std::size_t kLeast = 3;       // fewer buttons are not worth a column
 // The first have room first.
 constexpr std::array kByWorth = {Icon::menu,   Icon::compass, Icon::plus, Icon::minus,  Icon::home,
@@ -40,8 +41,8 @@ struct ColumnPlace {
   UiSpan height;
 };
 
-/// The place with the most room up to `wanted`, the rightmost if several have it.
-ColumnPlace place_of(float width, float wanted) {
+/// The rightmost place with room for `enough`, or else the one with the most room.
+ColumnPlace place_of(float width, float enough) {
   const float unit = ImGui::GetFontSize(), margin = kColumnMargin * unit;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   std::vector<UiBox> taken = Ui::panel_boxes();
@@ -56,8 +57,8 @@ ColumnPlace place_of(float width, float wanted) {
   for (const double left : lefts) {
     if (left < double(margin) || left > double(size.x - margin - width)) continue;
     const UiSpan height = free_height({left, left + width}, {margin, size.y - margin}, taken);
-    if (std::min(height.length(), double(wanted)) > best.height.length()) best = {left, height};
-    if (best.height.length() >= double(wanted)) break;
+    if (height.length() > best.height.length()) best = {left, height};
+    if (best.height.length() >= double(enough)) break;
   }
   return best;
 }
@@ -77,7 +78,7 @@ bool draw_button(const Action& action, Angle heading, ImVec2 size) {
 ControlColumn draw_control_column(std::span<const Action> actions, Angle heading) {
   const float unit = ImGui::GetFontSize(), padding = kColumnPadding * unit, button = std::floor(kButton * unit);
   const float width = button + 2.0F * padding;
-  const ColumnPlace place = place_of(width, float(kByWorth.size()) * button + 2.0F * padding);
+  const ColumnPlace place = place_of(width, float(kEnough) * button + 2.0F * padding);
   const auto room = std::size_t(std::max(0.0, (place.height.length() - 2.0 * double(padding)) / double(button)));
   const std::vector<const Action*> buttons = buttons_of(actions, room);
   ControlColumn column;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <vector>
 
 #include "apps/viewer/panels/free_place.h"
@@ -12,8 +11,6 @@ namespace terrella {
 namespace {
 
 constexpr float kMeasureMargin = 0.8F;  // in text heights, to the window's edge
-constexpr float kMeasureTop = 3.6F;     // in text heights, below the attribution
-constexpr float kUnder = 0.6F;          // in text heights, over the status line
 
 struct MeasureButton {
   MeasureAsk ask;
@@ -36,49 +33,60 @@ float width_of_buttons() {
   return width;
 }
 
-/// The row without padding; a narrow row wraps the text.
-ImVec2 inner_size(const std::string& text, float widest) {
+/// Size of the row without padding; a narrow row wraps the text.
+ImVec2 inner_size(const std::string& text, float widest, bool buttons) {
   const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  if (!buttons) return words;
   return {std::max(words.x, width_of_buttons()), words.y + ImGui::GetStyle().ItemSpacing.y + ImGui::GetFrameHeight()};
 }
 
-/// Places for the row, the best first: at the top, over the status line, then both with wrapped text.
-std::vector<UiBox> candidates_of(const std::string& text, float foot) {
-  const float unit = ImGui::GetFontSize(), margin = kMeasureMargin * unit;
+/// Places for the row, the best first: under the texts at the top, over those at the bottom, both with wrapped text.
+std::vector<UiBox> candidates_of(const std::string& text, float foot, bool buttons) {
+  const float margin = kMeasureMargin * ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   std::vector<UiBox> candidates;
   for (const float widest : {size.x - 2.0F * (margin + padding.x), width_of_buttons()}) {
-    const ImVec2 inner = inner_size(text, widest);
+    const ImVec2 inner = inner_size(text, widest, buttons);
     const float wide = inner.x + 2.0F * padding.x, high = inner.y + 2.0F * padding.y;
-    for (const float top : {kMeasureTop * unit, size.y - foot - kUnder * unit - high}) {
+    for (const bool top : {true, false}) {
       for (const float left : {0.5F * (size.x - wide), margin, size.x - margin - wide}) {
-        candidates.push_back({left, top, left + wide, top + high});
+        const UiBox room = Ui::panel_room(left, left + wide, foot);
+        const double from = top ? room.top : room.bottom - high;
+        candidates.push_back({left, from, left + wide, from + high});
       }
     }
   }
   return candidates;
 }
 
+void begin_row(const UiBox& box) {
+  ImGui::SetNextWindowPos({float(box.left), float(box.top)});
+  ImGui::SetNextWindowSize({float(box.right - box.left), float(box.bottom - box.top)});
+  ImGui::Begin("##measure", nullptr, kFloatingWindow);
+}
+
 }  // namespace
 
 MeasureAsk draw_measure_row(const std::string& text, float foot) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const std::vector<UiBox> candidates = candidates_of(text, foot);
-  const UiBox* free = first_free(candidates, {0.0, 0.0, window.x, window.y}, Ui::panel_boxes());
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
   MeasureAsk ask = MeasureAsk::none;
-  if (free == nullptr) return ask;
-  ImGui::SetNextWindowPos({float(free->left), float(free->top)});
-  ImGui::SetNextWindowSize({float(free->right - free->left), float(free->bottom - free->top)});
-  ImGui::Begin("##measure", nullptr, kFloatingWindow);
-  ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  for (std::size_t i = 0; i < kMeasureButtons.size(); ++i) {
-    if (i > 0) ImGui::SameLine();
-    if (ImGui::Button(kMeasureButtons[i].name)) ask = kMeasureButtons[i].ask;
-    tip(kMeasureButtons[i].why);
+  for (const bool buttons : {true, false}) {
+    const std::vector<UiBox> candidates = candidates_of(text, foot, buttons);
+    const UiBox* free = first_free(candidates, {0.0, 0.0, size.x, size.y}, Ui::panel_boxes());
+    if (free == nullptr) continue;
+    begin_row(*free);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    for (const MeasureButton& button : kMeasureButtons) {
+      if (!buttons) break;
+      if (button.ask != kMeasureButtons[0].ask) ImGui::SameLine();
+      if (ImGui::Button(button.name)) ask = button.ask;
+      tip(button.why);
+    }
+    ImGui::End();
+    break;
   }
-  ImGui::End();
   return ask;
 }
 
