@@ -126,7 +126,7 @@ class Keys(WindowTest):
         self.assertLess(sum(png.pixel(keyed, *ground)), 0.97 * sum(png.pixel(plain, *ground)))
         self.assertTrue(viewer.camera_stays(), "the arrows were the panel's")
         # Its left half is most transparent.
-        viewer.drag((150, 106), (30, 106))
+        viewer.drag((150, 149), (30, 149))
         dragged = png.read(self.screenshot(viewer, "slid_by_pointer"))
         self.assertLess(sum(png.pixel(dragged, *ground)), 0.6 * sum(png.pixel(plain, *ground)))
         self.assertTrue(viewer.camera_stays(), "the drag was the panel's")

@@ -125,7 +125,7 @@ class Open(WindowTest):
 
     def test_frame_times_come_and_go(self):
         viewer = self.start("--camera", "20,10,12000000", size=SIZE)
-        corner = [(x, y) for x in range(440, 620, 4) for y in range(340, 420, 4)]
+        corner = [(x, y) for x in range(480, 620, 4) for y in range(340, 420, 4)]
 
         def seen(name):
             time.sleep(0.7)

@@ -30,8 +30,7 @@ float draw_status(const PanelStatus& status, double unit_px);
 /// is room.
 void draw_message(const PanelStatus& status, float foot);
 
-/// Draws the attribution and the measurement at the upper edge, wrapped, unless a tiny window has no room beside the
-/// message.
+/// Draws the attribution at the upper edge, wrapped, unless a tiny window has no room beside the message.
 void draw_head(const PanelStatus& status);
 
 }  // namespace terrella

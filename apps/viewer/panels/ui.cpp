@@ -228,10 +228,11 @@ std::optional<UiBox> Ui::shown_box(const char* title) {
 
 std::vector<UiBox> Ui::last_panels() {
   std::vector<UiBox> boxes;
+  const ImGuiWindow* menu = ImGui::FindWindowByName(kMenuTitle);
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     const bool drawn = window->WasActive && !window->IsFallbackWindow && window->RootWindow == window;
-    const bool tip = (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
-    if (drawn && !tip && !is_text(*window)) boxes.push_back(box_of(*window));
+    const bool passing = (window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0;
+    if (drawn && !passing && window != menu && !is_text(*window)) boxes.push_back(box_of(*window));
   }
   return boxes;
 }

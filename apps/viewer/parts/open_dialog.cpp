@@ -31,8 +31,7 @@ bool begins_with(const std::string& name, const std::string& start) {
 enum class Row { left_alone, marked, chosen };
 Row draw_row(const std::string& name, bool marked) {
   const bool clicked = ImGui::Selectable(name.c_str(), marked, ImGuiSelectableFlags_AllowDoubleClick);
-  const bool entered = ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-  if (entered || (clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) return Row::chosen;
+  if (entered() || (clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) return Row::chosen;
   return clicked ? Row::marked : Row::left_alone;
 }
 
@@ -143,7 +142,7 @@ void OpenDialog::draw_open(float foot) {
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  begin_panel(panel());
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_path();
   if (!problem_.empty()) ImGui::TextWrapped("%s", problem_.c_str());

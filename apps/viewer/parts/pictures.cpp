@@ -24,7 +24,9 @@ void Pictures::draw_open(float foot) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float half = std::min(0.5F * kPictureWidth * unit, 0.5F * size.x - 0.8F * unit);
   UiBox room = Ui::panel_room(0.5F * size.x - half, 0.5F * size.x + half, foot);
-  room.top += std::max(0.0, 0.5 * (room.bottom - room.top - double(kPictureHeight * unit)));
+  const auto last = Ui::panel_box(panel());
+  const double height = last ? last->bottom - last->top : double(kPictureHeight * unit);
+  room.top = std::max(room.top, std::min(0.5 * (double(size.y) - height), room.bottom - height));
   place_panel(room);
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
