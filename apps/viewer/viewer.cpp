@@ -100,6 +100,7 @@ void Viewer::tell_of_finest_texels() {
 void Viewer::handle_events() {
   for (const InputEvent& event : input_.take_events()) {
     if (event.action != nullptr) event.action->run(*this);
+    if (event.action == nullptr && help_.close()) continue;  // a click closes the list of shortcuts
     if (event.action == nullptr && event.button == PointerButton::left) measure_.add(event.at_px);
     if (event.action == nullptr && event.button == PointerButton::right) menu_.open_at(event.at_px);
   }

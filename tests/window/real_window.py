@@ -166,12 +166,16 @@ class Viewer:
         self.xdotool("click", "3")
 
     def open_menu(self, x, y):
-        """By a right click; waits until the menu is there and stands still."""
+        """By a right click; waits until the menu is there and stands still. Returns its corner."""
         self.move(x, y)
         before = self.grab()
         self.xdotool("click", "3")
         wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
         wait_until("the whole menu", lambda: differing(self.grab(), self.grab()) == 0, 20)
+        after = self.grab()
+        rows = [y for y in range(len(after)) if before[y] != after[y]]
+        left = min(next(x for x, pair in enumerate(zip(before[y], after[y])) if pair[0] != pair[1]) for y in rows[10:60])
+        return left, rows[0]
 
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""

@@ -12,8 +12,8 @@ PAGE = Path(os.environ["TERRELLA_SOURCE"]) / "apps/README.md"
 ROWS = 380  # pixels from the top; messages and the status line are under them
 SHOWN = 400  # pixels: the least that an action changes in the picture
 MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
-MENU_AT = (20, 60)
-PLACE_ITEM, FIRST_ACTION, ACTION_STEP, SECOND_COLUMN = 34, 162, 19, 190  # pixels from the menu's corner
+MENU_AT = (450, 330)  # beside all panels
+PLACE_ITEM, FIRST_ACTION, ACTION_STEP, SECOND_COLUMN = 34, 162, 19, 205  # pixels from the menu's corner
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
 ROW_BUTTONS = 83  # row of pixels in the buttons of a measurement, over their texts
@@ -31,7 +31,7 @@ class Walk(WindowTest):
 
     def setUp(self):
         super().setUp()
-        self.viewer = self.start("--camera", "20,10,12000000", "--unlit", "--sky", "off")
+        self.viewer = self.start("--camera", "20,10,12000000")
         self.menu_rows = [what for what, _, mouse in table()
                           if mouse.startswith("menu") and what != "save the view as a bookmark"]
 
@@ -47,19 +47,18 @@ class Walk(WindowTest):
         time.sleep(0.15)
 
     def open_menu(self):
-        self.viewer.open_menu(*MENU_AT)
+        return self.viewer.open_menu(*MENU_AT)
 
     def menu(self, what):
         """Chooses an action in the menu."""
         index, half = self.menu_rows.index(what), (len(self.menu_rows) + 1) // 2
-        self.open_menu()
-        self.viewer.click(MENU_AT[0] + 40 + SECOND_COLUMN * (index // half),
-                          MENU_AT[1] + FIRST_ACTION + ACTION_STEP * (index % half))
+        left, top = self.open_menu()
+        self.viewer.click(left + 40 + SECOND_COLUMN * (index // half), top + FIRST_ACTION + ACTION_STEP * (index % half))
         time.sleep(0.15)
 
     def place_item(self, index):
-        self.open_menu()
-        self.viewer.click(MENU_AT[0] + 60, MENU_AT[1] + PLACE_ITEM + 20 * index)
+        left, top = self.open_menu()
+        self.viewer.click(left + 60, top + PLACE_ITEM + 20 * index)
         time.sleep(0.15)
 
     # What is seen
@@ -166,7 +165,7 @@ class Walk(WindowTest):
         row_button = self.measure_button
         simple = {
             "graticule": "g", "view settings": "p", "layers: show, opacity, order, remove": "l",
-            "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u", "shortcuts": "F1",
+            "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
             "stereo: anaglyph, side by side, interlaced, off": "s", "measure: start, end": "m",
             "save a picture of any size": "i",
         }
@@ -190,6 +189,8 @@ class Walk(WindowTest):
             "reset the view: look of the start, whole globe": (
                 self.moved, lambda: key("r"), lambda: menu("reset the view: look of the start, whole globe"), self.away,
                 none),
+            "shortcuts": (self.shown, lambda: key("F1"), lambda: menu("shortcuts"), none,
+                          lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
                                    self.close),
             "measure: add the middle of the view": (self.shown, lambda: key("Return"),
@@ -241,7 +242,7 @@ class Walk(WindowTest):
                             after()
                 self.assertIsNone(self.viewer.program.poll())
         self.quits(lambda: self.key("ctrl+q"))
-        self.viewer = self.start("--camera", "20,10,12000000", "--unlit", "--sky", "off")
+        self.viewer = self.start("--camera", "20,10,12000000")
         self.quits(lambda: self.menu("quit"))
 
     def quits(self, act):

@@ -17,8 +17,8 @@ class Hands(WindowTest):
         viewer.click(ICON_X, LAST_ICON - 7 * ICON_STEP)
 
     def menu_item(self, viewer, x, y, index):
-        viewer.open_menu(x, y)
-        viewer.click(x + 50, y + MENU_FIRST + MENU_STEP * index)
+        left, top = viewer.open_menu(x, y)
+        viewer.click(left + 50, top + MENU_FIRST + MENU_STEP * index)
         time.sleep(0.3)
 
     def copied(self, viewer, before="nothing"):
