@@ -165,17 +165,23 @@ class Viewer:
         self.move(x, y)
         self.xdotool("click", "3")
 
+    def settled(self, rows=None):
+        """The picture once tiles and panels stand still, in the first rows."""
+
+        def same():
+            one = self.grab()
+            time.sleep(0.15)
+            return one if differing(one, self.grab(), rows) == 0 else None
+
+        return wait_until("a picture at rest", same, 20)
+
     def open_menu(self, x, y):
-        """By a right click; waits until the menu is there and stands still. Returns its corner."""
+        """By a right click; waits until the menu is there and stands still."""
         self.move(x, y)
-        before = self.grab()
+        before = self.settled()
         self.xdotool("click", "3")
         wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
-        wait_until("the whole menu", lambda: differing(self.grab(), self.grab()) == 0, 20)
-        after = self.grab()
-        rows = [y for y in range(len(after)) if before[y] != after[y]]
-        left = min(next(x for x, pair in enumerate(zip(before[y], after[y])) if pair[0] != pair[1]) for y in rows[10:60])
-        return left, rows[0]
+        self.settled()
 
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""

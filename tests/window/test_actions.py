@@ -13,7 +13,8 @@ ROWS = 380  # pixels from the top; messages and the status line are under them
 SHOWN = 400  # pixels: the least that an action changes in the picture
 MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
 MENU_AT = (450, 330)  # beside all panels
-PLACE_ITEM, FIRST_ACTION, ACTION_STEP, SECOND_COLUMN = 34, 162, 19, 205  # pixels from the menu's corner
+PLACE_ITEM, FIRST_ACTION, ACTION_STEP = 34, 162, 19  # pixels under the menu's upper edge
+COLUMNS = (262, 470)  # pixels from the left, in the actions of the menu
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
 ROW_BUTTONS = 83  # row of pixels in the buttons of a measurement, over their texts
@@ -46,19 +47,24 @@ class Walk(WindowTest):
         self.viewer.click(ICON_X, LAST_ICON - ICON_STEP * (len(ICONS) - 1 - ICONS.index(name)))
         time.sleep(0.15)
 
+    def menu_top(self):
+        """The menu is as low as the window lets it be."""
+        rows = (len(self.menu_rows) + 1) // 2
+        return SIZE[1] - 12 - (FIRST_ACTION + ACTION_STEP * rows - 2)
+
     def open_menu(self):
-        return self.viewer.open_menu(*MENU_AT)
+        self.viewer.open_menu(*MENU_AT)
 
     def menu(self, what):
         """Chooses an action in the menu."""
         index, half = self.menu_rows.index(what), (len(self.menu_rows) + 1) // 2
-        left, top = self.open_menu()
-        self.viewer.click(left + 40 + SECOND_COLUMN * (index // half), top + FIRST_ACTION + ACTION_STEP * (index % half))
+        self.open_menu()
+        self.viewer.click(COLUMNS[index // half], self.menu_top() + FIRST_ACTION + ACTION_STEP * (index % half))
         time.sleep(0.15)
 
     def place_item(self, index):
-        left, top = self.open_menu()
-        self.viewer.click(left + 60, top + PLACE_ITEM + 20 * index)
+        self.open_menu()
+        self.viewer.click(COLUMNS[0], self.menu_top() + PLACE_ITEM + 20 * index)
         time.sleep(0.15)
 
     # What is seen
@@ -70,7 +76,7 @@ class Walk(WindowTest):
         self.assertNotEqual(str(vars(before)), str(vars(after)))
 
     def shown(self, act):
-        before = self.settled()
+        before = self.viewer.settled(ROWS)
         act()
         wait_until("a change in the picture", lambda: differing(before, self.viewer.grab(), ROWS) > SHOWN, 10)
 
@@ -78,14 +84,6 @@ class Walk(WindowTest):
         before = self.viewer.grab()[ROWS:]
         act()
         wait_until("another text", lambda: differing(before, self.viewer.grab()[ROWS:]) > 100, 10)
-
-    def settled(self):
-        def same():
-            one = self.viewer.grab()
-            time.sleep(0.15)
-            return one if differing(one, self.viewer.grab(), ROWS) == 0 else None
-
-        return wait_until("a picture at rest", same, 20)
 
     def filed(self, pattern, act):
         before = set(self.folder.glob(pattern))
@@ -127,7 +125,7 @@ class Walk(WindowTest):
         self.key("m")
 
     def away(self):
-        self.key("plus", "plus")
+        self.key("shift+Left", "shift+Left", "shift+Left")
         self.viewer.next_camera()
         time.sleep(0.4)  # a view is kept after a rest
 

@@ -17,8 +17,8 @@ class Hands(WindowTest):
         viewer.click(ICON_X, LAST_ICON - 7 * ICON_STEP)
 
     def menu_item(self, viewer, x, y, index):
-        left, top = viewer.open_menu(x, y)
-        viewer.click(left + 50, top + MENU_FIRST + MENU_STEP * index)
+        viewer.open_menu(x, y)
+        viewer.click(x + 50, y + MENU_FIRST + MENU_STEP * index)
         time.sleep(0.3)
 
     def copied(self, viewer, before="nothing"):
@@ -86,7 +86,7 @@ class Hands(WindowTest):
     def test_measuring_by_the_menu_is_saved_twice_and_overwrites_nothing(self):
         viewer = self.start("--camera", "0,20,9000000")
         self.menu_item(viewer, 220, 100, 3)  # measure from here
-        plain = viewer.grab()
+        plain = viewer.settled()
         viewer.move(420, 240)
         wait_until("the band to the cursor", lambda: differing(plain, viewer.grab(), ROWS) > 300, 10)
         self.screenshot(viewer, "band")
