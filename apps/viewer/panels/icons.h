@@ -1,9 +1,9 @@
 #pragma once
 
-#include <imgui.h>
-
 #include "apps/viewer/action.h"
 #include "geo/angle.h"
+
+struct ImVec2;
 
 namespace terrella {
 
