@@ -129,6 +129,12 @@ class Walk(WindowTest):
         self.viewer.next_camera()
         time.sleep(0.4)  # a view is kept after a rest
 
+    def reset(self):
+        """The look of the start, over the whole globe in daylight."""
+        self.key("r")
+        time.sleep(1.0)
+        self.viewer.settled(ROWS)
+
     def turned(self):
         self.key("shift+Left")
         self.viewer.next_camera()
@@ -164,7 +170,7 @@ class Walk(WindowTest):
         simple = {
             "graticule": "g", "view settings": "p", "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
-            "stereo: anaglyph, side by side, interlaced, off": "s", "measure: start, end": "m",
+            "measure: start, end": "m",
             "save a picture of any size": "i",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}
@@ -186,6 +192,9 @@ class Walk(WindowTest):
                                lambda: self.viewer.double_click(300, 200), none, none),
             "reset the view: look of the start, whole globe": (
                 self.moved, lambda: key("r"), lambda: menu("reset the view: look of the start, whole globe"), self.away,
+                none),
+            "stereo: anaglyph, side by side, interlaced, off": (
+                self.shown, lambda: key("s"), lambda: menu("stereo: anaglyph, side by side, interlaced, off"), self.reset,
                 none),
             "shortcuts": (self.shown, lambda: key("F1"), lambda: menu("shortcuts"), none,
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
@@ -212,7 +221,8 @@ class Walk(WindowTest):
             "go under the ground, and back": (self.moved, lambda: key("x"),
                                               lambda: menu("go under the ground, and back"), none, none),
             "sky on or off": (self.shown, lambda: key("b"), lambda: menu("sky on or off"), none, none),
-            "full screen": (self.resized, lambda: key("f"), lambda: menu("full screen"), none, lambda: time.sleep(0.5)),
+            "full screen": (self.resized, lambda: key("f"), lambda: menu("full screen"), none,
+                            lambda: self.resized(lambda: key("f"))),
             "save a screenshot": (lambda act: self.filed("terrella-*.png", act), lambda: key("F12"),
                                   lambda: menu("save a screenshot"), none, none),
             "switch the keyboard between panel and globe": (
