@@ -171,7 +171,6 @@ class Walk(WindowTest):
             "graticule": "g", "view settings": "p", "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
             "measure: start, end": "m",
-            "save a picture of any size": "i",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}
         ways |= {
@@ -196,6 +195,8 @@ class Walk(WindowTest):
             "stereo: anaglyph, side by side, interlaced, off": (
                 self.shown, lambda: key("s"), lambda: menu("stereo: anaglyph, side by side, interlaced, off"), self.reset,
                 none),
+            "save a picture of any size": (self.shown, lambda: key("i"), lambda: menu("save a picture of any size"), none,
+                                           self.close),
             "shortcuts": (self.shown, lambda: key("F1"), lambda: menu("shortcuts"), none,
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
