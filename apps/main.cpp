@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <iterator>
 #include <new>
 #include <numeric>
 #include <string>
@@ -18,6 +17,7 @@
 #include "apps/commands/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/process.h"
+#include "apps/viewer/tools/folder_list.h"
 
 namespace {
 
@@ -60,12 +60,9 @@ std::string suggestion(const std::string& typed, const std::vector<std::string>&
 }
 
 bool can_be_shown(const std::string& argument) {
-  constexpr const char* kExtensions[] = {".jpg",  ".jpeg", ".png",     ".tif",     ".tiff",
-                                         ".webp", ".gpkg", ".mbtiles", ".pmtiles", ".json"};
   std::error_code unknown;
-  const std::filesystem::path path(argument);
-  return argument.find("://") != argument.npos || std::filesystem::exists(path, unknown) ||
-         std::ranges::find(kExtensions, path.extension().string()) != std::end(kExtensions);
+  return argument.find("://") != argument.npos || std::filesystem::exists(argument, unknown) ||
+         has_shown_name(argument);
 }
 
 /// Message for the first argument that neither the program nor the subcommand knows.
@@ -91,8 +88,8 @@ int report_parse(const CLI::App& app, const CLI::ParseError& error) {
   const auto unknown = where.remaining();
   const bool missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (missing && &where == &app && unknown.empty()) {
-    write_help(app.help());
-    return kWrongUsage;
+    print_result("{}", app.help());
+    return kDone;
   }
   const std::string command = &where == &app ? app.get_name() : app.get_name() + " " + where.get_name();
   const bool mistyped = (missing || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) && !unknown.empty();

@@ -144,8 +144,9 @@ void add_description_options(CLI::App& app, CutOptions& cut) {
            (void)parsed_or_throw("--body", parse_body(text));
            cut.body = text;
          },
-         "Set the planet in the picture; stored in the tile set")
-      ->type_name("earth|moon|mars|sphere|A,F");
+         "Set the planet in the picture, by semi-major axis in metres and flattening, or by name: " + body_names() +
+             ". It is stored in the tile set")
+      ->type_name("NAME|A,F");
   add_choice<Projection>(app, "--projection", cut.projection,
                          {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},
                          "Set the picture's projection; its rows are linear in latitude or in the sine of latitude");

@@ -21,8 +21,8 @@
 #include "apps/setup/process.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/write_file.h"
+#include "apps/setup/write_picture.h"
 #include "apps/viewer/tools/legend_picture.h"
-#include "codecs/image.h"
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
 
@@ -36,12 +36,6 @@ struct RenderCommand {
   bool json = false;
   bool legend = false;
 };
-
-Status write_png(const std::filesystem::path& path, Viewport size, std::vector<std::uint8_t> rgba) {
-  const Result<std::vector<std::byte>> png = encode_png({size.width_px, size.height_px, std::move(rgba)});
-  if (!png) return Error{path.string() + ": " + png.error().message};
-  return write_file(path, *png);
-}
 
 struct Rendered {
   FrameStats stats;
@@ -207,7 +201,8 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   }
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
-  const Status written = write_png(command.output, command.scene.size, target.read());
+  const Viewport size = command.scene.size;
+  const Status written = write_picture(command.output, {size.width_px, size.height_px, target.read()});
   if (!written) return written.error();
   const auto& missing = (*globe)->missing_tiles();
   const auto& heights = (*globe)->missing_heights();
@@ -239,10 +234,13 @@ int run(const RenderCommand& command) {
 }  // namespace
 
 void add_render_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = *app.add_subcommand("render", "Render the globe to a PNG file, without display or GPU");
+  CLI::App& sub = *app.add_subcommand("render", "Render the globe to a PNG or JPEG file, without display or GPU");
   auto command = std::make_shared<RenderCommand>();
   add_scene_options(sub, command->scene);
-  sub.add_option("-o,--output", command->output, "Write this PNG file")->required();
+  sub.add_option("-o,--output", command->output,
+                 fmt::format("Write this file: a JPEG of quality {} if the name ends in .jpg or .jpeg, else a PNG",
+                             kWrittenJpegQuality))
+      ->required();
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
   sub.add_option("--timeout", command->timeout_s, "Wait at most this many seconds for tiles")
       ->check(number_in(0.0, 1e6))
@@ -250,7 +248,12 @@ void add_render_command(CLI::App& app, int& exit_code) {
   sub.add_flag("--legend", command->legend, "Draw a colour bar with units for each raster of numbers");
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
-  sub.callback([command, &exit_code] { exit_code = run(*command); });
+  sub.callback([command, &exit_code] {
+    if (const Status named = check_picture_name(command->output); !named) {
+      throw CLI::ValidationError("--output", named.error().message);
+    }
+    exit_code = run(*command);
+  });
 }
 
 }  // namespace terrella

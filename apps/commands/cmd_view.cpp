@@ -20,7 +20,6 @@
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
-#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
@@ -30,10 +29,10 @@ constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower
 
 constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
-    "turn, double-click to fly there. Drop files onto the window to add layers.\n"
+    "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, F full screen, / search,\n"
-    "M measure, U translucent, X under the ground, B sky, S stereo, P settings panel, L layers, I and F12 save\n"
-    "pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
+    "M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, L layers,\n"
+    "I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -70,24 +69,19 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   }
 }
 
-/// Name of a local file, or the whole address of a remote set. The last part of most addresses is just "{y}.jpg".
-std::string layer_name(const Url& tile_set) {
-  const std::string shown = tile_set.without_query();
-  const std::string name = is_remote(tile_set) ? shown : std::filesystem::path(shown).filename().string();
-  return one_line(name.empty() ? shown : name);
-}
-
 LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
-  return {.id = id, .name = layer_name(tile_set), .bounds = {}, .look = look};
+  return {.id = id, .name = shown_name(tile_set.without_query()), .bounds = {}, .look = look};
 }
 
 /// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
-                                 const std::vector<std::optional<NumberFacts>>& overlays) {
+                                 const std::vector<std::optional<NumberFacts>>& overlays,
+                                 const std::string& of_heights) {
   const TileSetInfo& first = base.tiles->info();
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
-    rows.push_back({.kind = LayerKind::heights, .name = layer_name(scene.elevation), .bounds = {}});
+    rows.push_back(
+        {.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query()), .attribution = of_heights});
   }
   std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
@@ -100,6 +94,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
     if (!is_remote(names[i]) && is_picture(names[i].with_secrets())) rows.back().raster = names[i].with_secrets();
     if (i == 0) rows.back().words = scene.place;
     rows.back().band = {.band = scene.numbers.band, .nodata = scene.numbers.nodata};
+    if (const auto attribution = globe.attribution(ids[i])) rows.back().attribution = *attribution;
     rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
     rows.back().bounds = if_a_part(first.grid.bounds);
@@ -153,10 +148,11 @@ int view(const ViewOptions& options) {
   // Later heights raise the eye with the ground, as everywhere in the window.
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);
+  const std::string of_heights = *elevation ? (*elevation)->tiles()->info().attribution : std::string();
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .cuts = cuts,
-                                     .layers = layer_rows(**globe, options.scene, *imagery, *overlays),
+                                     .layers = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights),
                                      .heights = *elevation,
                                      .places = options.places,
                                      .files = layers,

@@ -8,6 +8,7 @@
 
 #include "apps/scene/scene_options.h"
 #include "base/number.h"
+#include "geo/body.h"
 
 namespace terrella {
 namespace {
@@ -45,6 +46,12 @@ CLI::Validator whole_number_in(long low, long high) {
     return *value < double(low) || *value > double(high) ? outside(text, double(low), double(high)) : std::string();
   };
   return {check, fmt::format("{}...{}", low, high)};
+}
+
+std::string body_names() {
+  std::string names;
+  for (const Body& body : body_presets()) names += (names.empty() ? "" : ", ") + body.name;
+  return names;
 }
 
 Result<std::optional<double>> parse_length_or_off(std::string_view text) {

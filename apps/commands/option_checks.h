@@ -20,6 +20,9 @@ namespace terrella {
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
 [[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 
+/// Names of all bodies, with commas.
+[[nodiscard]] std::string body_names();
+
 /// Reads a length of at least 0 metres; "off" gives nullopt.
 [[nodiscard]] Result<std::optional<double>> parse_length_or_off(std::string_view text);
 

@@ -38,8 +38,8 @@ void add_planet_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option_function<std::string>(
           "--body", [&options](const std::string& text) { options.body = parsed_or_throw("--body", parse_body(text)); },
-          "Set the planet's figure by name, or by semi-major axis in metres and flattening")
-      ->type_name("earth|moon|mars|sphere|A,F");
+          "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names())
+      ->type_name("NAME|A,F");
   add_choice<Projection>(
       command, "--projection", options.projection,
       {{"equirectangular", Projection::equirectangular},

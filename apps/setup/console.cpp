@@ -62,6 +62,4 @@ void write_message(std::string_view text) {
   std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
-void write_help(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
-
 }  // namespace terrella

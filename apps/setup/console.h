@@ -22,9 +22,6 @@ void write_result(std::string_view text);
 /// line break in a file's name cannot fake a message of the program.
 void write_message(std::string_view text);
 
-/// Writes the program's own help to standard error, for a command line without a command.
-void write_help(std::string_view text);
-
 /// Print a result to standard output, or a message to standard error. Every subcommand prints through these two
 /// functions only.
 template <class... Args>

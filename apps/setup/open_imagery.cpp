@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_picture.h"
@@ -232,7 +233,14 @@ std::shared_ptr<TileSource> in_metres(std::shared_ptr<TileSource> heights) {
 }
 
 Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
-  if (options.elevation.empty()) return std::optional<ElevationSource>();
+  if (options.elevation.empty()) {
+    if (options.exaggeration != 1.0) {
+      print_message(
+          "terrella: --exaggeration multiplies heights, and there are none; give them with --elevation, or leave "
+          "--exaggeration out\n");
+    }
+    return std::optional<ElevationSource>();
+  }
   auto tiles = open_height_tiles(options);
   if (!tiles) return tiles.error();
   const auto& numbers = (*tiles)->info().numbers;

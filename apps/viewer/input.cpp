@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <bit>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -58,9 +59,7 @@ void Input::listen(std::optional<double> wait_s) {
   heard_until_ = now();
 }
 
-std::vector<const Action*> Input::take_actions() { return std::exchange(queued_, {}); }
-
-std::vector<glm::dvec2> Input::take_clicks() { return std::exchange(clicks_px_, {}); }
+std::vector<InputEvent> Input::take_events() { return std::exchange(queued_, {}); }
 
 std::vector<std::filesystem::path> Input::take_dropped() { return std::exchange(dropped_, {}); }
 
@@ -76,8 +75,9 @@ std::optional<glm::dvec2> Input::cursor_px() const {
 void Input::listen_to_pointer() {
   glfwSetMouseButtonCallback(window_.handle(), [](GLFWwindow* w, int button, int action, int modifiers) {
     input_of(w).dirty_ = true;
-    if (!Ui::on_button(w, button, action, modifiers) || action == GLFW_RELEASE) {
-      input_of(w).on_button(button, action, modifiers);
+    Input& self = input_of(w);
+    if (!self.ui_.on_button(w, button, action, modifiers, self.pointer_unit()) || action == GLFW_RELEASE) {
+      self.on_button(button, action, modifiers);
     }
   });
   glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double x, double y) {
@@ -93,13 +93,18 @@ void Input::listen_to_pointer() {
   glfwSetScrollCallback(window_.handle(), [](GLFWwindow* w, double across, double steps) {
     Input& self = input_of(w);
     self.dirty_ = true;
-    if (!Ui::on_scroll(w, across, steps)) self.navigator_.wheel(self.pointer_px_, steps, now());
+    if (!self.ui_.on_scroll(w, across, steps, self.pointer_unit()))
+      self.navigator_.wheel(self.pointer_px_, steps, now());
   });
 }
 
 void Input::listen_to_keys() {
-  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int, int action, int modifiers) {
-    input_of(w).on_key(key, action, modifiers, input_of(w).ui_.on_key(key, action));
+  glfwSetKeyCallback(window_.handle(), [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    Input& self = input_of(w);
+    const bool taken = self.ui_.on_key(key, action);
+    const bool with_ctrl = action == GLFW_PRESS && (modifiers & GLFW_MOD_CONTROL) != 0;
+    if (with_ctrl && self.on_ctrl(glfwGetKeyName(key, scancode))) return;
+    self.on_key(key, action, modifiers, taken);
   });
   // Letters and symbols arrive as characters, so that they follow the keyboard's layout.
   glfwSetCharCallback(window_.handle(), [](GLFWwindow* w, unsigned character) {
@@ -126,19 +131,15 @@ void Input::listen_to_window() {
 }
 
 void Input::on_button(int button, int action, int modifiers) {
-  if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
   dirty_ = true;
+  if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return on_further_button(button, action);
   const PointerButton which = button == GLFW_MOUSE_BUTTON_LEFT ? PointerButton::left : PointerButton::right;
   const glm::dvec2 at = pointer_px_;
   const double slack_px = kClickSlack_px * window_.text_scale();
-  if (action == GLFW_RELEASE) {
-    navigator_.pointer_up(which, now(), late_);
-    const auto pressed = std::exchange(pressed_px_, {});
-    if (pressed && glm::distance(*pressed, at) <= slack_px) clicks_px_.push_back(at);
-    return;
-  }
+  if (action == GLFW_RELEASE) return on_release(which, at, slack_px);
   const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
   if (which == PointerButton::left && !ctrl) pressed_px_ = at;
+  if (which == PointerButton::right) right_ = RightPress{at, navigator_.camera()};
   if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), slack_px) && double_clicks_) {
     navigator_.double_click(at, now());
   } else {
@@ -146,34 +147,79 @@ void Input::on_button(int button, int action, int modifiers) {
   }
 }
 
+void Input::on_release(PointerButton which, glm::dvec2 at, double slack_px) {
+  navigator_.pointer_up(which, now(), late_);
+  if (which == PointerButton::right) {
+    const auto pressed = std::exchange(right_, {});
+    if (!pressed || glm::distance(pressed->at_px, at) > slack_px) return;
+    navigator_.set_camera(pressed->camera);  // a click turns nothing, even if the hand moves a little
+    queued_.push_back({.button = which, .at_px = at});
+    return;
+  }
+  const auto pressed = std::exchange(pressed_px_, {});
+  if (pressed && glm::distance(*pressed, at) <= slack_px) queued_.push_back({.button = which, .at_px = at});
+}
+
+void Input::on_further_button(int button, int action) {
+  if (action != GLFW_PRESS) return;
+  const auto found = std::ranges::find(actions_, button, &Action::mouse_button);
+  if (found != actions_.end()) queued_.push_back({.action = &*found});
+}
+
 // The globe gets no key that a panel took, except function keys and Esc, which closes the panel.
 void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
   if (action == GLFW_RELEASE || (taken && !is_function_key(key))) return;
-  const auto runs = [&](const Action& one) {
-    const bool shift_fits = (one.flags & Action::shifted) == 0 || (modifiers & GLFW_MOD_SHIFT) != 0;
-    return key > 0 && (key == one.key || key == one.other_key) && shift_fits;
-  };
-  if (const auto found = std::ranges::find_if(actions_, runs); found != actions_.end()) return queue(*found);
+  if (const Action* found = action_of(key, modifiers); found != nullptr) return queue(*found);
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
     bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = (modifiers & GLFW_MOD_CONTROL) != 0};
   }
+}
+
+// The row with the most modifiers that are held.
+const Action* Input::action_of(int key, int modifiers) const {
+  unsigned held = 0;
+  if ((modifiers & GLFW_MOD_SHIFT) != 0) held |= Action::shifted;
+  if ((modifiers & GLFW_MOD_ALT) != 0) held |= Action::alted;
+  const Action* best = nullptr;
+  for (const Action& one : actions_) {
+    const unsigned wanted = one.flags & Action::kModifiers;
+    if (key <= 0 || (key != one.key && key != one.other_key) || (wanted & ~held) != 0) continue;
+    if (best == nullptr || std::popcount(wanted) > std::popcount(best->flags & Action::kModifiers)) best = &one;
+  }
+  return best;
+}
+
+// The name of a key is its letter in the keyboard's layout; keys with Ctrl are no characters. A text field keeps its
+// own keys with Ctrl. True if an action runs.
+bool Input::on_ctrl(const char* name) {
+  if (name == nullptr || name[1] != '\0') return false;
+  const auto found = std::ranges::find_if(actions_, [name](const Action& one) {
+    const bool free = (one.flags & Action::types) != 0 || !Ui::has_text_field();
+    return (one.flags & Action::ctrl) != 0 && free && one.characters.find(char32_t(name[0])) != one.characters.npos;
+  });
+  if (found == actions_.end()) return false;
+  dirty_ = true;
+  repeating_ = false;
+  queue(*found);
+  return true;
 }
 
 void Input::on_character(unsigned character) {
   dirty_ = true;
   const bool capital = character >= 'A' && character <= 'Z';
   const char32_t low = capital ? character - 'A' + 'a' : character;
-  const auto found = std::ranges::find_if(
-      actions_, [low](const Action& one) { return one.characters.find(low) != one.characters.npos; });
+  const auto found = std::ranges::find_if(actions_, [low](const Action& one) {
+    return (one.flags & Action::ctrl) == 0 && one.characters.find(low) != one.characters.npos;
+  });
   if (found != actions_.end()) queue(*found);
 }
 
 void Input::queue(const Action& action) {
   if (repeating_ && (action.flags & Action::repeats) == 0) return;
   if ((action.flags & Action::types) != 0) ui_.expect_text(true);
-  queued_.push_back(&action);
+  queued_.push_back({.action = &action});
 }
 
 }  // namespace terrella

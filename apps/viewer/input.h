@@ -19,6 +19,13 @@ struct BookmarkKey {
   bool set = false;
 };
 
+/// An action, or a click without a drag.
+struct InputEvent {
+  const Action* action = nullptr;  ///< null: a click
+  PointerButton button = PointerButton::left;
+  glm::dvec2 at_px{0.0};  ///< of a click, framebuffer pixels
+};
+
 /// Detects double clicks by time and distance.
 class ClickPair {
  public:
@@ -45,30 +52,35 @@ class Input {
 
   /// Handles pending events. With `wait_s`, first waits up to this many seconds for an event.
   void listen(std::optional<double> wait_s = {});
-  /// Actions since the last call, in order.
-  [[nodiscard]] std::vector<const Action*> take_actions();
-  /// Positions of left clicks without a drag since the last call, framebuffer pixels.
-  [[nodiscard]] std::vector<glm::dvec2> take_clicks();
+  /// Actions and clicks since the last call, in order.
+  [[nodiscard]] std::vector<InputEvent> take_events();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
   /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
   /// Enables or disables flying to a place by double click.
   void set_double_clicks(bool on) { double_clicks_ = on; }
-  /// True while the left button is held.
-  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value(); }
+  /// True while the left or the right button is held on the globe.
+  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value() || right_.has_value(); }
   /// True if an event since the last call can change the picture.
   [[nodiscard]] bool take_dirty();
   [[nodiscard]] bool dirty() const { return dirty_; }
   /// Position of the cursor, framebuffer pixels; nullopt outside the window.
   [[nodiscard]] std::optional<glm::dvec2> cursor_px() const;
+  /// True if the cursor is over a panel that takes the mouse.
+  [[nodiscard]] bool is_over_panel() const { return Ui::is_over_panel(pointer_unit()); }
   [[nodiscard]] static Seconds now();
 
  private:
   void listen_to_pointer();
   void listen_to_keys();
   void listen_to_window();
+  [[nodiscard]] glm::dvec2 pointer_unit() const { return pointer_px_ / window_.pixels_per_unit(); }
   void on_button(int button, int action, int modifiers);
+  void on_release(PointerButton which, glm::dvec2 at, double slack_px);
+  void on_further_button(int button, int action);
   void on_key(int key, int action, int modifiers, bool taken);
+  [[nodiscard]] const Action* action_of(int key, int modifiers) const;
+  bool on_ctrl(const char* name);
   void on_character(unsigned character);
   void queue(const Action& action);
 
@@ -83,9 +95,13 @@ class Input {
   bool double_clicks_ = true;
   std::optional<BookmarkKey> bookmark_;
   std::vector<std::filesystem::path> dropped_;
+  struct RightPress {
+    glm::dvec2 at_px;
+    Camera camera;  ///< before the press
+  };
   std::optional<glm::dvec2> pressed_px_;
-  std::vector<glm::dvec2> clicks_px_;
-  std::vector<const Action*> queued_;
+  std::optional<RightPress> right_;
+  std::vector<InputEvent> queued_;
   bool dirty_ = true;
   Seconds heard_until_;     ///< time when events were last handled
   Seconds late_{0.0};       ///< greatest possible age of the events being handled

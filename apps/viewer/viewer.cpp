@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "apps/setup/console.h"
+#include "apps/viewer/panels/control_column.h"
+#include "apps/viewer/panels/legend.h"
 
 namespace terrella {
 namespace {
@@ -19,6 +22,7 @@ constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
+constexpr double kTinyWindow = 22.0;            // height, in text heights
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
 constexpr double kScaleBarShare = 0.5;          // of the window's width, at most
 
@@ -71,10 +75,13 @@ void Viewer::run() {
     if (framebuffer.width_px <= 0 || framebuffer.height_px <= 0) continue;
     const bool dirty = input_.take_dirty();
     if (panel_frames_ > 0) --panel_frames_;
-    if ((dirty || ui_.has_waiting()) && front_panel() != nullptr) panel_frames_ = kPanelFrames;
+    const bool panels = front_panel() != nullptr || input_.is_over_panel();
+    if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
+    modes_.play().advance(Input::now());
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
+    history_.follow(navigator_.camera(), navigator_.at_rest(), Input::now());
     draw_frame(framebuffer);
     follow_panels();
     print_camera_at_rest();
@@ -91,14 +98,19 @@ void Viewer::tell_of_finest_texels() {
 }
 
 void Viewer::handle_events() {
-  for (const Action* action : input_.take_actions()) action->run(*this);
-  for (const glm::dvec2 click : input_.take_clicks()) measure_.add(click);
+  for (const InputEvent& event : input_.take_events()) {
+    if (event.action != nullptr) event.action->run(*this);
+    if (event.action == nullptr && help_.close()) continue;  // a click closes the list of shortcuts
+    if (event.action == nullptr && event.button == PointerButton::left) measure_.add(event.at_px);
+    if (event.action == nullptr && event.button == PointerButton::right) menu_.open_at(event.at_px);
+  }
   input_.set_double_clicks(!measure_.is_on());
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
   for (std::filesystem::path& file : input_.take_dropped()) layers_.open(std::move(file));
   cutting_.add(layers_.take_opened());
+  if (layers_.take_open_wish()) open_.toggle();
   follow_panels();
 }
 
@@ -121,7 +133,8 @@ void Viewer::follow_panels() {
 
 // True if another frame would differ.
 bool Viewer::work() const {
-  if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || navigator_.animating() || job() != job_text_)
+  if (input_.dirty() || ui_.has_waiting() || panel_frames_ > 0 || button_held_ || navigator_.animating() ||
+      job() != job_text_)
     return true;
   if (std::ranges::any_of(parts_, [](const Part* part) { return part->changed(); })) return true;
   if (!pictures_.is_drawing() && globe_.needs_frame()) return true;
@@ -133,7 +146,7 @@ void Viewer::wait_for_work() {
   keep_settings();
   const double pause_s = globe_.settled() && job().empty() ? kIdlePause_s : kLoadingPause_s;
   do {
-    input_.listen(messages_.seconds_left(pause_s));
+    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s)));
   } while (!work());
 }
 
@@ -159,7 +172,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
   draw_panels(framebuffer);
   if (panel_frames_ == 0) pictures_.after_frame(framebuffer);  // a newly opened panel is not drawn yet
   glfwSwapBuffers(window_.handle());
-  frame_time_ = Clock::now() - start;
+  frame_graph_.note(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 }
 
 void Viewer::draw_panels(Viewport framebuffer) {
@@ -170,11 +183,51 @@ void Viewer::draw_panels(Viewport framebuffer) {
   if (help_.is_open()) {
     help_.draw(0.0F);
   } else {
-    const float foot = draw_status(status(view), window_.pixels_per_unit().x);
+    // A tiny window shows an open panel alone.
+    const bool alone = front_panel() != nullptr && window_height() < kTinyWindow * Ui::text_height();
+    const float foot = alone ? 0.0F : draw_texts(status(view));
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
-    if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
+    if (!alone) layers_.draw_legend(foot, false);
+    if (!pictures_.is_drawing()) draw_over_panels(view, foot);
+    cover_panels(framebuffer);
   }
   ui_.end_frame();
+}
+
+// What stands where the panels leave room.
+void Viewer::draw_over_panels(const View& view, float foot) {
+  measure_.draw_over(view, input_.is_over_panel() ? std::nullopt : input_.cursor_px(), foot);
+  const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
+  button_held_ = column.held;
+  if (column.clicked != nullptr) column.clicked->run(*this);
+  graticule_.draw_over(view, double(foot));
+}
+
+// Draws the texts that the panels leave room. Returns the height of those at the lower edge.
+float Viewer::draw_texts(const PanelStatus& status) {
+  const float foot = frame_graph_.draw_above(draw_status(status, window_.pixels_per_unit().x), frame_.stats());
+  layers_.draw_legend(foot, true);
+  draw_message(status, foot);
+  draw_head(status);
+  return foot;
+}
+
+// In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
+void Viewer::cover_panels(Viewport framebuffer) {
+  std::array<Panel*, 6> newest{&pictures_, &search_, &open_, &bookmarks_, &layers_, &modes_};
+  std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
+  std::vector<UiBox> front;
+  const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now
+  if (resized) panel_frames_ = kPanelFrames;
+  for (Panel* panel : newest) {
+    if (resized) panel->cover(false);
+    const auto box = panel->is_open() ? Ui::panel_box(panel->title()) : std::nullopt;
+    if (!box || resized) continue;
+    const bool covered = std::ranges::any_of(front, [&box](const UiBox& other) { return other.overlaps(*box); });
+    if (covered != panel->is_covered()) panel_frames_ = kPanelFrames;
+    panel->cover(covered);
+    if (!covered) front.push_back(*box);
+  }
 }
 
 PanelStatus Viewer::status(const View& view) {
@@ -190,10 +243,9 @@ PanelStatus Viewer::status(const View& view) {
   status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m);
   const int loading = frame_.stats().tiles_pending;
   if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
-  status.frame = fmt::format("{:.0f} ms", frame_time_.count());
+  if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
   status.job = job_text_;
-  status.measure = measure_.text();
   status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);

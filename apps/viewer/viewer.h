@@ -13,16 +13,20 @@
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/bookmark_views.h"
 #include "apps/viewer/parts/cutting.h"
+#include "apps/viewer/parts/frame_graph.h"
 #include "apps/viewer/parts/globe_frame.h"
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/parts/help.h"
 #include "apps/viewer/parts/layers.h"
 #include "apps/viewer/parts/measure.h"
 #include "apps/viewer/parts/messages.h"
+#include "apps/viewer/parts/open_dialog.h"
 #include "apps/viewer/parts/pictures.h"
+#include "apps/viewer/parts/place_menu.h"
 #include "apps/viewer/parts/search.h"
 #include "apps/viewer/parts/view_modes.h"
 #include "apps/viewer/tools/kept_settings.h"
+#include "apps/viewer/tools/view_history.h"
 #include "apps/viewer/window.h"
 #include "globe/globe.h"
 
@@ -64,6 +68,9 @@ class Viewer {
   template <int kRight, int kDown>
   static void turn(Viewer& viewer);
   void leave();
+  void quit();
+  void turn_back();
+  void travel(const std::optional<Camera>& to, const char* nowhere);
   void pass_keyboard();
   void handle_events();
   void follow_panels();
@@ -74,6 +81,9 @@ class Viewer {
   void tell_of_finest_texels();
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
+  void draw_over_panels(const View& view, float foot);
+  [[nodiscard]] float draw_texts(const PanelStatus& status);
+  void cover_panels(Viewport framebuffer);
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
@@ -93,19 +103,31 @@ class Viewer {
   Help help_{context_, actions()};
   Pictures pictures_{context_};
   Search search_{context_, options_.places};
+  FrameGraph frame_graph_{context_};
   Layers layers_;
+  OpenDialog open_{context_, [this](std::filesystem::path file) { layers_.open(std::move(file)); }};
   ViewModes modes_;
   Measure measure_{context_};
   Cutting cutting_;
+  PlaceMenu menu_{context_,
+                  actions(),
+                  {.run = [this](const Action& action) { action.run(*this); },
+                   .measure_from = [this](glm::dvec2 at_px) { measure_.start_from(at_px); },
+                   .bookmark = [this] { bookmarks_.save_as_next(); }}};
+  ViewHistory history_{globe_.options().body.ellipsoid};
+  bool button_held_ = false;        ///< of the control column
+  Clock::time_point quit_until_{};  ///< a second Esc quits until then
+  Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 7> parts_{&help_, &pictures_, &search_, &layers_, &modes_, &measure_, &cutting_};
+  const std::array<Part*, 10> parts_{&help_,      &menu_,   &pictures_, &search_,  &open_,
+                                     &bookmarks_, &layers_, &modes_,    &measure_, &cutting_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
+  Viewport panels_size_;   ///< of the last frame with panels
   bool was_at_texels_ = false;
   std::string job_text_;  ///< job() in the last frame
   KeptSettings started_;  ///< settings at the start of the run
   KeptSettings saved_;    ///< settings in the file
-  std::chrono::duration<double, std::milli> frame_time_{0.0};
   std::string printed_camera_;
 };
 

@@ -2,12 +2,18 @@
 // epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
 
+#include <cmath>
+#include <utility>
+
 #include "apps/viewer/viewer.h"
 
 namespace terrella {
 namespace {
 
-constexpr double kTurnStep_px = 24.0;  // at 96 dots per inch: drag distance that an arrow with Shift stands for
+constexpr double kTurnStep_px = 24.0;         // at 96 dots per inch: drag distance that an arrow with Shift stands for
+constexpr std::chrono::seconds kQuitTime(3);  // for the second Esc
+constexpr Seconds kDoubleTurn(1.0);           // for the second click on the compass
+constexpr double kNorth_deg = 0.5;
 constexpr unsigned kHeld = Action::repeats, kTilts = Action::repeats | Action::shifted;
 using Go = NavigationKey;
 using V = Viewer&;
@@ -30,15 +36,31 @@ void Viewer::turn(Viewer& viewer) {
   viewer.navigator_.pointer_up(PointerButton::right, Input::now());
 }
 
-// Esc cancels a job, or else closes a panel or ends a tool, or else quits.
+// Esc cancels a job, or else closes a panel or ends a tool. With none of them, a second Esc quits.
 void Viewer::leave() {
+  const bool again = Clock::now() < std::exchange(quit_until_, Clock::time_point());
   for (Part* part : parts_) {
     if (part->cancel()) return;
   }
   for (Part* part : parts_) {
     if (part->close()) return;
   }
-  glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
+  if (again) return quit();
+  quit_until_ = Clock::now() + kQuitTime;
+  messages_.say("Press Esc again to quit", kQuitTime);
+}
+
+void Viewer::quit() { glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE); }
+
+// The compass: the first click turns north up, a second click also looks straight down.
+void Viewer::turn_back() {
+  const bool again = Input::now() - std::exchange(turned_back_, Input::now()) < kDoubleTurn;
+  const bool has_north_up = std::abs(std::remainder(navigator_.camera().heading.deg(), 360.0)) < kNorth_deg;
+  navigator_.key(again || has_north_up ? Go::look_down : Go::north_up, Input::now());
+}
+
+void Viewer::travel(const std::optional<Camera>& to, const char* nowhere) {
+  to ? navigator_.fly_to(*to, Input::now()) : messages_.say(nowhere);
 }
 
 // Gives the keyboard to the panel on top, or back to the globe.
@@ -52,42 +74,147 @@ void Viewer::pass_keyboard() {
 }
 
 constinit const Action Viewer::kActions[] = {
-    {"Drag", "move the ground"},
-    {"Wheel", "zoom to the cursor"},
-    {"Right-drag, Ctrl + drag", "tilt and turn"},
-    {"Double-click", "fly to this place"},
-    {"Arrows; with Shift", "move; tilt and turn", turn<1, 0>, U"", GLFW_KEY_LEFT, 0, kTilts},
-    {nullptr, nullptr, turn<-1, 0>, U"", GLFW_KEY_RIGHT, 0, kTilts},
-    {nullptr, nullptr, turn<0, -1>, U"", GLFW_KEY_UP, 0, kTilts},
-    {nullptr, nullptr, turn<0, 1>, U"", GLFW_KEY_DOWN, 0, kTilts},
+    {.keys = "Arrows", .what = "move the ground", .mouse = "drag"},
     {nullptr, nullptr, navigate<Go::pan_left>, U"", GLFW_KEY_LEFT, 0, kHeld},
     {nullptr, nullptr, navigate<Go::pan_right>, U"", GLFW_KEY_RIGHT, 0, kHeld},
     {nullptr, nullptr, navigate<Go::pan_up>, U"", GLFW_KEY_UP, 0, kHeld},
     {nullptr, nullptr, navigate<Go::pan_down>, U"", GLFW_KEY_DOWN, 0, kHeld},
-    {"+  -  Page up, down", "zoom", navigate<Go::zoom_in>, U"+=", GLFW_KEY_PAGE_UP, 0, kHeld},
-    {nullptr, nullptr, navigate<Go::zoom_out>, U"-\u2212", GLFW_KEY_PAGE_DOWN, 0, kHeld},
-    {"N", "north up", navigate<Go::north_up>, U"n"},
-    {"Home", "the whole globe", navigate<Go::whole_globe>, U"", GLFW_KEY_HOME, 0, kHeld},
+    {.keys = "+  Page up",
+     .what = "zoom in",
+     .run = navigate<Go::zoom_in>,
+     .characters = U"+=",
+     .key = GLFW_KEY_PAGE_UP,
+     .flags = kHeld,
+     .mouse = "wheel, button",
+     .icon = Icon::plus},
+    {.keys = "-  Page down",
+     .what = "zoom out",
+     .run = navigate<Go::zoom_out>,
+     .characters = U"-\u2212",
+     .key = GLFW_KEY_PAGE_DOWN,
+     .flags = kHeld,
+     .mouse = "wheel, button",
+     .icon = Icon::minus},
+    {.keys = "Shift + Left, Right", .what = "turn", .mouse = "right drag, Ctrl + drag"},
+    {nullptr, nullptr, turn<1, 0>, U"", GLFW_KEY_LEFT, 0, kTilts},
+    {nullptr, nullptr, turn<-1, 0>, U"", GLFW_KEY_RIGHT, 0, kTilts},
+    {.keys = "Shift + Up",
+     .what = "tilt towards the horizon",
+     .run = turn<0, -1>,
+     .key = GLFW_KEY_UP,
+     .flags = kTilts,
+     .mouse = "right drag, button",
+     .icon = Icon::tilted},
+    {.keys = "Shift + Down",
+     .what = "tilt towards straight down",
+     .run = turn<0, 1>,
+     .key = GLFW_KEY_DOWN,
+     .flags = kTilts,
+     .mouse = "right drag, button",
+     .icon = Icon::flat},
+    {.keys = "N",
+     .what = "north up; again: look straight down",
+     .run = [](V v) { v.turn_back(); },
+     .characters = U"n",
+     .flags = Action::unlisted,
+     .mouse = "compass",
+     .icon = Icon::compass},
+    {.keys = "Home",
+     .what = "the whole globe",
+     .run = navigate<Go::whole_globe>,
+     .key = GLFW_KEY_HOME,
+     .flags = kHeld,
+     .mouse = "button",
+     .icon = Icon::home},
+    {.keys = "Alt + Left",
+     .what = "back to the view before",
+     .run = [](V v) { v.travel(v.history_.back(), "There is no earlier view"); },
+     .key = GLFW_KEY_LEFT,
+     .flags = Action::alted | Action::unlisted,
+     .mouse = "button, mouse button 4",
+     .icon = Icon::back,
+     .mouse_button = GLFW_MOUSE_BUTTON_4},
+    {.keys = "Alt + Right",
+     .what = "forward to the next view",
+     .run = [](V v) { v.travel(v.history_.forward(), "There is no later view"); },
+     .key = GLFW_KEY_RIGHT,
+     .flags = Action::alted | Action::unlisted,
+     .mouse = "button, mouse button 5",
+     .icon = Icon::forward,
+     .mouse_button = GLFW_MOUSE_BUTTON_5},
+    {.keys = "Menu, Shift + F10",
+     .what = "menu of the place: copy, measure, centre, fly there",
+     .run = [](V v) { v.menu_.open_at(v.context_.middle_px()); },
+     .key = GLFW_KEY_MENU,
+     .flags = Action::unlisted,
+     .mouse = "right click, button",
+     .icon = Icon::menu},
+    {nullptr, nullptr, [](V v) { v.menu_.open_at(v.context_.middle_px()); }, U"", GLFW_KEY_F10, 0, Action::shifted},
+    {.keys = "menu", .what = "fly to a place", .mouse = "double click, menu"},
     {"R", "reset the view: look of the start, whole globe", [](V v) { v.modes_.reset(); }, U"r", 0, 0, 0, "Reset"},
     {"G", "graticule", [](V v) { v.graticule_.is_on() = !v.graticule_.is_on(); }, U"g"},
     {"/", "search for a place", [](V v) { v.search_.toggle(); }, U"/", 0, 0, Action::types},
-    {"M", "measure: click to add, Enter for the centre, Backspace to undo", [](V v) { v.measure_.toggle(); }, U"m"},
-    {nullptr, nullptr, [](V v) { v.measure_.add(v.context_.middle_px()); }, U"", GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER},
-    {nullptr, nullptr, [](V v) { v.measure_.take_back(); }, U"", GLFW_KEY_BACKSPACE},
-    {"1 ... 9", "fly to a bookmark; Ctrl saves the view"},
+    {"M", "measure: start, end", [](V v) { v.measure_.toggle(); }, U"m"},
+    {.keys = "Enter",
+     .what = "measure: add the middle of the view",
+     .run = [](V v) { v.measure_.add(v.context_.middle_px()); },
+     .key = GLFW_KEY_ENTER,
+     .other_key = GLFW_KEY_KP_ENTER,
+     .flags = Action::unlisted,
+     .mouse = "click a place"},
+    {.keys = "Backspace",
+     .what = "measure: remove the last place",
+     .run = [](V v) { v.measure_.take_back(); },
+     .key = GLFW_KEY_BACKSPACE,
+     .flags = Action::unlisted,
+     .mouse = "Undo"},
+    {.keys = "Ctrl + C",
+     .what = "measure: copy the result",
+     .run = [](V v) { v.measure_.copy(); },
+     .characters = U"c",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Copy"},
+    {.keys = "Ctrl + S",
+     .what = "measure: save the result as GeoJSON",
+     .run = [](V v) { v.measure_.save(); },
+     .characters = U"s",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Save"},
+    {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
+    {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
+    {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},
     {"P", "view settings", [](V v) { v.modes_.toggle(); }, U"p"},
     {"L", "layers: show, opacity, order, remove", [](V v) { v.layers_.toggle(); }, U"l", 0, 0, 0, "Layers"},
-    {"Drop a file", "add a picture, tile set, GeoJSON or glTF"},
+    {.keys = "Ctrl + O",
+     .what = "open a file, folder or address",
+     .run = [](V v) { v.open_.toggle(); },
+     .characters = U"o",
+     .flags = Action::ctrl | Action::types,
+     .button = "Open",
+     .mouse = "menu, drop a file"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
     {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
     {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},
+    {"T", "play or pause the time", [](V v) { v.modes_.toggle_play(); }, U"t"},
     {"S", "stereo: anaglyph, side by side, interlaced, off", [](V v) { v.modes_.next_stereo(); }, U"s"},
     {"F", "full screen", [](V v) { v.window_.toggle_full_screen(); }, U"f"},
     {"I", "save a picture of any size", [](V v) { v.pictures_.toggle(); }, U"i", 0, 0, 0, "Picture"},
     {"F12", "save a screenshot", [](V v) { v.pictures_.want_screenshot(); }, U"", GLFW_KEY_F12},
-    {"F6", "switch the keyboard between panel and globe", [](V v) { v.pass_keyboard(); }, U"", GLFW_KEY_F6},
+    {"F3", "frame time, tiles, memory", [](V v) { v.frame_graph_.toggle(); }, U"", GLFW_KEY_F3},
+    {.keys = "F6",
+     .what = "switch the keyboard between panel and globe",
+     .run = [](V v) { v.pass_keyboard(); },
+     .key = GLFW_KEY_F6,
+     .flags = Action::unlisted,
+     .mouse = "click the panel or the globe"},
     {"F1  ?", "shortcuts", [](V v) { v.help_.toggle(); }, U"?", GLFW_KEY_F1, 0, 0, "Shortcuts"},
-    {"Esc", "close a panel, cancel, quit", [](V v) { v.leave(); }, U"", GLFW_KEY_ESCAPE},
+    {.keys = "Esc",
+     .what = "close a panel, cancel; twice: quit",
+     .run = [](V v) { v.leave(); },
+     .key = GLFW_KEY_ESCAPE,
+     .flags = Action::unlisted,
+     .mouse = "cross of the panel"},
+    {.keys = "Ctrl + Q", .what = "quit", .run = [](V v) { v.quit(); }, .characters = U"q", .flags = Action::ctrl},
 };
 
 std::span<const Action> Viewer::actions() { return kActions; }

@@ -83,6 +83,8 @@ void Window::toggle_full_screen() {
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+void Window::copy(const std::string& text) const { glfwSetClipboardString(window_, text.c_str()); }
+
 Viewport Window::windowed() const {
   if (glfwGetWindowMonitor(window_) != nullptr) return {windowed_.width, windowed_.height};
   Viewport size{0, 0};

@@ -24,6 +24,8 @@ class Window {
 
   void show();
   void toggle_full_screen();
+  /// Puts a text into the clipboard, UTF-8.
+  void copy(const std::string& text) const;
   /// Size in the window's own coordinates when not in full screen.
   [[nodiscard]] Viewport windowed() const;
   [[nodiscard]] GLFWwindow* handle() const { return window_; }

@@ -1,8 +1,10 @@
 #include "geo/measure.h"
 
 #include <GeographicLib/GeodesicExact.hpp>
+#include <GeographicLib/GeodesicLineExact.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace terrella {
@@ -29,6 +31,22 @@ double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places) {
   double total_m = 0.0;
   for (std::size_t k = 1; k < places.size(); ++k) total_m += distance_m(geodesics, places[k - 1], places[k]);
   return total_m;
+}
+
+std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to, int count) {
+  assert(count >= 2);
+  const auto line =
+      geodesics_of(ellipsoid).InverseLine(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg());
+  std::vector<Geodetic> places;
+  for (int k = 0; k < count; ++k) {
+    const double share = double(k) / (count - 1);
+    double lat_deg = 0.0, lon_deg = 0.0;
+    line.Position(share * line.Distance(), lat_deg, lon_deg);
+    places.push_back({.lat = Angle::degrees(lat_deg),
+                      .lon = Angle::degrees(lon_deg),
+                      .height_m = (1.0 - share) * from.height_m + share * to.height_m});
+  }
+  return places;
 }
 
 PolygonMeasure polygon_measure(const Ellipsoid& ellipsoid, std::span<const Geodetic> ring) {

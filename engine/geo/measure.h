@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
@@ -17,6 +18,11 @@ namespace terrella {
 
 /// Length of the way from the first place through all others to the last, metres; 0 for fewer than two places.
 [[nodiscard]] double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places);
+
+/// Returns places at equal distances on the shortest way between two places, `count` >= 2 with both ends. The height
+/// changes evenly.
+[[nodiscard]] std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic& from,
+                                                    const Geodetic& to, int count);
 
 struct PolygonMeasure {
   /// Area of the smaller side, never negative; for a ring that crosses itself, the difference of its two sides.

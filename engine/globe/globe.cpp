@@ -181,6 +181,18 @@ Status Globe::set_time(std::optional<UtcTime> time) {
   return Done{};
 }
 
+Status Globe::set_night_lights(bool on) {
+  const auto call = impl_->may_draw("Globe::set_night_lights");
+  if (!call) return call.error();
+  const GlobeOptions& options = impl_->options;
+  const bool has = options.sky && options.body.name == "earth" && !options.night_lights.values.empty();
+  if (!has || on == has_night_lights()) return Done{};
+  impl_->changed = true;
+  return impl_->renderer->set_night_lights(on ? options.night_lights : GreyPicture{});
+}
+
+bool Globe::has_night_lights() const { return impl_->renderer->has_night_lights(); }
+
 void Globe::set_budget(const GlobeBudget& budget) {
   const auto call = impl_->may_draw("Globe::set_budget");
   if (!call) return;

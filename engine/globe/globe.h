@@ -63,7 +63,7 @@ struct GlobeOptions {
   /// everywhere (ImageLook::daylight).
   std::optional<UtcTime> time{};
   std::vector<Star> stars{};  ///< stars of the sky
-  /// City lights on the Earth's night side, drawn only with a sky and a time; may be empty.
+  /// City lights on the Earth's night side, drawn only with a sky and a time (Globe::set_night_lights()); may be empty.
   GreyPicture night_lights{};
   std::vector<std::byte> label_font{};     ///< bytes of a font file for the labels of objects; empty: no labels
   std::size_t gpu_bytes = 512UL << 20;     ///< texture slots for tiles, all image layers together
@@ -185,6 +185,8 @@ class Globe {
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);
+  /// Returns the attribution text of a layer. Fails if the globe does not have the layer.
+  [[nodiscard]] Result<std::string> attribution(LayerId layer) const;
   /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
   /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
   [[nodiscard]] std::vector<std::string> attributions() const;
@@ -204,8 +206,12 @@ class Globe {
   void set_sky(bool on);                       ///< no effect if the globe was made without a sky
   void set_exaggeration(double exaggeration);  ///< factor of the heights, [0, 100]
   /// Sets the time for Sun and sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes
-  /// nothing. City lights need a globe that was made with a time.
+  /// nothing. City lights are as set_night_lights() says.
   Status set_time(std::optional<UtcTime> time);
+  /// Draws GlobeOptions::night_lights on the night side, or not. They show at a time. Made with a time, a globe begins
+  /// with them. No effect without a sky, without such lights, or on another body than the Earth.
+  Status set_night_lights(bool on);
+  [[nodiscard]] bool has_night_lights() const;  ///< true if city lights are drawn at a time
   /// Sets the budget from the next frame on. Image layers share the GPU memory evenly. Each layer has room for at least
   /// 16 tiles.
   void set_budget(const GlobeBudget& budget);

@@ -151,6 +151,13 @@ Status Globe::set_attribution(LayerId layer, std::string text) {
   return Done{};
 }
 
+Result<std::string> Globe::attribution(LayerId layer) const {
+  if (Status call = impl_->may_call("Globe::attribution"); !call) return call.error();
+  if (const ObjectLayer* objects = impl_->object(layer); objects != nullptr) return objects->attribution;
+  if (const ImageLayer* image = impl_->image(layer); image != nullptr) return image->attribution();
+  return no_layer("Globe::attribution", "layer", layer);
+}
+
 std::vector<std::string> Globe::attributions() const {
   std::vector<std::string> texts;
   if (!impl_->may_call("Globe::attributions")) return texts;

@@ -26,33 +26,17 @@ Status make_once(std::unique_ptr<T>& place, const Given&... given) {
 
 }  // namespace
 
-Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& asked, const Ellipsoid& ellipsoid,
+Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions& options, const Ellipsoid& ellipsoid,
                                                              const SkyAssets* sky) {
-  RenderOptions options = asked;
-  options.night_lights = sky != nullptr && !sky->night_lights.values.empty();
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
   renderer->limb_ = std::make_unique<LimbPass>();
   if (sky != nullptr) {
     if (Status s = make_once(renderer->sky_, sky->body, sky->stars); !s) return s.error();
-  }
-  if (options.night_lights) {
-    Result<NightLights> lights = NightLights::create(sky->night_lights);
-    if (!lights) return lights.error();
-    renderer->night_lights_ = std::move(*lights);
+    if (Status s = renderer->set_night_lights(sky->night_lights); !s) return s.error();
   }
   renderer->frame_block_ = gl::make_buffer();
   glNamedBufferStorage(renderer->frame_block_.name(), sizeof(FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
   return renderer;
-}
-
-Status GlobeRenderer::set_relief(bool on) {
-  RenderOptions options = options_;
-  options.light.relief = on && options.light.relief;
-  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options, on);
-  if (!made) return made.error();
-  patches_ = std::move(*made);
-  slopes_.reset();
-  return Done{};
 }
 
 Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {

@@ -94,6 +94,9 @@ class GlobeRenderer {
   /// Makes the programs for patches with or without relief. Call it before the first frame. The caller discards the
   /// vertices of all layers.
   Status set_relief(bool on);
+  /// Draws city lights on the night side from now on; an empty map: none.
+  Status set_night_lights(const GreyPicture& map);
+  [[nodiscard]] bool has_night_lights() const { return options_.night_lights; }
   /// Forgets the slopes on the GPU, because other heights will be drawn.
   void forget_slopes() { slopes_.reset(); }
   /// True if the current context is the one with this renderer's objects. Tests names that contexts do not share.
@@ -143,6 +146,7 @@ class GlobeRenderer {
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
+  Status make_patches(RenderOptions options, bool relief);
   // globe_renderer.cpp: the order of the passes.
   Status prepare(const Pass& pass);
   [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
@@ -199,6 +203,7 @@ class GlobeRenderer {
 
   RenderOptions options_;
   Ellipsoid ellipsoid_;
+  bool relief_ = false;
   std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief
   std::unique_ptr<LimbPass> limb_;

@@ -20,6 +20,38 @@ constexpr double kLitFootprint_texels = 5.0;
 
 }  // namespace
 
+Status GlobeRenderer::set_relief(bool on) {
+  if (Status made = make_patches(options_, on); !made) return made;
+  relief_ = on;
+  slopes_.reset();
+  return Done{};
+}
+
+Status GlobeRenderer::make_patches(RenderOptions options, bool relief) {
+  options.light.relief = relief && options.light.relief;
+  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options, relief);
+  if (!made) return made.error();
+  patches_ = std::move(*made);
+  return Done{};
+}
+
+Status GlobeRenderer::set_night_lights(const GreyPicture& map) {
+  RenderOptions options = options_;
+  options.night_lights = !map.values.empty();
+  std::optional<NightLights> lights;
+  if (options.night_lights) {
+    Result<NightLights> made = NightLights::create(map);
+    if (!made) return made.error();
+    lights = std::move(*made);
+  }
+  if (patches_) {
+    if (Status made = make_patches(options, relief_); !made) return made;
+  }
+  options_ = options;
+  night_lights_ = std::move(lights);
+  return Done{};
+}
+
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
   return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
 }

@@ -101,14 +101,18 @@ void Navigator::pointer_up(PointerButton, Seconds now, Seconds late) {
   }
 }
 
-void Navigator::double_click(glm::dvec2 at_px, Seconds now) {
+void Navigator::double_click(glm::dvec2 at_px, Seconds now) { fly_towards(at_px, kFlyFactor, now); }
+
+void Navigator::centre_on(glm::dvec2 at_px, Seconds now) { fly_towards(at_px, 1.0, now); }
+
+void Navigator::fly_towards(glm::dvec2 at_px, double factor, Seconds now) {
   if (!finite(at_px) || !finite(now)) return;
   advance(now);
   const Grab there = grab_at(at_px);
   if (!there.on_surface) return;
   Camera target = camera_;
   const double base = base_m(there);
-  target.eye.height_m = base + nearer_m(camera_.eye.height_m - base, kFlyFactor);
+  target.eye.height_m = base + nearer_m(camera_.eye.height_m - base, factor);
   target.pitch = std::min(target.pitch, highest_pitch(body(), target.eye.height_m, Angle{}) - Angle::degrees(5.0));
   start_flight(pin(target, body(), viewport_, there.point, centre_px(), heading_rule(camera_, body(), there.point)));
 }
@@ -171,6 +175,8 @@ void Navigator::key(NavigationKey key, Seconds now) {
       return;
     case NavigationKey::whole_globe:
       return go_whole_globe();
+    case NavigationKey::look_down:
+      return go_look_down();
   }
 }
 
@@ -253,6 +259,19 @@ void Navigator::start_flight(const Camera& camera) { motion_ = Fly{plan_flight(c
 void Navigator::go_whole_globe() {
   Camera target = camera_;
   target.eye.height_m = whole_globe_height_m(body(), camera_.fov_y, viewport_);
+  target.heading = Angle{};
+  target.pitch = Angle::degrees(-90.0);
+  start_flight(target);
+}
+
+void Navigator::go_look_down() {
+  const Grab centre = grab_at(centre_px());
+  Camera target = camera_;
+  if (centre.on_surface) {
+    Orbit orbit = orbit_around(camera_, body(), centre.point);
+    orbit.depression = Angle::degrees(90.0);
+    target = orbit_camera(orbit, body(), camera_.fov_y);
+  }
   target.heading = Angle{};
   target.pitch = Angle::degrees(-90.0);
   start_flight(target);

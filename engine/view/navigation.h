@@ -14,13 +14,14 @@
 namespace terrella {
 
 enum class PointerButton { left, right };
-enum class NavigationKey { pan_left, pan_right, pan_up, pan_down, zoom_in, zoom_out, north_up, whole_globe };
+enum class NavigationKey { pan_left, pan_right, pan_up, pan_down, zoom_in, zoom_out, north_up, whole_globe, look_down };
 
 /// Turns pointer, wheel and key events into a camera.
 ///
 /// Left drag keeps the grabbed surface point under the cursor. A flick glides on and stops. The wheel zooms and keeps
 /// the point under the cursor. Right drag, or left drag with Ctrl, tilts (up: towards the horizon) and turns around the
-/// point at the picture's centre. A double click flies to a point. A new gesture ends the motion before it.
+/// point at the picture's centre. A double click flies to a point. Key look_down puts the eye over the point at the
+/// picture's centre, with north up. A new gesture ends the motion before it.
 ///
 /// The user grabs, zooms to and turns around the ground as it is drawn, mountains included. The eye stays at least 1 m
 /// over the ground. If it would be lower, it is raised, at the latest by advance(); it is never lowered. After
@@ -51,6 +52,7 @@ class Navigator {
   /// over at least `late`.
   void pointer_up(PointerButton button, Seconds now, Seconds late = Seconds(0.0));
   void double_click(glm::dvec2 at_px, Seconds now);
+  void centre_on(glm::dvec2 at_px, Seconds now);  ///< flies at constant height until the point is at the centre
   void wheel(glm::dvec2 at_px, double steps, Seconds now);  ///< positive steps zoom towards the ground
   /// Zooms by two fingers on a touch pad or screen. The point under `at_px`, between the fingers, stays there and comes
   /// nearer by `factor`, which is over 1 as the fingers move apart. Takes effect at once, without a glide. Ignored
@@ -132,6 +134,8 @@ class Navigator {
   void pan_by(glm::dvec2 by_px);
   void start_flight(const Camera& camera);
   void go_whole_globe();
+  void go_look_down();
+  void fly_towards(glm::dvec2 at_px, double factor, Seconds now);
   void turn_to(const Turn& turn, glm::dvec2 at_px);
 
   [[nodiscard]] Motion go_on(Rest rest, Seconds passed);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "streaming/other_formats.h"
-
 namespace terrella {
 namespace {
 
@@ -69,8 +67,8 @@ Result<CutPlan> plan_planet(const PictureInfo& picture, const CutOptions& option
   if (std::abs(width - 2 * picture.height_px) > 1) {
     return Error{fmt::format(
         "{0}: {1}x{2} pixels are not 2:1, so it is not a picture of a whole planet. Resize it to {3}x{4} if it "
-        "is one; if it shows a part, say which: terrella cut {0} --bounds W,S,E,N -o OUT.gpkg",
-        shell_word(name_of(options)), width, picture.height_px, width + width % 2, (width + width % 2) / 2)};
+        "is one; if it shows a part, say which with --bounds W,S,E,N",
+        name_of(options), width, picture.height_px, width + width % 2, (width + width % 2) / 2)};
   }
   CutPlan plan;
   plan.pixel_deg = 360.0 / static_cast<double>(width);

@@ -3,7 +3,7 @@
 import unittest
 
 from pictures import png
-from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, ProgramTest
+from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, WRONG_USAGE, ProgramTest
 
 # Far less than the tiles of Blue Marble, or a render of it, take.
 SMALL_DISK_BYTES = 64 * 1024
@@ -40,6 +40,20 @@ class NotWritable(ProgramTest):
     def test_the_cache_is_a_file(self):
         done = self.assert_done("render", self.picture, "--cache", "file", "-o", "x.png")
         self.assertIn("file: cannot be made: Not a directory; continuing without a cache", done.stderr)
+
+
+class Formats(ProgramTest):
+    def test_the_name_chooses_png_or_jpeg(self):
+        for name, begins in (("a.png", b"\x89PNG"), ("b.jpg", b"\xff\xd8\xff"), ("c.JPEG", b"\xff\xd8\xff"), ("d", b"\x89PNG")):
+            for _ in range(2):
+                self.assert_done("render", NATURAL_EARTH, "--size", "64x32", "-o", name)
+                self.assertTrue((self.folder / name).read_bytes().startswith(begins), name)
+        self.assertIn("quality 92", self.assert_done("render", "--help").stdout)
+
+    def test_a_name_of_another_format_is_refused(self):
+        for name in ("a.tif", "b.WEBP", "c.gif"):
+            self.assert_fails(WRONG_USAGE, "render", NATURAL_EARTH, "-o", name, says=[name, "PNG or JPEG", ".png or .jpg"])
+        self.assert_nothing_but()
 
 
 class DiskFull(ProgramTest):

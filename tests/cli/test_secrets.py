@@ -206,7 +206,7 @@ class WindowKeepsSecretsTest(SecretsTest):
                                                                    text=True).stdout.split())[0]
             wait_until("tiles", lambda: len(server.log()) > 8)
             title = subprocess.run(["xdotool", "getwindowname", window], env=env, capture_output=True, text=True).stdout
-            subprocess.run(["xdotool", "key", "--window", window, "Escape"], env=env, check=True)
+            subprocess.run(["xdotool", "key", "--window", window, "Escape", "Escape"], env=env, check=True)
             told = "".join(program.communicate(timeout=30))
         finally:
             program.kill()

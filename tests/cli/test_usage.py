@@ -2,7 +2,7 @@
 
 import unittest
 
-from program import FAILED, WRONG_USAGE, ProgramTest, subcommands
+from program import FAILED, NATURAL_EARTH, WRONG_USAGE, ProgramTest, subcommands
 
 
 class Program(ProgramTest):
@@ -17,9 +17,22 @@ class Program(ProgramTest):
                 self.assertRegex(text, rf"(?is)example.*terrella {command}")
 
     def test_no_subcommand_prints_the_help(self):
-        done = self.assert_fails(WRONG_USAGE, says=["Usage: terrella", "Subcommands:", "Examples:", "terrella view"])
-        self.assertEqual(done.stdout, "")
-        self.assertEqual(done.stderr, self.assert_done("--help").stdout)
+        done = self.assert_done()
+        for text in ("Usage: terrella", "Subcommands:", "Examples:", "terrella view"):
+            self.assertIn(text, done.stdout)
+        self.assertEqual(done.stdout, self.assert_done("--help").stdout)
+        self.assertEqual(done.stderr, "")
+
+    def test_the_help_lists_all_bodies(self):
+        for command in ("view", "render", "cut"):
+            text = " ".join(self.assert_done(command, "--help").stdout.split())
+            for body in ("earth", "moon", "mars", "mercury", "ceres", "phobos", "enceladus", "titan", "sun"):
+                self.assertRegex(text, rf"\b{body}\b")
+
+    def test_exaggeration_without_heights_warns(self):
+        for value, warns in (("3", True), ("1", False)):
+            done = self.assert_done("render", NATURAL_EARTH, "--size", "32x32", "--exaggeration", value, "-o", "x.png")
+            self.assertEqual("give them with --elevation" in done.stderr, warns, done.stderr)
 
     def test_help_is_a_command_too(self):
         self.assertEqual(self.assert_done("help").stdout, self.assert_done("--help").stdout)

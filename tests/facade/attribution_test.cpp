@@ -55,6 +55,17 @@ class Attributions : public GlTest {
   std::unique_ptr<Globe> globe_;
 };
 
+TEST_F(Attributions, EachLayerTellsItsOwn) {
+  const LayerId a = add(owed_to("A"));
+  const LayerId objects = *globe_->add_objects({});
+  EXPECT_EQ(*globe_->attribution(a), "A");
+  EXPECT_EQ(*globe_->attribution(objects), "");
+  ASSERT_TRUE(globe_->set_attribution(objects, "B"));
+  EXPECT_EQ(*globe_->attribution(objects), "B");
+  ASSERT_TRUE(globe_->remove(a));
+  EXPECT_FALSE(globe_->attribution(a));
+}
+
 TEST_F(Attributions, AreThoseOfLayersThatAreShownInTheirOrderAndOnce) {
   EXPECT_EQ(now(), Texts{});
   const LayerId a = add(owed_to("A")), b = add(owed_to("B")), again = add(owed_to("A")), nobody = add(owed_to(""));

@@ -108,6 +108,13 @@ class DaylightLayers : public GlTest {
     const Color p = a.at(x, y), q = b.at(x, y);
     return std::max({std::abs(p[0] - q[0]), std::abs(p[1] - q[1]), std::abs(p[2] - q[2])});
   }
+  static int largest_difference(const Picture& a, const Picture& b) {
+    int largest = 0;
+    for (int y = 0; y < kSides.height_px; ++y) {
+      for (int x = 0; x < kSides.width_px; ++x) largest = std::max(largest, apart(a, b, x, y));
+    }
+    return largest;
+  }
   /// The picture is `day` where the Sun is up and `night` from the end of civil twilight on.
   static int expect_sides(const Globe& globe, const Picture& got, const Picture& day, const Picture& night) {
     int judged = 0;
@@ -149,6 +156,31 @@ TEST_F(DaylightLayers, ByDayAPlainLayerByNightNothingAndTheOtherWayRoundByItsOwn
       judged += expect_sides(*globe, with_look(*globe, layer, {.daylight = Daylight::night}), bare, own_light);
     }
     EXPECT_GT(judged, options.sky ? 6000 : 12000);
+  }
+}
+
+TEST_F(DaylightLayers, LightsSwitchedOnLaterAreThoseOfAGlobeMadeWithATime) {
+  GlobeOptions timed = evening();
+  timed.sky = true;
+  timed.night_lights = {64, 32, std::vector<std::uint8_t>(64 * 32, 200)};
+  GlobeOptions timeless = timed;
+  timeless.time.reset();
+  const auto made = empty_globe(timed), changed = empty_globe(timeless);
+  EXPECT_TRUE(made->has_night_lights());
+  EXPECT_FALSE(changed->has_night_lights());
+  for (const auto* globe : {&made, &changed}) {
+    ASSERT_TRUE((*globe)->add_imagery(painted(sea)));
+    (*globe)->set_camera(camera_at(30, -9, 4.0e6));
+  }
+  const Picture with_lights = settled(*made);
+  ASSERT_TRUE(changed->set_time(timed.time));
+  const Picture dark = settled(*changed);
+  EXPECT_GT(largest_difference(dark, with_lights), 50);
+  for (int twice = 0; twice < 2; ++twice) {
+    ASSERT_TRUE(changed->set_night_lights(true));
+    EXPECT_EQ(largest_difference(settled(*changed), with_lights), 0);
+    ASSERT_TRUE(changed->set_night_lights(false));
+    EXPECT_EQ(largest_difference(settled(*changed), dark), 0);
   }
 }
 

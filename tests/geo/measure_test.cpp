@@ -47,6 +47,20 @@ TEST(Measure, OfTheFlattestPlanetToo) {
   EXPECT_NEAR(geodesic_m(flat, at(0, 0), at(90, 0)), perimeter, 0.001);
 }
 
+TEST(Measure, PlacesOnAWayAreEvenlySpaced) {
+  const Ellipsoid earth_ = earth().ellipsoid;
+  Geodetic from = at(40, 170), to = at(-10, -120);
+  from.height_m = 100.0;
+  const std::vector<Geodetic> places = geodesic_places(earth_, from, to, 5);
+  ASSERT_EQ(places.size(), 5U);
+  const double whole_m = geodesic_m(earth_, from, to);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    EXPECT_NEAR(geodesic_m(earth_, places[k - 1], places[k]), 0.25 * whole_m, 1e-6);
+    EXPECT_NEAR(geodesic_m(earth_, from, places[k]), 0.25 * double(k) * whole_m, 1e-6) << "on the shortest way";
+  }
+  EXPECT_EQ(places[2].height_m, 50.0);
+}
+
 TEST(Measure, PathsAreSumsOfTheirParts) {
   const Ellipsoid earth_ = earth().ellipsoid;
   const std::vector<Geodetic> places = {at(0, 0), at(0, 10), at(0, 40)};

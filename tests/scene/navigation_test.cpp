@@ -355,5 +355,27 @@ TEST(Robustness, AOnePixelWindowAndACentreOfTheEarthCameraStayFinite) {
   }
 }
 
+// The compass turns a tilted view back to a map of the same ground.
+TEST(Keys, LookDownKeepsThePointAtTheCentre) {
+  Hand hand(camera_at(46.0, 7.0, 3.0e5, 130.0, -40.0));
+  const Ecef held = hand.under(kCentre);
+  for (int time = 0; time < 2; ++time) {
+    hand.navigator.key(NavigationKey::look_down, hand.now);
+    hand.settle();
+    EXPECT_NEAR(hand.navigator.camera().pitch.deg(), -90.0, 1e-9);
+    EXPECT_NEAR(hand.navigator.camera().heading.deg(), 0.0, 1e-9);
+    EXPECT_LT(hand.miss_px(held, kCentre), kHeld_px);
+  }
+}
+
+TEST(Flights, CentreOnKeepsTheHeight) {
+  Hand hand(camera_at(46.0, 7.0, 3.0e5));
+  const Ecef held = hand.under({700.0, 300.0});
+  hand.navigator.centre_on({700.0, 300.0}, hand.now);
+  hand.settle();
+  EXPECT_LT(hand.miss_px(held, kCentre), kHeld_px);
+  EXPECT_NEAR(hand.navigator.camera().eye.height_m, 3.0e5, 1.0);
+}
+
 }  // namespace
 }  // namespace terrella::test

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "support/scratch_folder.h"
 
@@ -44,6 +45,46 @@ TEST(Bookmarks, ADamagedFileIsNamedAndOneBadBookmarkLosesNoOther) {
   EXPECT_FALSE(some->at(1));
   EXPECT_FALSE(some->at(2));
   EXPECT_TRUE(some->at(3));
+}
+
+TEST(Bookmarks, HaveNamesAndAnOrderThatStay) {
+  const test::ScratchFolder folder;
+  const auto file = folder.path() / "bookmarks.json";
+  Bookmarks bookmarks;
+  EXPECT_EQ(bookmarks.free_number(), 1);
+  bookmarks.set(1, somewhere());
+  bookmarks.set(3, {});
+  EXPECT_EQ(bookmarks.free_number(), 2);
+  bookmarks.rename(1, "Zürich \"home\"");
+  bookmarks.exchange(1, 2);
+  bookmarks.exchange(2, 3);
+  bookmarks.set(12, somewhere());
+  ASSERT_TRUE(bookmarks.save(file));
+  auto again = Bookmarks::load(file);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->all().size(), 3U);
+  EXPECT_FALSE(again->at(1));
+  EXPECT_EQ(again->all().at(3).name, "Zürich \"home\"");
+  EXPECT_TRUE(again->all().at(2).name.empty());
+  again->set(3, {});
+  EXPECT_EQ(again->all().at(3).name, "Zürich \"home\"") << "another view under the same name";
+  again->remove(3);
+  EXPECT_FALSE(again->at(3));
+}
+
+// What earlier versions wrote and read: cameras under numbers.
+TEST(Bookmarks, TheFileKeepsItsForm) {
+  const test::ScratchFolder folder;
+  const auto file = folder.path() / "bookmarks.json";
+  std::ofstream(file) << R"({"bookmarks": {"2": "46,7,1000,0,-90,40"}})";
+  auto bookmarks = Bookmarks::load(file);
+  ASSERT_TRUE(bookmarks);
+  bookmarks->rename(2, "Alps");
+  ASSERT_TRUE(bookmarks->save(file));
+  std::ifstream in(file);
+  const auto json = nlohmann::json::parse(in);
+  EXPECT_EQ(json["bookmarks"]["2"], "46,7,1000,0,-90,40");
+  EXPECT_EQ(json["names"]["2"], "Alps");
 }
 
 TEST(Bookmarks, WhereNothingCanBeWrittenItSaysSo) {

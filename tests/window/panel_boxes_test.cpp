@@ -7,9 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "apps/viewer/panels/control_column.h"
+#include "apps/viewer/panels/legend.h"
+#include "apps/viewer/panels/measure_row.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
+#include "apps/viewer/panels/view_settings.h"
 #include "apps/viewer/parts/graticule_lines.h"
+#include "apps/viewer/viewer.h"
 
 namespace terrella {
 namespace {
@@ -51,7 +56,7 @@ TEST_P(PanelBoxes, TheStatusLineAndTheScaleBarDoNotOverlap) {
   status.cursor = "46.02100 N   7.74900 E   4,478 m";
   status.eye = "Altitude 15,200 km";
   status.tiles = "127 tiles loading";
-  status.frame = "8 ms";
+  status.time = "2026-06-21 12:00 UTC";
   status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
   const float foot = draw_status(status, 1.0);
   const std::vector<UiBox> boxes = Ui::panel_boxes();
@@ -61,6 +66,52 @@ TEST_P(PanelBoxes, TheStatusLineAndTheScaleBarDoNotOverlap) {
     EXPECT_LE(boxes[i].right, GetParam().width);
     EXPECT_GE(boxes[i].top, GetParam().height - foot - 1.0F);  // sizes are whole pixels
     for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(boxes[i].overlaps(boxes[k]));
+  }
+}
+
+void draw_all(float width, float scale, bool with_panel) {
+  PanelStatus status;
+  status.cursor = "46.02100 N   7.74900 E   4,478 m";
+  status.eye = "Altitude 15,200 km";
+  status.attribution = "NASA Blue Marble, Natural Earth";
+  status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * scale, 0.5 * width)};
+  const float foot = draw_status(status, 1.0);
+  draw_head(status);
+  if (with_panel) {
+    ViewSettings settings;
+    EXPECT_EQ(draw_view_settings("View", settings, Viewer::actions(), foot, false), nullptr);
+  }
+  NumberLook look;
+  look.high = 30.0;
+  draw_legend({{.title = "Temperature", .unit = "°C", .look = look}}, 12.0 * scale,
+              window_height() - foot - 12.0 * scale);
+  EXPECT_EQ(draw_measure_row("Length 10,008 km + 5,004 km = 15,011 km   Area 63,758,059 km²", foot), MeasureAsk::none);
+  EXPECT_EQ(draw_control_column(Viewer::actions(), {}).clicked, nullptr);
+}
+
+// The row of a measurement and the buttons stand where nothing else is, or are left out.
+TEST_P(PanelBoxes, TheRowOfAMeasurementAndTheControlColumnOverlapNothing) {
+  for (const bool with_panel : {false, true}) {
+    for (int frame = 0; frame < 3; ++frame) {  // panels find their size in the first
+      ImGui::EndFrame();
+      ImGui::NewFrame();
+      draw_all(GetParam().width, GetParam().scale, with_panel);
+    }
+    const auto box_of = [](const char* name) { return Ui::shown_box(name).value_or(UiBox{}); };
+    for (const char* name : {"##measure", "##controls"}) {
+      const UiBox box = box_of(name);
+      EXPECT_GE(box.left, 0.0);
+      EXPECT_GE(box.top, 0.0);
+      EXPECT_LE(box.right, GetParam().width);
+      EXPECT_LE(box.bottom, GetParam().height);
+      int found = 0;
+      for (const UiBox& other : Ui::panel_boxes()) found += other.overlaps(box) ? 1 : 0;
+      EXPECT_LE(found, 1) << name << " overlaps more than itself";
+    }
+    if (GetParam().width / GetParam().scale < 640) continue;
+    const UiBox column = box_of("##controls");
+    EXPECT_GT(column.bottom - column.top, 9 * 1.5 * ImGui::GetFontSize()) << "all buttons have room";
+    EXPECT_GT(box_of("##measure").right, 0.0);
   }
 }
 

@@ -84,7 +84,7 @@ TEST(ClickPair, NeedsTwoPressesCloseInTimeAndPlace) {
 }
 
 TEST(ScreenshotName, IsTheLocalTimeAndNeverAnExistingFile) {
-  const auto name = screenshot_name("/nonexistent", std::chrono::system_clock::now()).filename().string();
+  const auto name = new_file_name("/nonexistent", std::chrono::system_clock::now()).filename().string();
   EXPECT_EQ(name.size(), std::string("terrella-20260101-000000.png").size());
   EXPECT_EQ(name.substr(0, 9), "terrella-");
   EXPECT_EQ(name.substr(name.size() - 4), ".png");

@@ -1,9 +1,11 @@
 """Runs the viewer in a private display, and sends real key and pointer events to the viewer."""
 
+import operator
 import os
 import queue
 import re
 import shutil
+import struct
 import subprocess
 import tempfile
 import threading
@@ -17,6 +19,7 @@ PROGRAM = os.environ.get("TERRELLA", "terrella")
 DROP_FILES = os.environ.get("DROP_FILES", "drop_files")
 ARTEFACTS = Path(os.environ.get("WINDOW_ARTEFACTS", "window-artefacts"))
 SIZE = (640, 480)
+MENU_PIXELS = 20000  # the least that a menu covers
 PATIENCE_S = 60.0  # software GL on a loaded machine
 
 
@@ -28,6 +31,13 @@ def wait_until(what, condition, seconds=PATIENCE_S):
             return value
         time.sleep(0.05)
     raise AssertionError(f"waited {seconds} s in vain for {what}")
+
+
+def differing(one, other, rows=None):
+    """How many pixels of two grabs differ, in the first rows."""
+    if len(one) != len(other) or len(one[0]) != len(other[0]):
+        return len(one) * len(one[0])
+    return sum(sum(map(operator.ne, a, b)) for a, b in zip(one[:rows], other[:rows]) if a != b)
 
 
 class Display:
@@ -128,6 +138,51 @@ class Viewer:
     def key(self, name):
         self.xdotool("key", name)
 
+    def grab(self):
+        """The window's pixels as rows of 32-bit numbers; faster than a screenshot."""
+        data = subprocess.run(["xwd", "-silent", "-id", self.window], env=self.environment, capture_output=True,
+                              check=True, timeout=60).stdout
+        header = struct.unpack(">25I", data[:100])
+        start, height, line, colours = header[0], header[5], header[12], header[19]
+        start += 12 * colours
+        return [memoryview(data[start + y * line : start + (y + 1) * line]).cast("I") for y in range(height)]
+
+    def clipboard(self):
+        done = subprocess.run(["xclip", "-selection", "clipboard", "-o"], env=self.environment, capture_output=True,
+                              text=True, timeout=60)
+        return done.stdout
+
+    def set_clipboard(self, text):
+        subprocess.run(["xclip", "-selection", "clipboard", "-i"], env=self.environment, input=text, text=True,
+                       stdout=subprocess.DEVNULL, check=True, timeout=60)
+
+    def quit(self):
+        """Leaves as a user does, by Esc and Esc again; the exit code."""
+        self.xdotool("key", "--delay", "200", "Escape", "Escape")
+        return self.program.wait(timeout=30)
+
+    def right_click(self, x, y):
+        self.move(x, y)
+        self.xdotool("click", "3")
+
+    def settled(self, rows=None):
+        """The picture once tiles and panels stand still, in the first rows."""
+
+        def same():
+            one = self.grab()
+            time.sleep(0.15)
+            return one if differing(one, self.grab(), rows) == 0 else None
+
+        return wait_until("a picture at rest", same, 20)
+
+    def open_menu(self, x, y):
+        """By a right click; waits until the menu is there and stands still."""
+        self.move(x, y)
+        before = self.settled()
+        self.xdotool("click", "3")
+        wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
+        self.settled()
+
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""
         self.xdotool("mousemove", "799", "599", "windowfocus", "1")
@@ -165,7 +220,7 @@ class WindowTest(unittest.TestCase):
         kept = tempfile.TemporaryDirectory(prefix="terrella-kept-")
         self.addCleanup(kept.cleanup)
         self.kept = Path(kept.name)
-        for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+        for name in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_STATE_HOME"):
             self.display.environment[name] = kept.name
         # No hint over the pictures: what is kept is there, and empty.
         self.settings = self.kept / "terrella" / "settings.json"

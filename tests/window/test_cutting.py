@@ -68,8 +68,7 @@ class Cutting(WindowTest):
         closed = self.view()
         self.assert_goes_on_from(left)
         self.wait_for_bands(2)
-        closed.key("Escape")
-        self.assertEqual(closed.program.wait(timeout=30), 0)
+        self.assertEqual(closed.quit(), 0)
         self.assertEqual(closed.program.stderr.read(), "")
         self.assertIsNotNone(self.work(), "closing keeps what was done")
 
@@ -82,8 +81,7 @@ class Cutting(WindowTest):
         done = png.read(self.screenshot(last, "whole"))
         self.assertFalse(self.has_bar(done))
         self.assert_sand(done)
-        last.key("Escape")
-        self.assertEqual(last.program.wait(timeout=30), 0)
+        self.assertEqual(last.quit(), 0)
 
         again = self.view()
         time.sleep(1.0)

@@ -39,10 +39,9 @@ class FirstUse(WindowTest):
         self.save_a_picture(viewer)
         viewer.key("g")
         self.shoot(viewer, "graticule")
-        for _ in range(2):  # the layers, the window
-            viewer.key("Escape")
-            time.sleep(0.5)
-        self.assertEqual(viewer.program.wait(timeout=30), 0)
+        viewer.key("Escape")  # the layers
+        time.sleep(0.5)
+        self.assertEqual(viewer.quit(), 0)
         kept = json.loads(self.settings.read_text(encoding="utf-8"))
         self.assertEqual((kept["width"], kept["height"], kept["graticule"]), (WIDTH, HEIGHT, True))
         again = self.start(size=None)

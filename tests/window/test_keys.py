@@ -126,7 +126,7 @@ class Keys(WindowTest):
         self.assertLess(sum(png.pixel(keyed, *ground)), 0.97 * sum(png.pixel(plain, *ground)))
         self.assertTrue(viewer.camera_stays(), "the arrows were the panel's")
         # Its left half is most transparent.
-        viewer.drag((150, 106), (30, 106))
+        viewer.drag((150, 149), (30, 149))
         dragged = png.read(self.screenshot(viewer, "slid_by_pointer"))
         self.assertLess(sum(png.pixel(dragged, *ground)), 0.6 * sum(png.pixel(plain, *ground)))
         self.assertTrue(viewer.camera_stays(), "the drag was the panel's")
@@ -154,9 +154,20 @@ class Keys(WindowTest):
         viewer.key("f")
         wait_until("the window", lambda: viewer.geometry()[2:] == before[2:])
 
-    def test_escape_leaves(self):
+    def test_escape_asks_once_before_it_leaves(self):
         viewer = self.start("--camera", "20,10,12000000")
-        viewer.key("Escape")
+        plain = png.read(self.screenshot(viewer, "plain"))
+        for _ in range(2):  # the question is forgotten after 3 s
+            viewer.key("Escape")
+            time.sleep(0.5)
+            self.assertGreater(png.changed(plain, png.read(self.screenshot(viewer, "asked"))), 300, "no question")
+            time.sleep(4.0)
+            self.assertIsNone(viewer.program.poll(), "one Esc does not quit")
+        self.assertEqual(viewer.quit(), 0)
+
+    def test_control_q_leaves(self):
+        viewer = self.start("--camera", "20,10,12000000")
+        viewer.key("ctrl+q")
         self.assertEqual(viewer.program.wait(timeout=30), 0)
 
     def test_rests_when_nothing_happens(self):

@@ -80,6 +80,13 @@ LayerAsk draw_buttons(const LayerRow& row) {
   return ask;
 }
 
+void draw_attribution(const LayerRow& row) {
+  if (row.attribution.empty()) return;
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextDisabled("Source: %s", row.attribution.c_str());
+  ImGui::PopTextWrapPos();
+}
+
 LayerAsk draw_row(LayerRow& row) {
   ImGui::Checkbox("##shown", &row.look.shown);
   tip("Shows or hides the layer.");
@@ -91,6 +98,7 @@ LayerAsk draw_row(LayerRow& row) {
   if (row.numbers && !row.raster.empty()) row.numbers->lines.clear();
   if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
   if (row.kind == LayerKind::imagery) draw_look(row);
+  draw_attribution(row);
   const LayerAsk ask = draw_buttons(row);
   draw_facts(row);
   ImGui::TreePop();
@@ -103,13 +111,11 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
                       float foot, bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x - 0.8F * unit, 3.6F * unit}, ImGuiCond_Always, {1.0F, 0.0F});
-  const float width = std::min(kLayersWidth * unit, size.x - 1.6F * unit);
-  ImGui::SetNextWindowSize({width, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, size.y - foot - 5.8F * unit});
+  const float right = size.x - 0.8F * unit, left = std::max(0.8F * unit, right - kLayersWidth * unit);
+  place_panel(Ui::panel_room(left, right, foot));
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(title, nullptr, kPanelWindow);
+  begin_panel(title);
   ImGui::PushItemWidth(0.45F * kLayersWidth * unit);
   LayerWish wish;
   for (const LayerSwitch& more : switches) {
@@ -124,8 +130,9 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
   }
   ImGui::Separator();
   ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextDisabled(
-      "The highest layer is first. To add one, drop a picture, tile set, GeoJSON or glTF model onto the window.");
+  if (ImGui::Button("Add a layer")) wish.ask = LayerAsk::open;
+  tip("Ctrl + O: opens a file, a folder or an address. Dropping a file onto the window does the same.");
+  ImGui::TextDisabled("The highest layer is first.");
   ImGui::PopTextWrapPos();
   ImGui::PopItemWidth();
   ImGui::End();

@@ -26,6 +26,7 @@ struct LayerRow {
   std::optional<GeoRect> bounds = {};                       ///< set if known and smaller than the planet
   int finest_level = 0;                                     ///< imagery only
   std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
+  std::string attribution = {};                             ///< may be empty
   ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
   std::filesystem::path raster = {};                        ///< the file, if it may be a picture
   PlaceWords words = {};                                    ///< of the user, about its place
@@ -38,7 +39,7 @@ struct LayerRow {
   }
 };
 
-enum class LayerAsk { none, raise, lower, remove, look_at };
+enum class LayerAsk { none, raise, lower, remove, look_at, open };
 /// User's request that is not stored in `rows`.
 struct LayerWish {
   LayerAsk ask = LayerAsk::none;

@@ -88,10 +88,22 @@ std::string tick_text(double value, double step) {
 
 double window_height() { return static_cast<double>(ImGui::GetIO().DisplaySize.y); }
 
+UiBox legend_box(std::size_t items, double left, double bottom) {
+  const double unit = Ui::text_height();
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const double most = double(ImGui::GetIO().DisplaySize.x) - 2.0 * left;
+  const double width = std::min(double(kBarWidth) * unit + 2.0 * double(padding.x), most);
+  const double height = double(kItemHeight) * unit * double(items) + 2.0 * double(padding.y);
+  return {left, bottom - height, left + width, bottom};
+}
+
 void draw_legend(const std::vector<LegendItem>& items, double left, double bottom) {
   if (items.empty()) return;
   const float unit = ImGui::GetFontSize();
-  const ImVec2 inner{kBarWidth * unit, kItemHeight * unit * static_cast<float>(items.size())};
+  const UiBox box = legend_box(items.size(), left, bottom);
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 inner{static_cast<float>(box.right - box.left) - 2.0F * padding.x,
+                     static_cast<float>(box.bottom - box.top) - 2.0F * padding.y};
   begin_fixed("##legend", {static_cast<float>(left), static_cast<float>(bottom)}, {0.0F, 1.0F}, inner);
   ImDrawList* list = ImGui::GetWindowDrawList();
   ImVec2 at = ImGui::GetCursorScreenPos();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/viewer/panels/ui.h"
 #include "view/number_look.h"
 
 namespace terrella {
@@ -23,6 +24,9 @@ struct LegendItem {
 
 /// Height of the window in its units, within a frame. thread: main
 [[nodiscard]] double window_height();
+
+/// The rectangle of draw_legend(). thread: main
+[[nodiscard]] UiBox legend_box(std::size_t items, double left, double bottom);
 
 /// Draws a colour bar with ticks for each item, the first one highest, with the lower left corner at a place in units
 /// of the window. Between the begin and the end of a frame of Dear ImGui. thread: main

@@ -1,10 +1,13 @@
 #include "apps/viewer/panels/panel_items.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace terrella {
 namespace {
 
+constexpr float kLeastPanel = 4.0F;     // in text heights
 constexpr float kTipWidth = 18.0F;      // in text heights
 constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
@@ -20,21 +23,52 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
   ImGui::Begin(name, nullptr, kFixed);
 }
 
+namespace {
+
+bool cross_clicked = false;  // by the cross of the panel that is being drawn; there is one mouse
+
+}  // namespace
+
+void begin_panel(const char* title) {
+  bool open = true;
+  ImGui::Begin(title, &open, kPanelWindow);
+  if (!open) cross_clicked = true;
+}
+
+bool take_panel_closed() { return std::exchange(cross_clicked, false); }
+
 float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }
+
+void place_panel(const UiBox& room) {
+  const ImVec2 at{static_cast<float>(room.left), static_cast<float>(room.top)};
+  const float width = static_cast<float>(room.right) - at.x;
+  const float most = std::max(static_cast<float>(room.bottom) - at.y, kLeastPanel * ImGui::GetFontSize());
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize({width, 0.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
+}
 
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
-  // Beside the panel, where the tip does not hide the next items.
+  // Beside the panel, where the tip does not hide the next items, if there is room.
   const ImVec2 panel = ImGui::GetWindowPos();
   const bool left = panel.x + 0.5F * ImGui::GetWindowWidth() < 0.5F * ImGui::GetIO().DisplaySize.x;
   const float side = left ? panel.x + ImGui::GetWindowWidth() : panel.x;
-  ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
+  const float room = left ? ImGui::GetIO().DisplaySize.x - side : side;
+  const bool beside = room > kTipWidth * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+  if (beside) ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool entered() {
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+  return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible &&
+         (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
 }
 
 void group(const char* name) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "apps/viewer/panels/ui.h"
+
 namespace terrella {
 
 // Parts of panels, for use between Ui::begin_frame() and Ui::end_frame(). thread: main
@@ -12,14 +14,30 @@ namespace terrella {
 inline constexpr ImGuiWindowFlags kPanelWindow = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
+/// A panel beside the globe that takes the mouse but never the keyboard.
+inline constexpr ImGuiWindowFlags kFloatingWindow =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// Begins a panel with a title and a cross that closes it. End it with ImGui::End().
+void begin_panel(const char* title);
+/// True once after the cross of a panel was clicked.
+[[nodiscard]] bool take_panel_closed();
+
 /// Starts a panel of a given inner size at a corner; pivot (0, 1) is the lower left. The panel takes neither mouse nor
 /// keyboard. ImGui's own fitting follows the text one frame late, and the viewer may draw only one frame.
 void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
 /// Converts a line width at 96 dots per inch to units of the window.
 [[nodiscard]] float line_width(float width_px);
 
+/// Places the next panel at the room's upper edge with the room's width, as high as its contents, and at most as the
+/// room.
+void place_panel(const UiBox& room);
+
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);
+/// True if the Enter key was pressed on the preceding item. ImGui itself takes the space bar alone.
+[[nodiscard]] bool entered();
 /// Draws the title of a group and a line below.
 void group(const char* name);
 void slide(const char* name, double& value, double from, double to, const char* format,

@@ -1,5 +1,6 @@
 #include "apps/viewer/panels/readout.h"
 
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -55,6 +56,10 @@ std::string area_text(double area_m2) {
   constexpr double kSquareKilometre_m2 = 1.0e6, kLeastInKilometres = 0.1;
   const double km2 = area_m2 / kSquareKilometre_m2;
   return km2 < kLeastInKilometres ? three_digits(area_m2) + " m²" : three_digits(km2) + " km²";
+}
+
+std::string time_text(UtcTime time) {
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
 std::optional<ScaleBar> scale_bar(const View& view, const Ground& ground, double most_px) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geo/camera.h"
+#include "sky/utc_time.h"
 #include "view/ground.h"
 
 namespace terrella {
@@ -16,6 +17,9 @@ namespace terrella {
 
 /// Formats an area with three significant digits: "12 m²", "3.4 km²", "384,000 km²".
 [[nodiscard]] std::string area_text(double area_m2);
+
+/// Formats a time, for example "2026-06-21 12:00 UTC".
+[[nodiscard]] std::string time_text(UtcTime time);
 
 /// A bar with a round length on the ground.
 struct ScaleBar {

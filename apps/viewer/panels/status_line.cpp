@@ -11,12 +11,15 @@
 namespace terrella {
 namespace {
 
-constexpr float kMargin = 0.8F;         // in text heights, between panels and the window's edge
-constexpr float kUnderMessage = 0.4F;   // in text heights, between the message and the status line
-constexpr float kUnderFirstRow = 2.8F;  // in text heights
-constexpr float kTick = 0.35F;          // in text heights, of the scale bar
+constexpr float kMargin = 0.8F;          // in text heights, between panels and the window's edge
+constexpr float kUnderMessage = 0.4F;    // in text heights, between the message and the status line
+constexpr float kMessageHeight = 4.0F;   // in text heights, of most messages
+constexpr float kLeastMessage = 14.0F;   // in text heights, of a message beside panels
+constexpr float kWidestMessage = 0.85F;  // of the window
+constexpr float kLeastHeight = 14.0F;    // in text heights, of a window with a scale bar
+constexpr float kNarrow = 50.0F;         // in text heights; the attribution takes the whole width of a narrower window
+constexpr float kTick = 0.35F;           // in text heights, of the scale bar
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
-const ImU32 kMessageShade = IM_COL32(13, 20, 31, 235);
 
 float margin() { return kMargin * ImGui::GetFontSize(); }
 
@@ -40,9 +43,9 @@ float row_width(const std::vector<Field>& fields) {
   return fields.empty() ? 0.0F : width;
 }
 
-/// Returns the fields with text, without the last ones if the panel would be wider than `most`.
+/// Returns the fields with text that fit alone, without the last ones if the panel would be wider than `most`.
 std::vector<Field> fitted(std::vector<Field> fields, float most) {
-  std::erase_if(fields, [](const Field& field) { return field.text.empty(); });
+  std::erase_if(fields, [most](const Field& field) { return field.text.empty() || row_width({field}) > most; });
   while (row_width(fields) > most) fields.pop_back();
   return fields;
 }
@@ -59,17 +62,49 @@ void draw_row(const char* name, const std::vector<Field>& fields, ImVec2 at, ImV
   ImGui::End();
 }
 
-/// Draws wrapped text over all panels, centred above a position; empty text draws nothing.
-void draw_paragraph(const std::string& text, ImVec2 at) {
-  if (text.empty()) return;
-  const float widest = 0.85F * ImGui::GetIO().DisplaySize.x;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+/// Draws a panel with wrapped text; empty text draws nothing.
+void draw_wrapped(const char* name, const Field& field, ImVec2 at, ImVec2 pivot, float widest) {
+  if (field.text.empty()) return;
+  const ImVec2 size = ImGui::CalcTextSize(field.text.c_str(), nullptr, false, widest);
+  begin_fixed(name, at, pivot, size);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
+  draw_text(field);
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+/// Draws wrapped text with its upper edge and a share of its width at a position, unless it would cover other texts.
+void draw_at_head(const char* name, const Field& field, ImVec2 at, float share, float widest) {
+  const ImVec2 size = ImGui::CalcTextSize(field.text.c_str(), nullptr, false, widest);
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const ImVec2 from{std::floor(at.x - 0.5F * size.x), std::floor(at.y - padding.y - size.y)};
-  ImDrawList* list = ImGui::GetForegroundDrawList();
-  list->AddRectFilled({from.x - padding.x, from.y - padding.y}, {from.x + size.x + padding.x, at.y}, kMessageShade,
-                      ImGui::GetStyle().WindowRounding);
-  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), from, kInk, text.c_str(), nullptr, widest);
+  const double width = double(size.x + 2.0F * padding.x), left = double(at.x) - double(share) * width;
+  const UiBox box{left, double(at.y), left + width, double(at.y + size.y + 2.0F * padding.y)};
+  const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
+  if (box.bottom > double(ImGui::GetIO().DisplaySize.y)) return;
+  if (std::ranges::none_of(Ui::panel_boxes(), covers)) draw_wrapped(name, field, at, {share, 0.0F}, widest);
+}
+
+/// The room for a message: from left to right, and up from the bottom.
+struct MessageRoom {
+  float left, right, bottom;
+};
+
+/// The room beside the panels that reach down to the message, or the whole width above the texts at the lower edge.
+MessageRoom room_for_message(float foot) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float unit = ImGui::GetFontSize(), bottom = size.y - foot - kUnderMessage * unit;
+  MessageRoom beside{margin(), size.x - margin(), bottom}, above = beside;
+  const auto avoid = [&](const UiBox& box, bool text) {
+    const auto left = static_cast<float>(box.left), right = static_cast<float>(box.right);
+    const auto top = static_cast<float>(box.top);
+    if (static_cast<float>(box.bottom) < bottom - kMessageHeight * unit || top > bottom) return;
+    0.5F * (left + right) < 0.5F * size.x ? beside.left = std::max(beside.left, right + 0.5F * margin())
+                                          : beside.right = std::min(beside.right, left - 0.5F * margin());
+    if (text && top > 0.3F * size.y) above.bottom = std::min(above.bottom, top - 0.5F * margin());
+  };
+  for (const UiBox& box : Ui::panel_boxes()) avoid(box, true);
+  for (const UiBox& box : Ui::last_panels()) avoid(box, false);
+  return beside.right - beside.left < kLeastMessage * unit ? above : beside;
 }
 
 /// Size of the scale bar with its text, without the panel's padding.
@@ -100,10 +135,10 @@ void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
 float draw_foot(const PanelStatus& status, double unit_px) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), room = size.x - 2.0F * gap;
-  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.frame, true}}, room);
+  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.time, true}}, room);
   draw_row("##status", fields, {gap, size.y - gap}, {0.0F, 1.0F});
   const float row = ImGui::GetFontSize() + 2.0F * padding.y;
-  if (!status.scale) return gap + row;
+  if (!status.scale || size.y < kLeastHeight * ImGui::GetFontSize()) return gap + row;
   const ImVec2 scale = scale_size(*status.scale, unit_px);
   const bool above = row_width(fields) + gap + scale.x + 2.0F * padding.x > room;
   const float foot = above ? 1.5F * gap + row : gap;
@@ -113,17 +148,23 @@ float draw_foot(const PanelStatus& status, double unit_px) {
 
 }  // namespace
 
-float draw_status(const PanelStatus& status, double unit_px) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float unit = ImGui::GetFontSize(), gap = margin();
-  const float foot = draw_foot(status, unit_px);
-  draw_row("##attribution", fitted({{status.attribution, true}}, INFINITY), {size.x - gap, gap}, {1.0F, 0.0F});
-  draw_row("##measure", fitted({{status.measure}}, INFINITY), {0.5F * size.x, gap + kUnderFirstRow * unit},
-           {0.5F, 0.0F});
-  std::string told = status.job;
-  if (!told.empty() && !status.message.empty()) told += "\n";
-  draw_paragraph(told + status.message, {0.5F * size.x, size.y - foot - kUnderMessage * unit});
-  return foot;
+float draw_status(const PanelStatus& status, double unit_px) { return draw_foot(status, unit_px); }
+
+void draw_head(const PanelStatus& status) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
+  const float gap = margin(), whole = size.x - 2.0F * gap - 2.0F * padding.x;
+  const bool narrow = size.x < kNarrow * ImGui::GetFontSize();
+  draw_at_head("##attribution", {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
+}
+
+void draw_message(const PanelStatus& status, float foot) {
+  std::string text = status.job;
+  if (!text.empty() && !status.message.empty()) text += "\n";
+  text += status.message;
+  const MessageRoom room = room_for_message(foot);
+  const float whole = std::min(room.right - room.left, kWidestMessage * ImGui::GetIO().DisplaySize.x);
+  draw_wrapped("##message", {text}, {0.5F * (room.left + room.right), room.bottom}, {0.5F, 1.0F},
+               whole - 2.0F * ImGui::GetStyle().WindowPadding.x);
 }
 
 }  // namespace terrella

@@ -12,18 +12,25 @@ struct PanelStatus {
   std::string cursor;       ///< latitude and longitude under the cursor; empty beside the globe
   std::string eye;          ///< height of the eye
   std::string tiles;        ///< empty when no tile is loading
-  std::string frame;        ///< frame time
+  std::string time;         ///< time of the sky; empty without one
   std::string message;      ///< message of the last action, shown for some seconds; may be empty
   std::string job;          ///< running job and its progress; may be empty
-  std::string measure;      ///< current measurement; may be empty
   std::string attribution;  ///< attribution of the visible layers; may be empty
   std::optional<ScaleBar> scale;
 };
 
-/// Draws the status line, the scale bar, the attribution and the message, between Ui::begin_frame() and
-/// Ui::end_frame(). A narrow window shows the scale bar above the status line, and leaves out the last fields.
-/// `unit_px`: framebuffer pixels per unit of the window. Returns the height that the panels at the lower edge use, in
-/// units. thread: main
+// The following functions draw between Ui::begin_frame() and Ui::end_frame(), in this order. thread: main
+
+/// Draws the status line and the scale bar. A narrow window shows the scale bar above the status line, and leaves out
+/// the last fields; a low one has no scale bar. `unit_px`: framebuffer pixels per unit of the window. Returns the
+/// height that they use at the lower edge, in units.
 float draw_status(const PanelStatus& status, double unit_px);
+
+/// Draws the job and the message above the `foot` units at the lower edge, beside the panels of the last frame if there
+/// is room.
+void draw_message(const PanelStatus& status, float foot);
+
+/// Draws the attribution at the upper edge, wrapped, unless a tiny window has no room beside the message.
+void draw_head(const PanelStatus& status);
 
 }  // namespace terrella

@@ -14,6 +14,7 @@ namespace terrella {
 namespace {
 
 constexpr float kText_px = 15.0F;
+constexpr float kTopMargin = 0.8F;  // in text heights
 
 // Paths of DejaVu Sans in common distributions; the fallback is ImGui's own small font.
 constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -57,7 +58,17 @@ void fit_to(const Window& window) {
   set_style(window.text_scale() / unit_px);
 }
 
-bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NoMouse) == 0; }
+/// True for a window that the program drew in this frame.
+bool is_panel(const ImGuiWindow& window) {
+  return window.Active && !window.IsFallbackWindow && window.RootWindow == &window;
+}
+
+/// True for texts, which take neither mouse nor keyboard.
+bool is_text(const ImGuiWindow& window) {
+  return (window.Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs;
+}
+
+bool takes_events() { return (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0; }
 
 /// True for keys that panels use; letters only act with Ctrl.
 bool panels_act_on(int key) {
@@ -66,13 +77,17 @@ bool panels_act_on(int key) {
   return (!letter || io.KeyCtrl) && std::ranges::find(io.KeyMap, key) != std::end(io.KeyMap);
 }
 
+UiBox box_of(const ImGuiWindow& window) {
+  return {window.Pos.x, window.Pos.y, window.Pos.x + window.Size.x, window.Pos.y + window.Size.y};
+}
+
 }  // namespace
 
 Ui::Ui(const Window& window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   fit_to(window);
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);
   ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -98,9 +113,28 @@ void Ui::end_frame() {
 
 void Ui::take_events(bool on) {
   int& flags = ImGui::GetIO().ConfigFlags;
-  flags = on ? ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NavEnableKeyboard
-             : ImGuiConfigFlags_NoMouseCursorChange | ImGuiConfigFlags_NoMouse;
+  flags = ImGuiConfigFlags_NoMouseCursorChange | (on ? int(ImGuiConfigFlags_NavEnableKeyboard) : 0);
 }
+
+// Looks at the last frame's panels. ImGui's own answer is about the pointer's place in the last frame.
+bool Ui::is_over_panel(glm::dvec2 at) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.OpenPopupStack.Size > 0) return true;
+  return std::ranges::any_of(context.Windows, [at](const ImGuiWindow* window) {
+    if (!window->Active || window->Hidden || window->IsFallbackWindow) return false;
+    if ((window->Flags & ImGuiWindowFlags_NoMouseInputs) != 0) return false;
+    return window->Rect().Contains({float(at.x), float(at.y)});
+  });
+}
+
+glm::dvec2 Ui::size_of(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window == nullptr ? glm::dvec2(0.0) : glm::dvec2(window->Size.x, window->Size.y);
+}
+
+bool Ui::has_text_field() { return ImGui::GetIO().WantTextInput; }
+
+void Ui::show_focus() { ImGui::GetCurrentContext()->NavDisableHighlight = false; }
 
 bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
 
@@ -112,16 +146,14 @@ void Ui::rescale(const Window& window) {
   ImGui_ImplOpenGL3_DestroyFontsTexture();  // recreated at the start of the next frame
 }
 
-bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers) {
-  if (!takes_events()) return false;
+bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const {
   ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
-  return ImGui::GetIO().WantCaptureMouse;
+  return mouse_held_ || is_over_panel(at);
 }
 
-bool Ui::on_scroll(GLFWwindow* window, double x, double y) {
-  if (!takes_events()) return false;
+bool Ui::on_scroll(GLFWwindow* window, double x, double y, glm::dvec2 at) const {
   ImGui_ImplGlfw_ScrollCallback(window, x, y);
-  return ImGui::GetIO().WantCaptureMouse;
+  return mouse_held_ || is_over_panel(at);
 }
 
 bool Ui::on_key(int key, int action) {
@@ -176,11 +208,48 @@ double Ui::text_height() { return double(ImGui::GetFontSize()); }
 
 std::vector<UiBox> Ui::panel_boxes() {
   std::vector<UiBox> boxes;
+  const ImGuiWindow* menu = ImGui::FindWindowByName(kMenuTitle);
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (!window->Active || window->IsFallbackWindow || window->RootWindow != window) continue;
-    boxes.push_back({window->Pos.x, window->Pos.y, window->Pos.x + window->Size.x, window->Pos.y + window->Size.y});
+    const bool over_panels = (window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0;
+    if (is_panel(*window) && window != menu && !over_panels) boxes.push_back(box_of(*window));
   }
   return boxes;
+}
+
+std::optional<UiBox> Ui::panel_box(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window == nullptr ? std::nullopt : std::optional(box_of(*window));
+}
+
+std::optional<UiBox> Ui::shown_box(const char* title) {
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window != nullptr && window->Active ? std::optional(box_of(*window)) : std::nullopt;
+}
+
+std::vector<UiBox> Ui::last_panels() {
+  std::vector<UiBox> boxes;
+  const ImGuiWindow* menu = ImGui::FindWindowByName(kMenuTitle);
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const bool drawn = window->WasActive && !window->IsFallbackWindow && window->RootWindow == window;
+    const bool passing = (window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup)) != 0;
+    if (drawn && !passing && window != menu && !is_text(*window)) boxes.push_back(box_of(*window));
+  }
+  return boxes;
+}
+
+UiBox Ui::panel_room(float left, float right, float foot) {
+  const double margin = double(kTopMargin) * text_height(), height = double(ImGui::GetIO().DisplaySize.y);
+  UiBox room{left, margin, right, height - double(foot) - margin};
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const UiBox box = box_of(*window);
+    if (!is_panel(*window) || !is_text(*window) || box.left >= room.right || box.right <= room.left) continue;
+    if (0.5 * (box.top + box.bottom) < 0.5 * height) {
+      room.top = std::max(room.top, box.bottom + margin);
+    } else {
+      room.bottom = std::min(room.bottom, box.top - 0.5 * margin);
+    }
+  }
+  return room;
 }
 
 }  // namespace terrella

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <deque>
+#include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "apps/viewer/window.h"
 
 namespace terrella {
+
+inline constexpr const char* kMenuTitle = "Menu";
 
 /// Rectangle in units of the window.
 struct UiBox {
@@ -15,8 +19,8 @@ struct UiBox {
   }
 };
 
-/// Dear ImGui for a window: context, font, style and drawing. Panels keep events only while an interactive panel is
-/// open. Key states are always tracked, even for events that a panel keeps. thread: main
+/// Dear ImGui for a window: context, font, style and drawing. Panels keep the mouse's events over them, and keys only
+/// while an interactive panel is open. Key states are always tracked, even for events that a panel keeps. thread: main
 class Ui {
  public:
   explicit Ui(const Window& window);
@@ -27,8 +31,18 @@ class Ui {
   /// Panels may be created between begin_frame() and end_frame(); end_frame() draws them into the current framebuffer.
   void begin_frame();
   void end_frame();
-  /// Enables or disables mouse and keyboard in panels.
+  /// Enables or disables the keyboard in panels.
   void take_events(bool on);
+  /// On: panels keep every press and turn of the wheel, also beside them, as while a menu is open.
+  void hold_mouse(bool on) { mouse_held_ = on; }
+  /// True if a panel that takes the mouse is at a place, in units of the window.
+  [[nodiscard]] static bool is_over_panel(glm::dvec2 at);
+  /// Size of a panel by its title, in units of the window; 0 × 0 before its first frame.
+  [[nodiscard]] static glm::dvec2 size_of(const char* title);
+  /// True if a text field has the keyboard.
+  [[nodiscard]] static bool has_text_field();
+  /// Marks the item that has the keyboard, before the first key.
+  static void show_focus();
   /// Moves the keyboard from the globe to the panel with this title, or from any panel to the globe.
   static void pass_keyboard(const char* title);
   [[nodiscard]] static bool panel_has_keyboard();
@@ -42,8 +56,9 @@ class Ui {
   /// True if keys or characters wait for another frame.
   [[nodiscard]] bool has_waiting() const { return !waiting_.empty(); }
   // Event handlers. They return true if a panel keeps the event, and false while events are disabled.
-  static bool on_button(GLFWwindow* window, int button, int action, int modifiers);
-  static bool on_scroll(GLFWwindow* window, double x, double y);
+  // `at` is the pointer's place, in units of the window.
+  bool on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const;
+  bool on_scroll(GLFWwindow* window, double x, double y, glm::dvec2 at) const;
   bool on_key(int key, int action);
   bool on_character(unsigned character);
   static void on_enter(GLFWwindow* window, int entered);
@@ -52,8 +67,19 @@ class Ui {
   static void use_text(float scale);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
-  /// Rectangles of the panels that this frame has so far; within a frame.
+  /// Rectangles of the panels that this frame has so far, without tips, lists of choices and the menu; within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
+  /// Rectangles of the panels with mouse and keyboard that the last frame had; within a frame.
+  [[nodiscard]] static std::vector<UiBox> last_panels();
+  /// Rectangle of the panel with this title when it was last drawn; nullopt if it never was.
+  [[nodiscard]] static std::optional<UiBox> panel_box(const char* title);
+  /// Rectangle of the panel with this title, if this frame has it so far.
+  [[nodiscard]] static std::optional<UiBox> shown_box(const char* title);
+  /// The room of a panel between two abscissas: under the texts at the window's upper edge, and above those at the
+  /// lower edge, of which the status line takes `foot` units. Within a frame.
+  [[nodiscard]] static UiBox panel_room(float left, float right, float foot);
+  /// Counts opened panels, so that the newest one can be told.
+  [[nodiscard]] unsigned next_panel() { return ++panels_; }
 
  private:
   enum class Stroke { press, release, character };
@@ -64,8 +90,10 @@ class Ui {
   void hand_over_waiting();
 
   std::deque<KeyEvent> waiting_;  ///< in order of arrival
+  unsigned panels_ = 0;
   bool text_expected_ = false;
   bool field_ready_ = false;
+  bool mouse_held_ = false;
 };
 
 }  // namespace terrella

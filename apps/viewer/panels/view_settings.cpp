@@ -10,13 +10,15 @@
 #include <ctime>
 
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/parts/time_play.h"
 
 namespace terrella {
 namespace {
 
 constexpr float kWidth = 23.0F;  // in text heights
 constexpr double kDeepest_km = 6000.0, kShallowest_km = 150.0;
-constexpr UtcTime kFirstTime{std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours{12}};
+constexpr std::array kSpeeds = {1.0, 60.0, 600.0, 3600.0, 86400.0};
+constexpr std::array kSpeedNames = {"1x", "60x", "600x", "3600x", "86400x"};
 
 void draw_surface(SurfaceLook& surface) {
   slide("Opacity", surface.alpha, 0.0, 1.0, "%.2f");
@@ -85,6 +87,23 @@ void draw_time_sliders(ViewSettings& settings) {
   set_time(settings, new_year + days{of_year - 1} + minutes{static_cast<int>(hour * 60.0)});
 }
 
+void draw_play(ViewSettings& settings) {
+  if (ImGui::Button(settings.playing ? "Pause" : "Play")) settings.playing = !settings.playing;
+  tip("T: plays or pauses the time.");
+  ImGui::SameLine();
+  auto speed = std::size_t(std::ranges::find(kSpeeds, settings.speed) - kSpeeds.begin()) % kSpeeds.size();
+  ImGui::SetNextItemWidth(0.3F * kWidth * ImGui::GetFontSize());
+  choose("Speed", speed, kSpeedNames);
+  settings.speed = kSpeeds[speed];
+  tip("At 60x a minute passes in a second, at 3600x an hour, at 86400x a day.");
+}
+
+void draw_night_lights(ViewSettings& settings) {
+  if (!settings.has_lights) return;
+  ImGui::Checkbox("Night lights", &settings.night_lights);
+  tip("Lights of the cities on the night side.");
+}
+
 void draw_time(ViewSettings& settings) {
   if (settings.written != settings.time) set_time(settings, settings.time);
   std::array<char, 40> text{};
@@ -93,6 +112,7 @@ void draw_time(ViewSettings& settings) {
                                ImGuiInputTextFlags_EnterReturnsTrue)) {
     settings.time_text = text.data();
     const Result<UtcTime> time = parse_utc(settings.time_text);
+    if (time && !settings.time) settings.night_lights = settings.has_lights;
     if (time) set_time(settings, *time);
     if (!time) settings.time_problem = time.error().message;
   }
@@ -100,16 +120,21 @@ void draw_time(ViewSettings& settings) {
       "viewer's shoulder.");
   if (!settings.time_problem.empty()) ImGui::TextWrapped("%s", settings.time_problem.c_str());
   bool has_time = settings.time.has_value();
-  if (ImGui::Checkbox("Sun, Moon and stars at a time", &has_time)) {
-    set_time(settings, has_time ? std::optional<UtcTime>(kFirstTime) : std::nullopt);
+  if (ImGui::Checkbox("Use date and time", &has_time)) {
+    set_time(settings, has_time ? std::optional<UtcTime>(present_time()) : std::nullopt);
+    settings.night_lights = has_time && settings.has_lights;
   }
-  tip("City lights need a start with --time.");
-  if (settings.time) draw_time_sliders(settings);
+  tip("Places Sun, Moon and stars as they are at the time above. Begins with the present.");
+  if (!settings.time) return;
+  draw_time_sliders(settings);
+  draw_play(settings);
+  draw_night_lights(settings);
 }
 
 void draw_stereo(StereoLook& stereo) {
   choose("Stereo", stereo.mode, std::array{"off", "side by side", "interlaced", "anaglyph"});
-  tip("S. anaglyph: red glass for the left eye, cyan for the right. interlaced: even rows for the left eye. side by "
+  tip("S: next kind. anaglyph: red glass for the left eye, cyan for the right. interlaced: even rows for the left eye. "
+      "side by "
       "side: the left eye's picture is on the left.");
   bool by_itself = !stereo.eye_separation_m.has_value();
   if (ImGui::Checkbox("Automatic eye separation", &by_itself)) {
@@ -147,12 +172,11 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
                                  bool just_opened) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.8F * unit, 0.8F * unit});
-  ImGui::SetNextWindowSize({kWidth * unit, 0.0F});
-  ImGui::SetNextWindowSizeConstraints({kWidth * unit, 0.0F}, {kWidth * unit, size.y - foot - 1.8F * unit});
+  const float left = 0.8F * unit, right = std::min(left + kWidth * unit, size.x - left);
+  place_panel(Ui::panel_room(left, right, foot));
   ImGui::SetNextWindowBgAlpha(0.85F);
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(title, nullptr, kPanelWindow);
+  begin_panel(title);
   ImGui::PushItemWidth(0.5F * kWidth * unit);
   const Action* clicked = draw_buttons(actions);
   group("Surface");

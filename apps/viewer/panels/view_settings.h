@@ -21,6 +21,10 @@ struct ViewSettings {
   std::string time_text;           ///< text as typed so far
   std::string time_problem;        ///< fault in the text; may be empty
   std::optional<UtcTime> written;  ///< time last written to `time_text`
+  bool has_lights = false;         ///< true if the globe can draw city lights
+  bool night_lights = false;
+  bool playing = false;  ///< the time runs
+  double speed = 1.0;    ///< seconds of the sky per second
   bool has_relief = false;
   double exaggeration = 1.0;
 };

@@ -30,9 +30,59 @@ void BookmarkViews::fly_to(int number) {
 void BookmarkViews::save(int number) {
   if (!load()) return;
   bookmarks_.set(number, context_.navigator.camera());
+  keep(fmt::format("Bookmark {} saved", number));
+}
+
+void BookmarkViews::save_as_next() {
+  if (!load()) return;
+  const auto number = bookmarks_.free_number();
+  if (!number)
+    return say(fmt::format("All {} bookmarks are in use; K opens the list, where one can go", Bookmarks::kMost));
+  save(*number);
+}
+
+void BookmarkViews::keep(const std::string& done) const {
   const auto file = bookmarks_file();
   const Status saved = file ? bookmarks_.save(*file) : Status(Error{"Kept until the window closes: HOME is not set"});
-  say(saved ? fmt::format("Bookmark {} saved", number) : saved.error().message);
+  say(saved ? done : saved.error().message);
+}
+
+void BookmarkViews::draw_open(float foot) {
+  const bool just_opened = take_just_opened();
+  const BookmarkWish wish = draw_bookmarks(panel(), bookmarks_, edit_, removed_.has_value(), foot, just_opened);
+  if (wish.ask == BookmarkAsk::fly_to) return fly_to(wish.number);
+  if (wish.ask == BookmarkAsk::save) return save_as_next();
+  if (wish.ask != BookmarkAsk::none && load()) change(wish);
+}
+
+void BookmarkViews::change(const BookmarkWish& wish) {
+  const auto found = bookmarks_.all().find(wish.number);
+  if (wish.ask == BookmarkAsk::restore && removed_) {
+    const auto [number, bookmark] = *std::exchange(removed_, {});
+    const int free = bookmarks_.at(number) ? bookmarks_.free_number().value_or(number) : number;
+    bookmarks_.set(free, bookmark.camera);
+    bookmarks_.rename(free, bookmark.name);
+    return keep(fmt::format("Bookmark {} restored", free));
+  }
+  if (found == bookmarks_.all().end()) return;  // another window has removed it
+  if (wish.ask == BookmarkAsk::raise) return move(wish.number, -1);
+  if (wish.ask == BookmarkAsk::lower) return move(wish.number, 1);
+  if (wish.ask == BookmarkAsk::rename) {
+    bookmarks_.rename(wish.number, wish.name);
+    return keep(fmt::format("Bookmark {} renamed", wish.number));
+  }
+  removed_ = *found;
+  edit_ = {};
+  bookmarks_.remove(wish.number);
+  keep(fmt::format("Bookmark {} deleted", wish.number));
+}
+
+void BookmarkViews::move(int number, int by) {
+  const int other = number + by;
+  if (other < 1 || other > Bookmarks::kMost) return;
+  bookmarks_.exchange(number, other);
+  edit_.number = other;
+  keep(fmt::format("Bookmark {} is now bookmark {}", number, other));
 }
 
 }  // namespace terrella

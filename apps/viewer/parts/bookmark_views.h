@@ -1,23 +1,37 @@
 #pragma once
 
+#include <optional>
+#include <utility>
+
+#include "apps/viewer/panels/bookmark_panel.h"
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/tools/bookmarks.h"
 
 namespace terrella {
 
-/// Saves views under numbers and flies to them. Owns the bookmarks. thread: main
-class BookmarkViews : public Part {
+/// Saves views under numbers and names, and flies to them. Owns the bookmarks and their panel. thread: main
+class BookmarkViews : public Panel {
  public:
-  explicit BookmarkViews(const ViewerContext& context) : Part(context) {}
+  explicit BookmarkViews(const ViewerContext& context) : Panel(context, "Bookmarks") {}
 
   // `number` in [1, Bookmarks::kMost].
   void fly_to(int number);
   void save(int number);
+  void save_as_next();  ///< saves the view under the lowest free number
 
  private:
+  bool can_open() override { return load(); }
+  void toggled() override { edit_ = {}; }
+  void draw_open(float foot) override;
   [[nodiscard]] bool load();
+  void change(const BookmarkWish& wish);
+  void move(int number, int by);
+  /// Writes the file and tells how it went.
+  void keep(const std::string& done) const;
 
   Bookmarks bookmarks_;
+  BookmarkEdit edit_;
+  std::optional<std::pair<int, Bookmark>> removed_;  ///< by the last removal
 };
 
 }  // namespace terrella

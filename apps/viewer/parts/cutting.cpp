@@ -11,8 +11,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kFromTop = 0.8F;  // in text heights
-constexpr float kBarWidth = 24.0F;
+constexpr float kBarWidth = 24.0F;  // in text heights
 
 int percent_of(const GrowingCut::State& state) { return static_cast<int>(100.0 * state.share); }
 
@@ -41,8 +40,11 @@ void Cutting::draw(float) {
   });
   if (rows_.empty()) return;
   const float unit = ImGui::GetFontSize(), line = ImGui::GetFrameHeightWithSpacing();
-  begin_fixed("##cutting", {0.5F * ImGui::GetIO().DisplaySize.x, kFromTop * unit}, {0.5F, 0.0F},
-              {kBarWidth * unit, static_cast<float>(rows_.size()) * line});
+  const float middle = 0.5F * ImGui::GetIO().DisplaySize.x,
+              half = std::min(0.5F * kBarWidth * unit, middle - 2.0F * unit);
+  begin_fixed("##cutting",
+              {middle, static_cast<float>(Ui::panel_room(middle - half - unit, middle + half + unit, 0.0F).top)},
+              {0.5F, 0.0F}, {2.0F * half, static_cast<float>(rows_.size()) * line});
   for (Row& row : rows_) {
     row.percent = percent_of(row.cut->state());
     const std::string name = row.cut->picture().filename().string();

@@ -9,12 +9,14 @@
 
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
+#include "apps/viewer/tools/recent_files.h"
 
 namespace terrella {
 namespace {
 
 constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
 constexpr double kLegendGap = 0.8;         // in text heights, to the window's edge and the status line
+constexpr double kHighWindow = 18.0;       // in text heights, over the legend
 constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
 
 /// Looks straight down on the middle, from a height that shows the whole rectangle.
@@ -30,6 +32,16 @@ Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, do
   return camera;
 }
 
+/// Puts an opened file into the list of recent files.
+Status remember(const std::filesystem::path& opened) {
+  const auto file = recent_file();
+  if (!file) return Done{};
+  Result<RecentFiles> recent = RecentFiles::load(*file);
+  if (!recent) return recent.error();
+  recent->add(opened.string());
+  return recent->save(*file);
+}
+
 }  // namespace
 
 Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
@@ -42,7 +54,7 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
 
 bool Layers::changed() const {
   const auto has_news = [](const LayerRow& row) { return !row.facts_drawn && row.has_facts(); };
-  return files_.ready() || value_.ready() || std::ranges::any_of(rows_, has_news);
+  return files_.ready() || value_.ready() || open_wish_ || std::ranges::any_of(rows_, has_news);
 }
 
 void Layers::draw_open(float foot) {
@@ -64,19 +76,25 @@ void Layers::draw_open(float foot) {
       return look_at(*rows_[wish.row].bounds);
     case LayerAsk::remove:
       return remove(wish.row);
+    case LayerAsk::open:
+      open_wish_ = true;
+      return;
   }
 }
 
-void Layers::draw(float foot) {
+void Layers::draw_legend(float foot, bool before_panels) const {
   std::vector<LegendItem> items;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
     if (!row->numbers || !row->look.numbers || !row->look.shown) continue;
     items.push_back(
         {.title = legend_title(row->name, *row->numbers), .unit = row->numbers->unit, .look = *row->look.numbers});
   }
-  const double gap = kLegendGap * Ui::text_height();
-  draw_legend(items, gap, window_height() - static_cast<double>(foot) - gap);
-  Panel::draw(foot);
+  const double gap = kLegendGap * Ui::text_height(), bottom = window_height() - double(foot) - gap;
+  const UiBox box = legend_box(items.size(), gap, bottom);
+  const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
+  const bool high = box.top > kHighWindow * Ui::text_height();
+  if (high == before_panels && std::ranges::none_of(Ui::panel_boxes(), covers))
+    terrella::draw_legend(items, gap, bottom);
 }
 
 std::string Layers::value_at(const Geodetic& place) {
@@ -163,9 +181,8 @@ bool Layers::cancel() {
 }
 
 void Layers::add(OpenedFile file) {
-  LayerRow row{.name = file.path.filename().string()};
+  LayerRow row{.name = shown_name(file.path)};
   if (is_picture(file.path)) row.raster = file.path;
-  if (row.name.empty()) row.name = file.path.string();
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
   if (auto* layer = std::get_if<ImageryLayer>(&file.what)) {
@@ -183,12 +200,14 @@ void Layers::add(OpenedFile file) {
   if (!added) return say(row.name + ": " + added.error().message);
   if (row.bounds) look_at(*row.bounds);
   insert(std::move(row));
-  say(std::move(told));
+  const Status kept = remember(file.path);
+  say(kept ? std::move(told) : kept.error().message);
 }
 
 Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
   row.bounds = if_a_part(layer.tiles->info().grid.bounds);
   row.finest_level = layer.tiles->info().grid.max_level;
+  row.attribution = layer.tiles->info().attribution;
   const auto id = context_.globe.add_imagery(std::move(layer.tiles), layer.look);
   if (!id) return id.error();
   row.look = layer.look;
@@ -199,6 +218,7 @@ Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
 
 Status Layers::add_heights(const ElevationSource& heights, LayerRow& row) {
   row.kind = LayerKind::heights;
+  row.attribution = heights.tiles()->info().attribution;
   if (Status used = use_heights(heights); !used) return used;
   heights_ = heights;
   std::erase_if(rows_, [](const LayerRow& layer) { return layer.kind == LayerKind::heights; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "apps/viewer/panels/layer_panel.h"
@@ -24,11 +25,15 @@ class Layers : public Panel {
   /// Adds the files that are open by now as layers. Call this once per frame. Returns the cuts of their pictures.
   [[nodiscard]] std::vector<std::shared_ptr<GrowingCut>> take_opened();
 
+  /// True once after a click on the button that opens a file.
+  [[nodiscard]] bool take_open_wish() { return std::exchange(open_wish_, false); }
+
   [[nodiscard]] std::string job() const override { return files_.text(); }
   [[nodiscard]] bool changed() const override;
   bool cancel() override;
-  /// Draws the legend of the shown layers of numbers, and the panel if it is open.
-  void draw(float foot) override;
+  /// Draws the legend of the shown layers of numbers above the `foot` units at the lower edge. A high window shows the
+  /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
+  void draw_legend(float foot, bool before_panels) const;
   /// The value that the highest shown layer of numbers stores at a place; empty while it is not known.
   [[nodiscard]] std::string value_at(const Geodetic& place);
 
@@ -50,6 +55,7 @@ class Layers : public Panel {
   DroppedFiles files_;
   std::vector<LayerSwitch> switches_;
   ValueQuery value_;
+  bool open_wish_ = false;
 };
 
 }  // namespace terrella

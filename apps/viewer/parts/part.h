@@ -63,22 +63,29 @@ class Panel : public Part {
   /// `title` of the panel's window; null: the panel takes neither mouse nor keyboard.
   Panel(const ViewerContext& context, const char* title) : Part(context), title_(title) {}
 
+  /// Opens or closes the panel. A covered panel comes to the front.
   void toggle() {
-    open_ = !open_ && can_open();
+    open_ = covered_ || (!open_ && can_open());
     just_opened_ = open_;
+    covered_ = false;
+    if (open_) opened_ = context_.ui.next_panel();
     toggled();
   }
   [[nodiscard]] bool is_open() const { return open_; }
-  [[nodiscard]] const char* panel() const override { return open_ ? title_ : nullptr; }
+  [[nodiscard]] const char* panel() const override { return open_ && !covered_ ? title_ : nullptr; }
+  [[nodiscard]] const char* title() const { return title_; }
+  /// Greater than that of a panel that was opened earlier.
+  [[nodiscard]] unsigned opened() const { return opened_; }
+  /// A covered panel is neither drawn nor closed, until newer panels leave room.
+  void cover(bool covered) { covered_ = covered; }
+  [[nodiscard]] bool is_covered() const { return covered_; }
   void take_keyboard() override { just_opened_ = true; }
   bool close() override {
-    if (!open_) return false;
+    if (!open_ || covered_) return false;
     toggle();
     return true;
   }
-  void draw(float foot) override {
-    if (open_) draw_open(foot);
-  }
+  void draw(float foot) override;
 
  protected:
   virtual void draw_open(float foot) = 0;
@@ -90,6 +97,8 @@ class Panel : public Part {
  private:
   const char* title_;
   bool open_ = false;
+  bool covered_ = false;
+  unsigned opened_ = 0;
   bool just_opened_ = false;
 };
 

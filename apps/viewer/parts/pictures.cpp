@@ -10,24 +10,28 @@
 namespace terrella {
 namespace {
 
-constexpr float kPictureWidth = 22.0F;  // in text heights
+constexpr float kPictureWidth = 22.0F, kPictureHeight = 9.0F;  // in text heights
 
 std::filesystem::path next_file() {
   std::error_code unknown;
-  return screenshot_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
+  return new_file_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now());
 }
 
 }  // namespace
 
-void Pictures::draw_open(float) {
+void Pictures::draw_open(float foot) {
   const float unit = ImGui::GetFontSize();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(kPictureWidth * unit, size.x), 0.0F});
+  const float half = std::min(0.5F * kPictureWidth * unit, 0.5F * size.x - 0.8F * unit);
+  UiBox room = Ui::panel_room(0.5F * size.x - half, 0.5F * size.x + half, foot);
+  const auto last = Ui::panel_box(panel());
+  const double height = last ? last->bottom - last->top : double(kPictureHeight * unit);
+  room.top = std::max(room.top, std::min(0.5 * (double(size.y) - height), room.bottom - height));
+  place_panel(room);
   ImGui::SetNextWindowBgAlpha(0.9F);
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  begin_panel(panel());
   ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_fields(largest_picture_side_px());

@@ -20,7 +20,6 @@ constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
 constexpr std::size_t kMostFound = 8;
 constexpr double kCoordinateStep_deg = 1e-4;  // of coordinates as the list shows them
 constexpr float kSearchWidth = 22.0F;         // in text heights
-constexpr float kTop = 3.6F;                  // below the attribution
 
 std::string full_name(const NamedPlace& place) {
   return place.country.empty() ? place.name : place.name + ", " + place.country;
@@ -61,10 +60,11 @@ void Search::take_keyboard() {
   context_.ui.expect_text(true);
 }
 
-void Search::draw_open(float) {
+void Search::draw_open(float foot) {
   const float unit = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({0.5F * ImGui::GetIO().DisplaySize.x, kTop * unit}, ImGuiCond_Always, {0.5F, 0.0F});
-  ImGui::SetNextWindowSize({kSearchWidth * unit, 0.0F});
+  const float middle = 0.5F * ImGui::GetIO().DisplaySize.x;
+  const float half = std::min(0.5F * kSearchWidth * unit, middle - 0.8F * unit);
+  place_panel(Ui::panel_room(middle - half, middle + half, foot));
   ImGui::SetNextWindowBgAlpha(0.9F);
   const auto chosen = draw_field();
   if (chosen) fly_to(*chosen);
@@ -74,13 +74,13 @@ void Search::draw_open(float) {
 std::optional<NamedPlace> Search::draw_field() {
   const bool just_opened = take_just_opened();
   if (just_opened) ImGui::SetNextWindowFocus();
-  ImGui::Begin(panel(), nullptr, kPanelWindow);
+  begin_panel(panel());
   std::array<char, 80> text{};
   text_.copy(text.data(), text.size() - 1);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1.0F);
-  const bool entered = ImGui::InputTextWithHint("##place", "Place name or coordinates, then Enter; Esc closes",
-                                                text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##place", "Place name or coordinates, then Enter", text.data(),
+                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive()) context_.ui.field_is_ready();
   text_ = text.data();
   std::optional<NamedPlace> chosen;
@@ -102,7 +102,7 @@ std::optional<NamedPlace> Search::draw_found(bool entered) const {
     if (ImGui::Selectable(fmt::format("{}##{}", full_name(*found[k]), k).c_str())) chosen = *found[k];
   }
   if (found.empty() && !text_.empty()) {
-    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one by --places"
+    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one with --places"
                                                    : "No place has this name");
   }
   if (entered && !found.empty()) chosen = *found.front();

@@ -17,6 +17,7 @@ ViewModes::ViewModes(const ViewerContext& context, std::span<const Action> actio
       actions_(actions),
       run_(std::move(run)),
       underground_(context),
+      play_(context),
       sky_(context.globe.options().sky),
       start_(modes()) {}
 
@@ -29,6 +30,10 @@ ViewSettings ViewModes::modes() const {
   modes.has_sky = options.sky;
   modes.sky = sky_;
   modes.time = options.time;
+  modes.has_lights = options.sky && options.body.name == earth().name && !options.night_lights.values.empty();
+  modes.night_lights = context_.globe.has_night_lights();
+  modes.playing = play_.is_playing();
+  modes.speed = play_.speed();
   modes.has_relief = context_.globe.has_relief();
   modes.exaggeration = options.exaggeration;
   return modes;
@@ -42,6 +47,11 @@ void ViewModes::apply(const ViewSettings& settings) {
   if (settings.stereo != options.stereo) globe.set_stereo(settings.stereo);
   if (settings.sky != sky_) globe.set_sky(sky_ = settings.sky);
   if (settings.exaggeration != options.exaggeration) globe.set_exaggeration(settings.exaggeration);
+  play_.set_speed(settings.speed);
+  if (settings.playing != play_.is_playing()) play_.play(settings.playing);
+  if (settings.night_lights != globe.has_night_lights()) {
+    if (const Status lit = globe.set_night_lights(settings.night_lights); !lit) say(lit.error().message);
+  }
   if (settings.time == options.time) return;
   const Status set = globe.set_time(settings.time);
   settings_.time_problem = set ? "" : set.error().message;

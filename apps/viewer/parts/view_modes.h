@@ -6,6 +6,7 @@
 #include "apps/viewer/action.h"
 #include "apps/viewer/panels/view_settings.h"
 #include "apps/viewer/parts/part.h"
+#include "apps/viewer/parts/time_play.h"
 #include "apps/viewer/parts/underground.h"
 
 namespace terrella {
@@ -21,6 +22,9 @@ class ViewModes : public Panel {
   void next_stereo();
   void toggle_sky();
   void toggle_underground() { underground_.toggle(); }
+  void toggle_play() { play_.play(!play_.is_playing()); }
+  [[nodiscard]] TimePlay& play() { return play_; }
+  [[nodiscard]] bool changed() const override { return play_.changed(); }
   /// Returns to the modes of the start, and flies to the whole globe with north up.
   void reset();
 
@@ -32,6 +36,7 @@ class ViewModes : public Panel {
   std::span<const Action> actions_;
   std::function<void(const Action&)> run_;
   Underground underground_;
+  TimePlay play_;
   bool sky_;
   ViewSettings start_;     ///< modes at the start
   ViewSettings settings_;  ///< of the panel, with the text as typed so far

@@ -1,18 +1,26 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "base/result.h"
 #include "geo/camera.h"
 
 namespace terrella {
 
-/// Nine stored views of the user, kept in a file between runs. thread: one
+/// A stored view of the user.
+struct Bookmark {
+  Camera camera;
+  std::string name = {};  ///< UTF-8; empty: none given
+};
+
+/// Numbered views of the user with names, kept in a file between runs. thread: one
 class Bookmarks {
  public:
-  static constexpr int kMost = 9;
+  static constexpr int kMost = 99;
+  static constexpr int kKeys = 9;  ///< the first have keys
 
   /// Loads a file; a missing file gives no bookmarks. Fails if the file cannot be read or has another format. Invalid
   /// cameras are skipped.
@@ -22,11 +30,20 @@ class Bookmarks {
   [[nodiscard]] Status save(const std::filesystem::path& file) const;
 
   /// `number` in [1, kMost].
-  [[nodiscard]] const std::optional<Camera>& at(int number) const { return cameras_.at(std::size_t(number) - 1); }
-  void set(int number, const Camera& camera) { cameras_.at(std::size_t(number) - 1) = camera; }
+  [[nodiscard]] std::optional<Camera> at(int number) const;
+  /// Stores a view; a name that the number has stays.
+  void set(int number, const Camera& camera);
+  void rename(int number, std::string name);
+  void remove(int number) { bookmarks_.erase(number); }
+  /// Exchanges two numbers; one of them may be empty.
+  void exchange(int number, int other);
+  /// The lowest number without a bookmark; nullopt if all are taken.
+  [[nodiscard]] std::optional<int> free_number() const;
+  /// All bookmarks by number.
+  [[nodiscard]] const std::map<int, Bookmark>& all() const { return bookmarks_; }
 
  private:
-  std::array<std::optional<Camera>, kMost> cameras_;
+  std::map<int, Bookmark> bookmarks_;
 };
 
 /// Returns $XDG_CONFIG_HOME/terrella/bookmarks.json or ~/.config/terrella/bookmarks.json; nullopt if neither folder is

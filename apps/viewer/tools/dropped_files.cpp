@@ -8,8 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/setup/console.h"
 #include "streaming/file_bytes.h"
 #include "streaming/objects/gltf_model.h"
+#include "streaming/url.h"
 
 namespace terrella {
 namespace {
@@ -56,9 +58,22 @@ bool is_of_heights(const TileSetInfo& info) {
 
 }  // namespace
 
+std::string shown_name(const std::filesystem::path& path) {
+  const Url tile_set(path.string());
+  const std::string shown = tile_set.without_query();
+  if (shown.find("://") != shown.npos) return one_line(shown);
+  const std::filesystem::path name = (path.has_filename() ? path : path.parent_path()).filename();
+  return one_line(name.empty() ? shown : name.string());
+}
+
 Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options, const Geodetic& place,
                                 const CutProgress& progress) {
   const std::string extension = lower_extension(path);
+  const bool of_objects = extension == ".geojson" || extension == ".glb" || extension == ".gltf";
+  if (of_objects && path.string().find("://") != std::string::npos) {
+    return Error{Url(path.string()).redacted() +
+                 ": GeoJSON and glTF models are read from files only; download this one, and open the file"};
+  }
   if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
   if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
   SceneOptions tiles_options = options;
@@ -124,7 +139,7 @@ std::optional<Result<OpenedFile>> DroppedFiles::poll() {
 
 std::string DroppedFiles::text() const {
   if (!busy()) return {};
-  const std::string name = current_.filename().string();
+  const std::string name = shown_name(current_);
   const int percent = percent_;
   return percent < 0 ? fmt::format("Opening {}", name) : fmt::format("Cutting {}: {} %; Esc cancels", name, percent);
 }

@@ -24,11 +24,15 @@ struct OpenedFile {
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< of a picture that is cut in the background
 };
 
-/// Opens a picture (shown at once, or while it is cut into the cache), a tile set of pictures, numbers or heights,
-/// GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The error names the file and the
-/// reason. thread: any, one at a time
+/// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of
+/// pictures, numbers or heights, GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The
+/// error names the file and the reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
+
+/// The file's name, or the whole address without its query: the last part of most addresses is just "{y}.jpg".
+/// thread: any
+[[nodiscard]] std::string shown_name(const std::filesystem::path& path);
 
 /// Opens files one after another on a background thread while the window continues. thread: main
 class DroppedFiles {

@@ -51,7 +51,7 @@ std::string set_aside(const std::filesystem::path& file, const std::string& what
   copy += ".damaged";
   std::error_code failed;
   std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing, failed);
-  return fmt::format("{}: {}; it counts as if it were not there{}", file.string(), what,
+  return fmt::format("{}: {}; it is ignored{}", file.string(), what,
                      failed ? "" : ", and a copy is kept in " + copy.filename().string());
 }
 
@@ -65,7 +65,7 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
   if (!bytes) return {.settings = {}, .first_run = false, .complaint = bytes.error().message};
   const Json json = parsed(*bytes);
   if (!json.is_object()) {
-    loaded.complaint = set_aside(file, "no file of settings");
+    loaded.complaint = set_aside(file, "not a file of settings");
     return loaded;
   }
   std::string wrong;

@@ -1,5 +1,7 @@
 #include "apps/viewer/tools/measure_tool.h"
 
+#include <fmt/format.h>
+
 #include "apps/viewer/panels/readout.h"
 #include "geo/measure.h"
 
@@ -15,10 +17,18 @@ void MeasureTool::take_back() {
   if (!places_.empty()) places_.pop_back();
 }
 
-std::string MeasureTool::text(const Ellipsoid& ellipsoid) const {
-  if (places_.empty()) return "Measuring: click a place, or press Enter for the centre; M ends";
-  if (places_.size() == 1) return "Measuring: click the next place; Backspace removes the last one";
-  std::string text = "Length " + length_text(path_m(ellipsoid, places_));
+std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next) const {
+  if (places_.empty()) return "Measuring: click a place, or press Enter for the centre";
+  if (places_.size() == 1 && !next) return "Measuring: click the next place";
+  const double length_m = path_m(ellipsoid, places_);
+  std::string text = "Length " + length_text(length_m);
+  if (next) {
+    const double next_m = geodesic_m(ellipsoid, places_.back(), *next);
+    const std::string total = length_text(length_m + next_m);
+    text =
+        "Length " +
+        (places_.size() == 1 ? total : fmt::format("{} + {} = {}", length_text(length_m), length_text(next_m), total));
+  }
   if (places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
   return text;
 }
@@ -30,11 +40,17 @@ ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
   }
   if (places_.size() < 2) return scene;
   scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk});
-  scene.labels.push_back({.text = length_text(path_m(ellipsoid, places_)),
+  for (std::size_t k = 1; k < places_.size(); ++k) {
+    scene.labels.push_back({.text = length_text(geodesic_m(ellipsoid, places_[k - 1], places_[k])),
+                            .place = geodesic_places(ellipsoid, places_[k - 1], places_[k], 3)[1],
+                            .size_px = scale * kWay_px,
+                            .priority = 1.0});
+  }
+  if (places_.size() < 3) return scene;
+  scene.labels.push_back({.text = "Total " + length_text(path_m(ellipsoid, places_)),
                           .place = places_.back(),
                           .size_px = scale * kMarker_px,
-                          .priority = 1.0});
-  if (places_.size() < 3) return scene;
+                          .priority = 2.0});
   scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}});
   scene.lines.push_back(
       {.places = {places_.back(), places_.front()}, .width_px = scale * kWayBack_px, .color = kWayBack});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,12 @@ class MeasureTool {
   void take_back();  ///< removes the last place, if any
   void clear() { places_.clear(); }
 
-  /// An instruction or the path's length; from three places on also the enclosed area.
-  [[nodiscard]] std::string text(const Ellipsoid& ellipsoid) const;
-  /// Objects for drawing: markers at the places, the path, and the length at the last place. From three places on, the
-  /// closing edge (thinner) and the area are added. `scale` is the size of markers and lines, 1 at 96 dots per inch.
+  /// An instruction or the path's length; from three places on also the enclosed area. With `next`, a place under the
+  /// cursor, also the length of the way to it and the new total.
+  [[nodiscard]] std::string text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next = {}) const;
+  /// Objects for drawing: markers at the places, the path, and the length of each segment at its middle. From three
+  /// places on, the total at the last place, the closing edge (thinner) and the area are added. `scale` is the size of
+  /// markers and lines, 1 at 96 dots per inch.
   [[nodiscard]] ObjectScene scene(const Ellipsoid& ellipsoid, float scale = 1.0F) const;
 
  private:

@@ -41,12 +41,13 @@ Result<std::unique_ptr<PictureJob>> PictureJob::start(const Globe& globe, const 
                                                       Viewport size) {
   const std::string what = fmt::format("A picture of {} x {} pixels", size.width_px, size.height_px);
   if (long(size.width_px) * size.height_px > kMostPicturePixels) {
-    return Error{fmt::format("{} is too large: at most {} million in all", what, kMostPicturePixels / 1000000)};
+    return Error{fmt::format("{} is too large: at most {} million pixels in all; choose a smaller size", what,
+                             kMostPicturePixels / 1000000)};
   }
   std::unique_ptr<PictureJob> job(new PictureJob(globe, file, size));
   forget_gl_errors();
   job->target_.emplace(size);
-  if (glGetError() != GL_NO_ERROR) return Error{what + " does not fit into the memory of the graphics"};
+  if (glGetError() != GL_NO_ERROR) return Error{what + " does not fit into the graphics memory; choose a smaller size"};
   return job;
 }
 

@@ -33,16 +33,17 @@ Image read_back_buffer(Viewport size) {
 
 }  // namespace
 
-std::filesystem::path screenshot_name(const std::filesystem::path& folder, std::chrono::system_clock::time_point when) {
+std::filesystem::path new_file_name(const std::filesystem::path& folder, std::chrono::system_clock::time_point when,
+                                    std::string_view ending) {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(when);
   std::tm local{};
   localtime_r(&seconds, &local);
   char text[32];
   std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-  std::filesystem::path path = folder / fmt::format("terrella-{}.png", text);
+  std::filesystem::path path = folder / fmt::format("terrella-{}{}", text, ending);
   std::error_code unreadable;
   for (int i = 2; std::filesystem::exists(path, unreadable); ++i)
-    path = folder / fmt::format("terrella-{}-{}.png", text, i);
+    path = folder / fmt::format("terrella-{}-{}{}", text, i, ending);
   return path;
 }
 
@@ -52,7 +53,7 @@ Status save_back_buffer(const std::filesystem::path& file, Viewport framebuffer)
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
   out.close();
-  if (!out) return Error{file.string() + " cannot be written: start the viewer in a folder that can"};
+  if (!out) return Error{file.string() + " cannot be written: start the program in a folder that can be written"};
   return Done{};
 }
 

@@ -1,0 +1,93 @@
+#include "apps/viewer/panels/bookmark_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/panels/readout.h"
+
+namespace terrella {
+namespace {
+
+constexpr float kBookmarksWidth = 21.0F;  // in text heights
+constexpr double kNameStep_deg = 0.01;
+
+void open_edit(BookmarkEdit& edit, int number, const Bookmark& bookmark) {
+  edit = {.number = number, .just_opened = true};
+  bookmark.name.copy(edit.name.data(), edit.name.size() - 1);
+}
+
+/// The line under a row: its name, its place in the list.
+BookmarkWish draw_edit(BookmarkEdit& edit) {
+  BookmarkWish wish{.number = edit.number};
+  if (edit.just_opened) ImGui::SetKeyboardFocusHere();
+  edit.just_opened = false;
+  ImGui::SetNextItemWidth(-1.0F);
+  if (ImGui::InputTextWithHint("##name", "Name, then Enter", edit.name.data(), edit.name.size(),
+                               ImGuiInputTextFlags_EnterReturnsTrue)) {
+    wish.ask = BookmarkAsk::rename;
+    wish.name = edit.name.data();
+    edit.number = 0;
+  }
+  if (ImGui::SmallButton("Up")) wish.ask = BookmarkAsk::raise;
+  tip("Lowers the number by one: keys 1 to 9 fly to the first bookmarks.");
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Down")) wish.ask = BookmarkAsk::lower;
+  tip("Raises the number by one.");
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Delete")) wish.ask = BookmarkAsk::remove;
+  tip("Deletes the bookmark. A button then restores it.");
+  return wish;
+}
+
+BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit) {
+  BookmarkWish wish{.number = number};
+  const float edit_width = ImGui::CalcTextSize("Edit").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  const float width = ImGui::GetContentRegionAvail().x - edit_width - ImGui::GetStyle().ItemSpacing.x;
+  const std::string text = fmt::format("{}   {}", number, shown_name(bookmark));
+  if (ImGui::Selectable(text.c_str(), false, 0, {width, 0.0F}) || entered()) wish.ask = BookmarkAsk::fly_to;
+  tip((number <= Bookmarks::kKeys ? fmt::format("{}: flies there.", number) : std::string("Flies there.")).c_str());
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Edit")) {
+    const bool open = edit.number == number;
+    open_edit(edit, number, bookmark);
+    if (open) edit.number = 0;
+  }
+  tip("Name, order, delete.");
+  if (edit.number != number) return wish;
+  BookmarkWish more = draw_edit(edit);
+  return more.ask == BookmarkAsk::none ? wish : more;
+}
+
+}  // namespace
+
+std::string shown_name(const Bookmark& bookmark) {
+  if (!bookmark.name.empty()) return bookmark.name;
+  return place_text(bookmark.camera.eye, kNameStep_deg) + "   " + length_text(bookmark.camera.eye.height_m);
+}
+
+BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit, bool removed, float foot,
+                            bool just_opened) {
+  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
+  const float right = std::min(left + kBookmarksWidth * unit, ImGui::GetIO().DisplaySize.x - left);
+  place_panel(Ui::panel_room(left, right, foot));
+  ImGui::SetNextWindowBgAlpha(0.85F);
+  if (just_opened) ImGui::SetNextWindowFocus();
+  begin_panel(title);
+  BookmarkWish wish;
+  if (ImGui::Button("Save this view")) wish.ask = BookmarkAsk::save;
+  tip("Under the lowest free number. Ctrl with a digit chooses the number.");
+  if (removed) ImGui::SameLine();
+  if (removed && ImGui::Button("Restore")) wish.ask = BookmarkAsk::restore;
+  for (const auto& [number, bookmark] : bookmarks.all()) {
+    ImGui::PushID(number);
+    const BookmarkWish asked = draw_row(number, bookmark, edit);
+    if (asked.ask != BookmarkAsk::none) wish = asked;
+    ImGui::PopID();
+  }
+  ImGui::End();
+  return wish;
+}
+
+}  // namespace terrella

@@ -1,0 +1,106 @@
+#include "apps/viewer/panels/control_column.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "apps/viewer/panels/free_place.h"
+#include "apps/viewer/panels/icons.h"
+#include "apps/viewer/panels/panel_items.h"
+
+namespace terrella {
+namespace {
+
+constexpr float kButton = 1.75F;        // in text heights
+constexpr float kColumnPadding = 0.2F;  // in text heights, around the buttons
+constexpr float kColumnMargin = 0.8F;   // in text heights, to the window's edge
+constexpr float kBetween = 0.5F;        // in text heights, to other panels
+constexpr std::size_t kEnough = 5;      // so many buttons at the right edge are better than more elsewhere
+constexpr std::size_t kLeast = 3;       // fewer buttons are not worth a column
+// The first have room first.
+constexpr std::array kByWorth = {Icon::menu,   Icon::compass, Icon::plus, Icon::minus,  Icon::home,
+                                 Icon::tilted, Icon::flat,    Icon::back, Icon::forward};
+
+/// Actions with an icon, from top to bottom, without those for which there is no room.
+std::vector<const Action*> buttons_of(std::span<const Action> actions, std::size_t room) {
+  std::vector<const Action*> buttons;
+  for (const Action& action : actions) {
+    const auto worth = std::size_t(std::ranges::find(kByWorth, action.icon) - kByWorth.begin());
+    if (action.icon != Icon::none && worth < room) buttons.push_back(&action);
+  }
+  std::ranges::sort(buttons, {}, [](const Action* action) { return action->icon; });
+  return buttons;
+}
+
+struct ColumnPlace {
+  double left = 0.0;
+  UiSpan height;
+};
+
+/// The rightmost place with room for `enough`, or else the one with the most room.
+ColumnPlace place_of(float width, float enough) {
+  const float unit = ImGui::GetFontSize(), margin = kColumnMargin * unit;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  std::vector<UiBox> taken = Ui::panel_boxes();
+  std::vector<double> lefts{double(size.x - margin - width)};
+  for (UiBox& box : taken) {
+    box = {box.left - kBetween * unit, box.top - kBetween * unit, box.right + kBetween * unit,
+           box.bottom + kBetween * unit};
+    lefts.push_back(box.left - width);
+  }
+  std::ranges::sort(lefts, std::greater<>());
+  ColumnPlace best;
+  for (const double left : lefts) {
+    if (left < double(margin) || left > double(size.x - margin - width)) continue;
+    const UiSpan height = free_height({left, left + width}, {margin, size.y - margin}, taken);
+    if (height.length() > best.height.length()) best = {left, height};
+    if (best.height.length() >= double(enough)) break;
+  }
+  return best;
+}
+
+bool draw_button(const Action& action, Angle heading, ImVec2 size) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushButtonRepeat((action.flags & Action::repeats) != 0);
+  const bool clicked = ImGui::Button(fmt::format("##{}", int(action.icon)).c_str(), size);
+  ImGui::PopButtonRepeat();
+  draw_icon(action.icon, {at.x + 0.5F * size.x, at.y + 0.5F * size.y}, 0.5F * size.x, heading);
+  tip(fmt::format("{}: {}", action.keys, action.what).c_str());
+  return clicked;
+}
+
+}  // namespace
+
+ControlColumn draw_control_column(std::span<const Action> actions, Angle heading) {
+  const float unit = ImGui::GetFontSize(), padding = kColumnPadding * unit, button = std::floor(kButton * unit);
+  const float width = button + 2.0F * padding;
+  const ColumnPlace place = place_of(width, float(kEnough) * button + 2.0F * padding);
+  const auto room = std::size_t(std::max(0.0, (place.height.length() - 2.0 * double(padding)) / double(button)));
+  const std::vector<const Action*> buttons = buttons_of(actions, room);
+  ControlColumn column;
+  if (buttons.size() < kLeast) return column;
+  const float height = float(buttons.size()) * button + 2.0F * padding;
+  const double top = place.height.to - double(height);
+  const auto menu = Ui::shown_box(kMenuTitle);
+  if (menu && menu->overlaps({place.left, top, place.left + width, place.height.to})) return column;
+  ImGui::SetNextWindowPos({float(place.left), float(top)});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});
+  ImGui::PushStyleColor(ImGuiCol_Button, 0U);
+  ImGui::Begin("##controls", nullptr, kFloatingWindow);
+  for (const Action* action : buttons) {
+    if (draw_button(*action, heading, {button, button})) column.clicked = action;
+    column.held |= ImGui::IsItemActive();
+  }
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  return column;
+}
+
+}  // namespace terrella

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace terrella {
+
+/// Files, folders and addresses that the window opened, the newest first. thread: one
+class RecentFiles {
+ public:
+  static constexpr std::size_t kMost = 8;
+
+  /// A missing file gives an empty list. The error names a damaged file.
+  [[nodiscard]] static Result<RecentFiles> load(const std::filesystem::path& file);
+  /// Creates the folder if needed. The error names the file.
+  [[nodiscard]] Status save(const std::filesystem::path& file) const;
+
+  /// Puts a file first. Addresses with secrets are left out, because the list is stored as text.
+  void add(const std::string& opened);
+  [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  std::vector<std::string> all_;
+};
+
+/// recent.json in $XDG_STATE_HOME/terrella or ~/.local/state/terrella; nullopt without such a folder.
+[[nodiscard]] std::optional<std::filesystem::path> recent_file();
+
+}  // namespace terrella
