@@ -31,11 +31,11 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       ui_(window),
       navigator_(options.camera, globe.ground(), window.framebuffer()),
       input_(window, ui_, navigator_, actions()),
-      layers_(context_, options.layers, options.heights, options.files,
-              {{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}}),
+      layers_(context_, options.layers, options.heights, options.files, switches()),
       modes_(context_, actions(), [this](const Action& action) { action.run(*this); }),
       cutting_(context_, std::exchange(options_.cuts, {})) {
   graticule_.is_on() = options.kept.graticule;
+  map_.is_on() = options.map;
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
   saved_ = options.kept;
@@ -50,7 +50,14 @@ KeptSettings Viewer::now_kept() {
           .height_px = size.height_px,
           .panel = modes_.is_open(),
           .layers = layers_.is_open(),
-          .graticule = graticule_.is_on()};
+          .graticule = graticule_.is_on(),
+          .map = map_.is_on()};
+}
+
+std::vector<LayerSwitch> Viewer::switches() {
+  std::vector<LayerSwitch> switches{{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}};
+  if (map_.exists()) switches.push_back({"Map", "C: coastlines, borders and names.", map_.is_on()});
+  return switches;
 }
 
 // Saves the settings. A failure is reported once, because the settings then count as saved.
@@ -166,15 +173,25 @@ void Viewer::draw_panels(Viewport framebuffer) {
   const View view = globe_.view(framebuffer);
   messages_.drop_due();
   job_text_ = job();
+  map_.update();
   ui_.begin_frame();
   if (help_.is_open()) {
     help_.draw(0.0F);
   } else {
     const float foot = draw_status(status(view), window_.pixels_per_unit().x);
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
-    if (!pictures_.is_drawing()) graticule_.draw_over(view, double(foot));
+    if (!pictures_.is_drawing()) draw_over_globe(view, double(foot));
   }
   ui_.end_frame();
+}
+
+// Lines first. Names keep off panels and the graticule's labels.
+void Viewer::draw_over_globe(const View& view, double foot) {
+  map_.draw_lines(view);
+  std::vector<UiBox> taken = graticule_.draw_over(view, foot);
+  const std::vector<UiBox> panels = Ui::panel_boxes();
+  taken.insert(taken.end(), panels.begin(), panels.end());
+  map_.draw_names(view, taken);
 }
 
 PanelStatus Viewer::status(const View& view) {
@@ -194,7 +211,9 @@ PanelStatus Viewer::status(const View& view) {
   status.message = messages_.text();
   status.job = job_text_;
   status.measure = measure_.text();
-  status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));
+  std::vector<std::string> thanks = globe_.attributions();
+  for (std::string& text : map_.attributions()) thanks.push_back(std::move(text));
+  status.attribution = fmt::format("{}", fmt::join(thanks, "   "));
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);
   return status;

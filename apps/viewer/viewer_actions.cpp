@@ -70,6 +70,7 @@ constinit const Action Viewer::kActions[] = {
     {"Home", "the whole globe", navigate<Go::whole_globe>, U"", GLFW_KEY_HOME, 0, kHeld},
     {"R", "reset the view: look of the start, whole globe", [](V v) { v.modes_.reset(); }, U"r", 0, 0, 0, "Reset"},
     {"G", "graticule", [](V v) { v.graticule_.is_on() = !v.graticule_.is_on(); }, U"g"},
+    {"C", "map: coastlines, borders and names", [](V v) { v.map_.toggle(); }, U"c"},
     {"/", "search for a place", [](V v) { v.search_.toggle(); }, U"/", 0, 0, Action::types},
     {"M", "measure: click to add, Enter for the centre, Backspace to undo", [](V v) { v.measure_.toggle(); }, U"m"},
     {nullptr, nullptr, [](V v) { v.measure_.add(v.context_.middle_px()); }, U"", GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER},
