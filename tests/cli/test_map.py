@@ -5,6 +5,7 @@ import pathlib
 import sys
 import unittest
 
+from pictures import png as png_bytes
 from program import SOURCE, WRONG_USAGE, ProgramTest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
@@ -30,8 +31,8 @@ def difference(a, b, x, y):
 
 
 class MapTest(ProgramTest):
-    def picture(self, name, *options):
-        self.assert_done("render", "-o", name, *LOOK, *options)
+    def picture(self, name, *options, look=LOOK):
+        self.assert_done("render", "-o", name, *look, *options)
         return self.folder / name
 
     def test_without_the_map_the_picture_is_as_it_was(self):
@@ -45,7 +46,7 @@ class MapTest(ProgramTest):
         """Straight down on a place of a line, the middle of the picture has the line, and its ring has not."""
         longest = {kind: max(range(len(MAP[kind])), key=lambda k: len(MAP[kind][k])) for kind in ("coasts", "borders")}
         lines = [list(places(kind, number)) for kind, number in longest.items()]
-        spots = [line[k] for line in lines for k in (len(line) // 3, len(line) // 2)]
+        spots = [line[len(line) // 3] for line in lines]
         coasts = [list(places("coasts", k)) for k in range(len(MAP["coasts"]))]
         spots.append(max((line[len(line) // 2] for line in coasts), key=lambda spot: abs(spot[1])))  # at the antimeridian
         spots.append(min((line[len(line) // 2] for line in coasts), key=lambda spot: spot[0]))  # of Antarctica
@@ -65,16 +66,18 @@ class MapTest(ProgramTest):
         self.assertEqual(set(told[0]) - set(told[1]), {"Natural Earth", "GeoNames"})
 
     def test_the_moon_has_no_map_but_names_from_a_file(self):
-        self.assert_fails(WRONG_USAGE, "render", "-o", "m.png", *LOOK, "--body", "moon", "--map", "on",
+        self.write("moon.png", png_bytes(64, 32))
+        moon = ["moon.png", "--body", "moon"]
+        self.assert_fails(WRONG_USAGE, "render", "-o", "m.png", *LOOK, *moon, "--map", "on",
                           says=["--map", "Earth", "--places"])
         feature = {"type": "Feature", "properties": {"name": "Tycho"},
                    "geometry": {"type": "Point", "coordinates": [-11.2, -43.3]}}
         self.write("moon.geojson", json.dumps({"type": "FeatureCollection", "features": [feature]}).encode())
-        view = ["--body", "moon", "--camera", "-43.3,-11.2,2000000"]
-        self.assertNotEqual(self.picture("a.png", *view).read_bytes(),
-                            self.picture("b.png", *view, "--places", "moon.geojson").read_bytes())
-        self.assertEqual(self.picture("a.png", *view).read_bytes(),
-                         self.picture("b.png", *view, "--places", "moon.geojson", "--map", "off").read_bytes())
+        view = [*moon, "--camera", "-43.3,-11.2,2000000"]
+        plain, named, off = (self.picture("moon_view.png", *view, *more, look=["--unlit", "--size", "256x256"]).read_bytes()
+                             for more in ([], ["--places", "moon.geojson"], ["--places", "moon.geojson", "--map", "off"]))
+        self.assertNotEqual(plain, named)
+        self.assertEqual(plain, off)
 
 
 if __name__ == "__main__":
