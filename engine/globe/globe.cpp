@@ -213,11 +213,28 @@ const Status& Globe::status() const { return impl_->status; }
 bool Globe::settled() const { return impl_->settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
 
+void Globe::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {
+  if (!impl_->may_call("Globe::on_draw")) return;
+  impl_->on_draw = std::move(draw);
+  impl_->changed = true;
+}
+
+unsigned Globe::depth_texture() const { return impl_->renderer->depth_texture(); }
+
+Status Globe::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
+  const auto call = impl_->may_draw("Globe::copy_depth");
+  return call ? impl_->renderer->copy_depth(framebuffer, corner_px) : call.error();
+}
+
 bool Globe::needs_frame() const {
   const FrameStats& last = impl_->stats;
   if (impl_->changed || impl_->frame == 0 || last.heights_arrived || last.relief_put_off > 0) return true;
   if (impl_->heights && impl_->heights->has_news()) return true;
   return std::ranges::any_of(impl_->images, [](const auto& layer) { return layer->has_news(); });
+}
+
+bool Globe::needs_frame(unsigned framebuffer, Viewport viewport) const {
+  return impl_->drawn != viewport || impl_->drawn_into != framebuffer || needs_frame();
 }
 
 bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {

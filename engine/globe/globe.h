@@ -23,6 +23,7 @@
 #include "tiles/elevation_source.h"
 #include "tiles/tile_loader.h"
 #include "tiles/tile_source.h"
+#include "view/frame_matrices.h"
 #include "view/ground.h"
 #include "view/render_modes.h"
 
@@ -178,6 +179,9 @@ class Globe {
   [[nodiscard]] std::vector<LayerId> objects() const;  ///< lowest first
   /// Removes an image layer or an object layer. Fails if the globe does not have the layer.
   Status remove(LayerId layer);
+  /// Requests all tiles of an image layer again, or one of them, because the source's data changed. The earlier tiles
+  /// stay on the screen until the new ones arrive. Fails if the globe does not have the image layer.
+  Status invalidate(LayerId imagery, std::optional<TileId> tile = {});
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);
@@ -214,6 +218,18 @@ class Globe {
   /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
 
+  /// Sets a callback that draws for the application inside each frame, once for each stage and eye; empty: none. It
+  /// draws into the bound framebuffer, in the set viewport. Depth test, culling and colour mask are set as for the
+  /// globe's own passes; it may leave any state but the stencil's. Vertices go through `matrices`, or through the
+  /// functions of render/caller_glsl.h, which stay exact near the ground. It must not call the globe.
+  void on_draw(std::function<void(DrawStage stage, const FrameMatrices& matrices)> draw);
+  /// Returns the GL name of the texture with the depth of the last frame, in the format of `GlobeOptions::depth`, 0
+  /// before the first; rows from the bottom. Valid until the next frame.
+  [[nodiscard]] unsigned depth_texture() const;
+  /// Copies the depth of the last frame to a framebuffer with depth, to each sample of a multisampled one, so that the
+  /// application can draw there behind and before the globe. Fails if its shader does not compile.
+  Status copy_depth(unsigned framebuffer, glm::ivec2 corner_px = {0, 0});
+
   /// True if the last frame showed everything that its view needs.
   [[nodiscard]] bool settled() const;
   /// Sets a callback for the end of each frame with which the globe becomes settled; empty: none. The callback must not
@@ -222,6 +238,8 @@ class Globe {
   /// False if another frame would be the same as the last one: nothing was set, and nothing has arrived. Costs a few
   /// comparisons. A settled globe changes by itself only when it retries a source.
   [[nodiscard]] bool needs_frame() const;
+  /// The same for a frame in this framebuffer with this viewport: also true if the last one had others.
+  [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
   /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers

@@ -116,6 +116,7 @@ FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
                    .sun = sun(),
                    .frame = frame,
                    .ground_m = ground().height_m(camera.eye.lat, camera.eye.lon),
+                   .on_draw = &on_draw,
                    .paper_a = experiments.paper_a,
                    .paper_band = experiments.paper_band,
                    .naive_translucency = experiments.naive_translucency};
@@ -160,6 +161,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   changed = false;
   if (viewport != drawn) restore_detail();
   drawn = viewport;
+  drawn_into = framebuffer;
   stats.uploaded_bytes = take_finished();
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();

@@ -93,10 +93,12 @@ struct Globe::Impl {
   std::optional<Almanac> almanac;  ///< set if there is a sky or a time
   bool sky_on = false;
   std::uint64_t frame = 0;
-  Viewport drawn;       ///< viewport of the last frame
-  bool changed = true;  ///< something changed since the last frame
+  Viewport drawn;           ///< viewport of the last frame
+  unsigned drawn_into = 0;  ///< framebuffer of the last frame
+  bool changed = true;      ///< something changed since the last frame
   bool was_settled = false;
   std::function<void()> on_settled;
+  std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
   Status status = Done{};  ///< of the last frame

@@ -130,6 +130,15 @@ Status Globe::remove(LayerId layer) {
   return Done{};
 }
 
+Status Globe::invalidate(LayerId imagery, std::optional<TileId> tile) {
+  if (Status call = impl_->may_call("Globe::invalidate"); !call) return call;
+  ImageLayer* image = impl_->image(imagery);
+  if (image == nullptr) return no_layer("Globe::invalidate", "image layer", imagery);
+  image->invalidate(tile);
+  impl_->changed = true;
+  return Done{};
+}
+
 Status Globe::set_attribution(LayerId layer, std::string text) {
   if (Status call = impl_->may_call("Globe::set_attribution"); !call) return call;
   if (ObjectLayer* objects = impl_->object(layer); objects != nullptr) {

@@ -40,16 +40,30 @@ ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<Tile
       look_(look),
       attribution_(source ? source->info().attribution : ""),
       tiles_(grid_, layout_of(setup.options, grid_, source.get()), kMips, gpu_bytes),
-      source_(std::move(source)) {
+      source_(std::move(source)),
+      retry_after_(setup.options.retry_after) {
   discard_patches();
   if (!source_) return;
   if (const auto& slots = tiles_.layout().numbers) gpu_.numbers.emplace(*source_->info().numbers, *slots);
-  LoaderOptions loading{
-      .workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
+  loading_ = {.workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
   // Tiles waiting for slots hold at most as many bytes as all slots.
-  loading.max_finished_bytes =
-      std::min(loading.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
-  stream_.emplace(TileLoader(source_, loading), tiles_.residency(), id, setup.options.retry_after);
+  loading_.max_finished_bytes =
+      std::min(loading_.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
+  start_stream();
+}
+
+void ImageLayer::start_stream() {
+  stream_.emplace(TileLoader(source_, loading_), tiles_.residency(), id_, retry_after_);
+}
+
+void ImageLayer::invalidate(const std::optional<TileId>& tile) {
+  for (auto& [id, entry] : tiles_.residency().entries()) {
+    if (tile && id != *tile) continue;
+    if (entry.state == TileState::missing) entry.state = TileState::unknown;
+    entry.is_outdated = entry.state == TileState::resident;
+  }
+  was_invalidated_ = true;
+  start_stream();
 }
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {
@@ -128,7 +142,9 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
     const TileTexels& texels = *loaded->tile;
     has_transparency_ = has_transparency_ || !texels.opaque;
     if (tiles_.upload(loaded->id, texels.mips, frame)) {
-      tiles_.residency().entry(loaded->id).edition = loaded->edition;
+      TileResidency::Entry& entry = tiles_.residency().entry(loaded->id);
+      entry.edition = loaded->edition;
+      entry.is_outdated = false;
       bytes += tiles_.slot_bytes();
       allowance.bytes -= std::min(tiles_.slot_bytes(), allowance.bytes);
     }
@@ -146,14 +162,18 @@ void ImageLayer::ask() {
   }
   for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
   edition_ = source_->edition();
-  if (edition_ > 0) add_outdated(requests);
+  outdated_drawn_ = 0;
+  if (edition_ > 0 || was_invalidated_) add_outdated(requests);
   stream_->request(requests);
 }
 
 void ImageLayer::add_outdated(std::vector<TileRequest>& requests) {
   for (const auto& [id, entry] : tiles_.residency().entries()) {
-    if (entry.state != TileState::resident || entry.last_drawn < frame_ || entry.edition >= edition_) continue;
-    if (entry.edition < source_->edition_of(id)) requests.push_back({id, kRenewal});
+    if (entry.state != TileState::resident || entry.last_drawn < frame_) continue;
+    if (entry.is_outdated) ++outdated_drawn_;
+    if (entry.is_outdated || (entry.edition < edition_ && entry.edition < source_->edition_of(id))) {
+      requests.push_back({id, kRenewal});
+    }
   }
 }
 
@@ -206,7 +226,7 @@ std::optional<LayerValue> ImageLayer::value_at(const Geodetic& place) const {
 // Patches of a root tile that has finally failed can never be covered, so nothing waits for them.
 bool ImageLayer::settled() {
   if (!stream_) return true;
-  if (!coverage_.wanted.empty()) return false;
+  if (!coverage_.wanted.empty() || outdated_drawn_ > 0) return false;
   if (coverage_.uncovered == 0) return true;
   return std::ranges::none_of(
       roots_, [this](const TileId& id) { return tiles_.residency().entry(id).state == TileState::unknown; });

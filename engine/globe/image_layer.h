@@ -44,6 +44,8 @@ class ImageLayer {
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
   void discard_patches();
+  /// See Globe::invalidate(). Tiles in flight are dropped: they may have been read before the change.
+  void invalidate(const std::optional<TileId>& tile);
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.
   [[nodiscard]] bool is_drawn(bool has_night) const;
@@ -88,6 +90,7 @@ class ImageLayer {
   [[nodiscard]] bool has_news() const { return stream_ && (stream_->has_news() || source_->edition() != edition_); }
 
  private:
+  void start_stream();
   void add_outdated(std::vector<TileRequest>& requests);
 
   LayerId id_;
@@ -104,7 +107,11 @@ class ImageLayer {
   std::shared_ptr<TileSource> source_;            ///< null: plain
   std::optional<TileStream<TileTexels>> stream_;  ///< none: plain
   std::uint64_t edition_ = 0;                     ///< of the source, at the last request
+  bool was_invalidated_ = false;                  ///< tiles may be outdated
+  int outdated_drawn_ = 0;                        ///< outdated tiles that the last frame drew
   std::uint64_t frame_ = 0;                       ///< number of the last frame
+  LoaderOptions loading_;
+  std::chrono::milliseconds retry_after_;
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;

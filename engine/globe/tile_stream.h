@@ -71,6 +71,7 @@ class TileStream {
     TileResidency::Entry* entry = residency_.find(failed.id);
     if (entry == nullptr || entry->state != TileState::resident) return false;
     entry->edition = failed.edition;
+    entry->is_outdated = false;
     return true;
   }
 

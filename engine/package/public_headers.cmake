@@ -3,6 +3,7 @@ set(TERRELLA_PUBLIC_HEADERS
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
+  engine/render/caller_glsl.h
   engine/render/gl/offscreen.h
   engine/objects/graticule.h
   engine/view/navigation.h

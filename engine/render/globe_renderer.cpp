@@ -140,12 +140,17 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
   // An underground object may stand out over the limb. Under an opaque surface it is drawn after sky and limb; under a
   // translucent surface it is marked, so that no air is painted over it.
   const bool opaque = surface_look(pass) == SurfaceFromBelow::opaque;
-  if (!opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, kSurfaceBit);
+  if (!opaque) {
+    draw_objects(pass, ObjectPart::underground, ObjectChoice::all, kSurfaceBit);
+    draw_callers(pass, DrawStage::below_ground);
+  }
   draw_surface(pass);
+  draw_callers(pass, DrawStage::ground);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
   if (opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
+  draw_callers(pass, DrawStage::all);
 }
 
 // Paper 2, section 2.9: objects above the ground lie behind the surface, objects under the ground lie in front of it.
@@ -154,7 +159,10 @@ void GlobeRenderer::draw_from_below(const Pass& pass) {
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::others, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::chosen, kThroughBit);
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
+  if (surface_look(pass) != SurfaceFromBelow::opaque) draw_callers(pass, DrawStage::below_ground);
   draw_surface(pass);
+  draw_callers(pass, DrawStage::ground);
+  draw_callers(pass, DrawStage::all);
 }
 
 // Draws in the order of an opaque globe with blending switched on, as in paper 2's figures 2.23 to 2.26.
@@ -226,26 +234,6 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   draw(targets_.color(), targets_.depth(), rows_apart);
   glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
   draw(beside.texture, 0, 0);
-}
-
-std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {
-  if (!input.eyes) return {{.view = input.view}};
-  EyePicture left{.view = input.eyes->left}, right{.view = input.eyes->right};
-  switch (input.stereo) {
-    case Stereo::side_by_side:
-      right.left_px = input.eyes->left.viewport.width_px;
-      break;
-    case Stereo::interlaced:
-      left.interlaced = right.interlaced = true;
-      right.row_bits = kRightEyeBit;
-      break;
-    case Stereo::anaglyph:
-      left.green = left.blue = right.red = false;
-      break;
-    case Stereo::off:
-      break;
-  }
-  return {left, right};
 }
 
 void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) {

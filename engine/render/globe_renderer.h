@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -26,6 +27,7 @@
 #include "surface/plan/patch_selection.h"
 #include "surface/plan/tile_coverage.h"
 #include "surface/relief.h"
+#include "view/frame_matrices.h"
 #include "view/render_modes.h"
 #include "view/stereo.h"
 
@@ -66,7 +68,9 @@ struct FrameInput {
   bool timed = false;             ///< the Sun is where a time puts it; false: over the viewer's shoulder
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< direction to the Sun: unit vector, ECEF axes
   std::uint64_t frame = 0;
-  double ground_m = 0.0;     ///< height of the ground under the eye
+  double ground_m = 0.0;  ///< height of the ground under the eye
+  /// Draws for the application; may be empty.
+  const std::function<void(DrawStage, const FrameMatrices&)>* on_draw = nullptr;
   double paper_a = 4.0;      ///< a of paper 1's formula (6), for Texturing::paper
   double paper_band = 0.05;  ///< b of paper 1's formula (5), for Texturing::paper
   /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
@@ -104,6 +108,11 @@ class GlobeRenderer {
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
   Result<FrameCounts> draw(const FrameInput& input, GLuint framebuffer);
 
+  /// Depth of the last picture, a texture; 0 before the first. Its rows begin at the bottom.
+  [[nodiscard]] GLuint depth_texture() const { return targets_.depth(); }
+  /// Copies the depth of the last picture to each sample of a framebuffer.
+  Status copy_depth(GLuint framebuffer, glm::ivec2 corner_px);
+
  private:
   /// One eye's part of the picture.
   struct EyePicture {
@@ -135,7 +144,6 @@ class GlobeRenderer {
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
   // globe_renderer.cpp: the order of the passes.
-  [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   Status prepare(const Pass& pass);
   [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
   void begin_frame(const FrameInput& input, FrameCounts& counts);
@@ -155,6 +163,9 @@ class GlobeRenderer {
   enum class DepthTest { nearer, nearer_or_equal };
   [[nodiscard]] DepthState depth(DepthTest test) const;
 
+  // globe_callers.cpp: drawing of the application's own.
+  void draw_callers(const Pass& pass, DrawStage stage);
+
   // globe_surface.cpp: the image layers.
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);
@@ -171,7 +182,8 @@ class GlobeRenderer {
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
-  // globe_sight.cpp: what an eye can see.
+  // globe_sight.cpp: the eyes, and what an eye can see.
+  [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
   [[nodiscard]] double inner_radius_m(const FrameInput& input) const;
@@ -196,6 +208,7 @@ class GlobeRenderer {
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;
   FrameTargets targets_;
+  gl::Program depth_copy_;
   FrameBlock frame_{};  ///< uniforms of the eye whose picture is drawn
   gl::Buffer frame_block_;
 };

@@ -2,12 +2,33 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/gl/stencil_bits.h"
 #include "render/globe_renderer.h"
 
 // Sight of one eye: the objects, labels and limb that the surface or the inner sphere hides, and the near plane.
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 namespace terrella {
+
+std::vector<GlobeRenderer::EyePicture> GlobeRenderer::pictures_of(const FrameInput& input) {
+  if (!input.eyes) return {{.view = input.view}};
+  EyePicture left{.view = input.eyes->left}, right{.view = input.eyes->right};
+  switch (input.stereo) {
+    case Stereo::side_by_side:
+      right.left_px = input.eyes->left.viewport.width_px;
+      break;
+    case Stereo::interlaced:
+      left.interlaced = right.interlaced = true;
+      right.row_bits = kRightEyeBit;
+      break;
+    case Stereo::anaglyph:
+      left.green = left.blue = right.red = false;
+      break;
+    case Stereo::off:
+      break;
+  }
+  return {left, right};
+}
 
 bool GlobeRenderer::under_ground(const Pass& pass) const {
   return ellipsoid_.to_geodetic(pass.eye.view.eye).height_m < pass.input.ground_m;
@@ -77,7 +98,7 @@ bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
 
 // If nothing covers the limb, the limb is drawn after the picture is copied, which saves a copy.
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
-  if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0)) return false;
+  if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0) || *pass.input.on_draw) return false;
   if (!objects_) return true;
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));
 }

@@ -58,7 +58,7 @@ struct LoaderCounts {
 template <class Decoded>
 class Loader {
  public:
-  ~Loader();  ///< joins the workers and drops waiting tiles
+  ~Loader();  ///< drops waiting tiles; waits for no read() and no decoder
   Loader(Loader&&) noexcept = default;
   Loader& operator=(Loader&&) = delete;
 

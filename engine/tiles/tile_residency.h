@@ -37,6 +37,7 @@ class TileResidency {
     std::uint64_t last_needed = 0;  ///< frame number: drawn where nothing finer can still come, so not to be evicted
     std::uint64_t last_seen = 0;    ///< frame number: a frame took the tile into account
     std::uint64_t edition = 0;      ///< TileSource::edition() before the tile was read, if resident
+    bool is_outdated = false;       ///< resident, and to be read again (Globe::invalidate())
   };
 
   [[nodiscard]] Entry& entry(const TileId& id) { return entries_[id]; }

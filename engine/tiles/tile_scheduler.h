@@ -8,27 +8,29 @@
 #include <deque>
 #include <exception>
 #include <functional>
+#include <future>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <system_error>
-#include <thread>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "tiles/arrival_bell.h"
+#include "tiles/late_workers.h"
 #include "tiles/tile_loader.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
 
 /// Implementation of Loader. `Decoded` has a size_bytes(). Made by start_scheduler() as a shared object, because an
-/// answer of the network may arrive after the owner is gone.
+/// answer of the network may arrive, and a worker may end, after the owner is gone.
 template <class Decoded>
 class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>> {
  public:
@@ -45,16 +47,22 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
 
   // thread: main
   void start(int workers) {
+    const std::lock_guard lock(mutex_);
     for (int i = 0; i < workers; ++i) {
       try {
-        workers_.emplace_back([this] { work(); });
+        workers_.push_back({.ended = std::async(std::launch::async, [self = this->shared_from_this(), i]() mutable {
+                              self->work(static_cast<std::size_t>(i));
+                              self.reset();  // not later, when the future goes
+                            })});
       } catch (const std::system_error&) {
         if (workers_.empty()) throw;
         return;  // the system has no more threads; work with fewer
       }
     }
   }
-  void stop();  ///< joins the workers and drops waiting tiles
+  /// Drops waiting tiles and ends the workers. A worker that reads or decodes ends after that, with the source that it
+  /// keeps (late_workers.h).
+  void stop();
   void request(std::span<const TileRequest> wanted);
   [[nodiscard]] std::vector<Finished> poll(std::size_t max_bytes);
   bool wait(std::chrono::steady_clock::time_point deadline);
@@ -80,7 +88,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   }
 
   // thread: worker
-  void work();
+  void work(std::size_t worker);
   void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
   [[nodiscard]] Encoded read(const TileId& id);
   /// The exception that is being caught, as a failed tile. An exception that left a thread would end the program.
@@ -110,7 +118,13 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   const std::size_t max_finished_bytes_;
   const std::shared_ptr<ArrivalBell> bell_;  ///< may be empty
 
-  mutable std::mutex mutex_;  ///< guards all members below except `workers_`
+  struct Worker {
+    std::future<void> ended = {};
+    bool is_busy = false;  ///< reads or decodes
+  };
+
+  std::stop_source stop_;     ///< for reads
+  mutable std::mutex mutex_;  ///< guards all members below
   std::condition_variable work_changed_;
   std::condition_variable finished_changed_;
   bool stopping_ = false;
@@ -124,7 +138,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   std::size_t read_ = 0;
   std::size_t missing_ = 0;
 
-  std::vector<std::thread> workers_;
+  std::vector<Worker> workers_;
 };
 
 }  // namespace terrella

@@ -7,15 +7,18 @@ namespace terrella {
 template <class Decoded>
 void TileScheduler<Decoded>::stop() {
   TileIdSet given_up;
+  std::vector<Worker> workers;
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     waiting_.clear();
     given_up.swap(fetching_);
+    workers.swap(workers_);
   }
+  stop_.request_stop();
   for (const TileId& id : given_up) remote_->cancel(id);
   work_changed_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
+  for (Worker& worker : workers) worker.is_busy ? end_late(std::move(worker.ended)) : worker.ended.wait();
 }
 
 template <class Decoded>
@@ -111,11 +114,12 @@ LoaderCounts TileScheduler<Decoded>::counts() const {
 // ---- thread: worker
 
 template <class Decoded>
-void TileScheduler<Decoded>::work() {
+void TileScheduler<Decoded>::work(std::size_t worker) {
   std::unique_lock lock(mutex_);
   while (true) {
     work_changed_.wait(lock, [this] { return stopping_ || may_start(); });
     if (stopping_) return;
+    workers_[worker].is_busy = true;
     // Arrived tiles come first: they hold memory, and the screen waits for them.
     if (!arrived_.empty()) {
       const Arrived tile = std::move(arrived_.front());
@@ -128,6 +132,8 @@ void TileScheduler<Decoded>::work() {
       running_.insert(wish.id);
       look_for(lock, wish);
     }
+    if (stopping_) return;
+    workers_[worker].is_busy = false;
   }
 }
 
@@ -158,7 +164,7 @@ void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const 
 template <class Decoded>
 typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const TileId& id) {
   try {
-    return source_->read(id);
+    return source_->read_or_stop(id, stop_.get_token());
   } catch (...) {
     return caught();
   }

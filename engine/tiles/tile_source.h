@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -111,13 +112,21 @@ class RemoteTiles {
   virtual void cancel(const TileId& id) = 0;
 };
 
-/// A set of tiles, read one by one. info() is thread: any; read() is thread: worker, several at once.
+/// A set of tiles, read one by one. info() is thread: any; read() is thread: worker, several at once. A globe that is
+/// destroyed, or removes its layer, does not wait for a read() in progress: it keeps the source until read() has
+/// returned. So read() must own what it uses, and the destructor may run on a worker.
 class TileSource {
  public:
   virtual ~TileSource() = default;
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
   /// Reads one tile; absent outside the grid, the levels or the bounds.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
+  /// The same for a source whose read() may take long. It may fail early once `stop` is requested, because nobody needs
+  /// the tile any more. By default calls read(id). thread: worker, several at once
+  [[nodiscard]] virtual Result<EncodedTile, TileFailure> read_or_stop(const TileId& id, const std::stop_token& stop) {
+    static_cast<void>(stop);
+    return read(id);
+  }
   /// Returns the object that fetches tiles for which read() returns `remote`; null for a source whose tiles are all
   /// local. Lives as long as the source.
   [[nodiscard]] virtual RemoteTiles* remote() { return nullptr; }

@@ -11,7 +11,6 @@
 #include "shaders/embedded_shaders.h"
 
 namespace terrella {
-namespace {
 
 std::optional<std::string> shader_text(std::string_view name) {
   if (const char* folder = std::getenv("TERRELLA_SHADER_DIR")) {
@@ -26,6 +25,8 @@ std::optional<std::string> shader_text(std::string_view name) {
   }
   return std::nullopt;
 }
+
+namespace {
 
 std::string joined(std::initializer_list<std::string_view> names) {
   std::string all;

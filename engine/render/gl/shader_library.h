@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,9 @@ struct ShaderStage {
   GLenum type;
   std::initializer_list<std::string_view> files;
 };
+
+/// Returns the text of a file of shaders/; nothing if there is none of that name. thread: any
+[[nodiscard]] std::optional<std::string> shader_text(std::string_view name);
 
 /// Compiles and links a program from the embedded files. If the environment variable TERRELLA_SHADER_DIR names a
 /// folder, reads the files from that folder and those in it at each call. `defines` become #defines before the text.
