@@ -22,7 +22,9 @@
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/write_file.h"
 #include "apps/setup/write_picture.h"
-#include "apps/viewer/tools/legend_picture.h"
+#include "apps/viewer/panels/legend.h"
+#include "apps/viewer/tools/map_painter.h"
+#include "apps/viewer/tools/picture_ui.h"
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
 
@@ -156,6 +158,28 @@ std::vector<LegendItem> legend_of(const Globe& globe, const SceneOptions& scene,
   return items;
 }
 
+/// Reads the map, if the picture gets one; else null.
+Result<std::unique_ptr<MapPainter>> open_map(const SceneOptions& scene, const Body& body) {
+  check_map(scene, body);
+  if (!scene.map.value_or(!scene.places.empty())) return std::unique_ptr<MapPainter>();
+  auto data = load_map(body, scene.places);
+  if (!data) return data.error();
+  return std::make_unique<MapPainter>(*std::move(data), body.ellipsoid);
+}
+
+/// Draws map and legend over the picture of the globe.
+Status draw_over(const Globe& globe, unsigned framebuffer, Viewport size, const std::vector<LegendItem>& legend,
+                 MapPainter* map) {
+  if (legend.empty() && map == nullptr) return Done{};
+  return draw_over_picture(framebuffer, size, [&] {
+    const View view = globe.view(size);
+    if (map != nullptr) map->draw_lines(globe, view, 1.0, MapDetail::full);
+    const double gap = 0.8 * Ui::text_height();
+    draw_legend(legend, gap, size.height_px - gap);
+    if (map != nullptr) map->draw_names(globe, view, 1.0, MapDetail::full, Ui::panel_boxes());
+  });
+}
+
 Result<Rendered> render_picture(const RenderCommand& command) {
   const std::vector<std::string> inputs = inputs_of(command.scene);
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
@@ -188,17 +212,18 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (const Status added = add_image_layers(**globe, layers); !added) return added.error();
   const Result<bool> objects = add_objects(**globe, command.scene);
   if (!objects) return objects.error();
+  const auto map = open_map(command.scene, *body);
+  if (!map) return map.error();
   const OffscreenTarget target(command.scene.size);
   render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
   const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
   if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
   if (const Status some = check_some_came(stats, (*globe)->missing_tiles()); !some) return some.error();
-  if (command.legend) {
-    const auto items = legend_of(**globe, command.scene, *imagery, *overlays);
-    if (const Status legend = draw_legend_over(target.framebuffer(), command.scene.size, items); !legend)
-      return legend.error();
-  }
+  std::vector<LegendItem> legend;
+  if (command.legend) legend = legend_of(**globe, command.scene, *imagery, *overlays);
+  if (const Status drawn = draw_over(**globe, target.framebuffer(), command.scene.size, legend, map->get()); !drawn)
+    return drawn.error();
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Viewport size = command.scene.size;
@@ -206,8 +231,9 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!written) return written.error();
   const auto& missing = (*globe)->missing_tiles();
   const auto& heights = (*globe)->missing_heights();
-  return Rendered{
-      stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, (*globe)->attributions(), *objects};
+  std::vector<std::string> thanks = (*globe)->attributions();
+  if (*map) thanks.insert(thanks.end(), (*map)->attributions().begin(), (*map)->attributions().end());
+  return Rendered{stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, thanks, *objects};
 }
 
 int run(const RenderCommand& command) {
@@ -241,6 +267,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
                  fmt::format("Write this file: a JPEG of quality {} if the name ends in .jpg or .jpeg, else a PNG",
                              kWrittenJpegQuality))
       ->required();
+  sub.get_option("--map")->default_str("off, or on with --places");
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
   sub.add_option("--timeout", command->timeout_s, "Wait at most this many seconds for tiles")
       ->check(number_in(0.0, 1e6))

@@ -18,6 +18,7 @@
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
+#include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
 
@@ -30,8 +31,8 @@ constexpr Viewport kSmallestWindow{.width_px = 320, .height_px = 240};  // lower
 constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
-    "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, F full screen, / search,\n"
-    "M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, L layers,\n"
+    "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, C map, F full screen,\n"
+    "/ search, M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, L layers,\n"
     "I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc quits.\n"
     "\n"
     "Examples:\n"
@@ -46,7 +47,6 @@ constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
 
 struct ViewOptions {
   SceneOptions scene;
-  std::string places;  // GeoJSON for the search; empty: the Earth's cities
   bool print_camera = false;
   bool full_screen = false;
   KeptSettings kept;
@@ -129,6 +129,7 @@ int view(const ViewOptions& options) {
   if (const Status eye = check_eye(options.scene, *body, options.scene.size); !eye) {
     throw CLI::ValidationError("--camera", eye.error().message);
   }
+  check_map(options.scene, *body);
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
   add_sky_data(globe_options_with_sky);
   add_label_font(globe_options_with_sky);
@@ -154,8 +155,9 @@ int view(const ViewOptions& options) {
                                      .cuts = cuts,
                                      .layers = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights),
                                      .heights = *elevation,
-                                     .places = options.places,
+                                     .places = options.scene.places,
                                      .files = layers,
+                                     .map = options.scene.map.value_or(options.kept.map && !options.scene.unlit),
                                      .kept = options.kept,
                                      .first_run = options.first_run,
                                      .message = options.message};
@@ -173,11 +175,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera in the form of --camera to standard output each time the camera comes to rest");
-  command
-      ->add_option("--places", options->places,
-                   "Search (/) in this GeoJSON file of points with a name, on any body, instead of the Earth's cities")
-      ->check(CLI::ExistingFile)
-      ->type_name("FILE");
+  command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);
   options->scene.surface.inner_sphere_srgb = kInnerSphere_srgb;

@@ -158,6 +158,17 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
       ->type_name("F.geojson");
 }
 
+void add_map_options(CLI::App& command, SceneOptions& options) {
+  add_choice<bool>(command, "--map", options.map, {{"on", true}, {"off", false}},
+                   "Draw coastlines, borders, and names of countries and places of the Earth over the picture");
+  command
+      .add_option("--places", options.places,
+                  "Take the names of places from this GeoJSON file of points with a name, on any body, instead of the "
+                  "Earth's cities")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+}
+
 void add_stereo_options(CLI::App& command, SceneOptions& options) {
   add_choice<Stereo>(command, "--stereo", options.stereo.mode,
                      {{"off", Stereo::off},
@@ -215,6 +226,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_relief_options(command, options);
   add_translucency_options(command, options);
   add_sky_options(command, options);
+  add_map_options(command, options);
   add_stereo_options(command, options);
   add_cache_options(command, options);
   add_remote_set_options(command, options.remote);

@@ -56,6 +56,8 @@ struct SceneOptions {
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none
+  std::optional<bool> map;           ///< --map; absent: the command's default
+  std::string places;                ///< GeoJSON file of names, for map and search; empty: the Earth's cities
   bool sky = true;                   ///< stars, Sun, Moon and atmosphere
   std::optional<UtcTime> time;       ///< time of the sky
   std::string cache;                 ///< value of --cache; empty: the default file; "off": none

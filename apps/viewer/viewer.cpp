@@ -35,11 +35,11 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       ui_(window),
       navigator_(options.camera, globe.ground(), window.framebuffer()),
       input_(window, ui_, navigator_, actions()),
-      layers_(context_, options.layers, options.heights, options.files,
-              {{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}}),
+      layers_(context_, options.layers, options.heights, options.files, switches()),
       modes_(context_, actions(), [this](const Action& action) { action.run(*this); }),
       cutting_(context_, std::exchange(options_.cuts, {})) {
   graticule_.is_on() = options.kept.graticule;
+  map_.is_on() = options.map;
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
   saved_ = options.kept;
@@ -54,7 +54,14 @@ KeptSettings Viewer::now_kept() {
           .height_px = size.height_px,
           .panel = modes_.is_open(),
           .layers = layers_.is_open(),
-          .graticule = graticule_.is_on()};
+          .graticule = graticule_.is_on(),
+          .map = map_.is_on()};
+}
+
+std::vector<LayerSwitch> Viewer::switches() {
+  std::vector<LayerSwitch> switches{{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}};
+  if (map_.exists()) switches.push_back({"Map", "C: coastlines, borders and names.", map_.is_on()});
+  return switches;
 }
 
 // Saves the settings. A failure is reported once, because the settings then count as saved.
@@ -179,6 +186,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
   const View view = globe_.view(framebuffer);
   messages_.drop_due();
   job_text_ = job();
+  map_.update();
   ui_.begin_frame();
   if (help_.is_open()) {
     help_.draw(0.0F);
@@ -200,7 +208,12 @@ void Viewer::draw_over_panels(const View& view, float foot) {
   const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
   button_held_ = column.held;
   if (column.clicked != nullptr) column.clicked->run(*this);
-  graticule_.draw_over(view, double(foot));
+  // Lines first. Names keep off panels and the graticule's labels.
+  map_.draw_lines(view);
+  std::vector<UiBox> taken = graticule_.draw_over(view, double(foot));
+  const std::vector<UiBox> panels = Ui::panel_boxes();
+  taken.insert(taken.end(), panels.begin(), panels.end());
+  map_.draw_names(view, taken);
 }
 
 // Draws the texts that the panels leave room. Returns the height of those at the lower edge.
@@ -246,7 +259,9 @@ PanelStatus Viewer::status(const View& view) {
   if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
   status.job = job_text_;
-  status.attribution = fmt::format("{}", fmt::join(globe_.attributions(), "   "));
+  std::vector<std::string> thanks = globe_.attributions();
+  for (std::string& text : map_.attributions()) thanks.push_back(std::move(text));
+  status.attribution = fmt::format("{}", fmt::join(thanks, "   "));
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);
   return status;

@@ -18,6 +18,7 @@
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/parts/help.h"
 #include "apps/viewer/parts/layers.h"
+#include "apps/viewer/parts/map_layer.h"
 #include "apps/viewer/parts/measure.h"
 #include "apps/viewer/parts/messages.h"
 #include "apps/viewer/parts/open_dialog.h"
@@ -38,8 +39,9 @@ struct ViewerOptions {
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
-  std::filesystem::path places = {};            ///< GeoJSON for the search; empty: the program's cities
+  std::filesystem::path places = {};            ///< GeoJSON for search and map; empty: the program's cities
   SceneOptions files = {};                      ///< options for opening dropped files
+  bool map = true;                              ///< show the map, if there is one of the body
   KeptSettings kept = {};                       ///< settings from the file
   bool first_run = false;                       ///< true: show a hint
   std::string message = {};                     ///< first message; may be empty
@@ -84,6 +86,7 @@ class Viewer {
   void draw_over_panels(const View& view, float foot);
   [[nodiscard]] float draw_texts(const PanelStatus& status);
   void cover_panels(Viewport framebuffer);
+  [[nodiscard]] std::vector<LayerSwitch> switches();
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
@@ -99,6 +102,7 @@ class Viewer {
   const ViewerContext context_{window_, globe_, navigator_, ui_, messages_};
   GlobeFrame frame_;
   GraticuleLines graticule_{context_};
+  MapLayer map_{context_, options_.places};
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_};
@@ -119,8 +123,8 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 10> parts_{&help_,      &menu_,   &pictures_, &search_,  &open_,
-                                     &bookmarks_, &layers_, &modes_,    &measure_, &cutting_};
+  const std::array<Part*, 11> parts_{&help_,   &menu_,  &pictures_, &search_,  &open_, &bookmarks_,
+                                     &layers_, &modes_, &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< of the last frame with panels

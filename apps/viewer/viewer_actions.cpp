@@ -153,6 +153,7 @@ constinit const Action Viewer::kActions[] = {
     {.keys = "menu", .what = "fly to a place", .mouse = "double click, menu"},
     {"R", "reset the view: look of the start, whole globe", [](V v) { v.modes_.reset(); }, U"r", 0, 0, 0, "Reset"},
     {"G", "graticule", [](V v) { v.graticule_.is_on() = !v.graticule_.is_on(); }, U"g"},
+    {"C", "map: coastlines, borders and names", [](V v) { v.map_.toggle(); }, U"c"},
     {"/", "search for a place", [](V v) { v.search_.toggle(); }, U"/", 0, 0, Action::types},
     {"M", "measure: start, end", [](V v) { v.measure_.toggle(); }, U"m"},
     {.keys = "Enter",

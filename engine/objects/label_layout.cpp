@@ -37,27 +37,33 @@ LabelRoom::LabelRoom(Viewport picture)
       rows_(picture.height_px / kCell_px + 1),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
+template <class Visit>
+void LabelRoom::each_cell(const LabelBox& box, const Visit& visit) {
+  for (int row = int(box.low_px.y) / kCell_px; row <= int(box.high_px.y) / kCell_px; ++row) {
+    for (int column = int(box.low_px.x) / kCell_px; column <= int(box.high_px.x) / kCell_px; ++column) {
+      visit(cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                   static_cast<std::size_t>(column)]);
+    }
+  }
+}
+
+void LabelRoom::claim(const LabelBox& box) {
+  each_cell(box, [&box](std::vector<LabelBox>& cell) { cell.push_back(box); });
+}
+
 bool LabelRoom::take(const LabelBox& box) {
   if (!(box.low_px.x >= 0.0F && box.low_px.y >= 0.0F && box.high_px.x <= float(picture_.width_px) &&
         box.high_px.y <= float(picture_.height_px))) {
     return false;
   }
-  const auto each_cell = [&](const auto& visit) {
-    for (int row = int(box.low_px.y) / kCell_px; row <= int(box.high_px.y) / kCell_px; ++row) {
-      for (int column = int(box.low_px.x) / kCell_px; column <= int(box.high_px.x) / kCell_px; ++column) {
-        visit(cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                     static_cast<std::size_t>(column)]);
-      }
-    }
-  };
   bool free = true;
-  each_cell([&](const std::vector<LabelBox>& cell) {
+  each_cell(box, [&free, &box](const std::vector<LabelBox>& cell) {
     free = free && std::ranges::none_of(cell, [&box](const LabelBox& other) {
              return box.low_px.x < other.high_px.x && other.low_px.x < box.high_px.x &&
                     box.low_px.y < other.high_px.y && other.low_px.y < box.high_px.y;
            });
   });
-  if (free) each_cell([&](std::vector<LabelBox>& cell) { cell.push_back(box); });
+  if (free) claim(box);
   return free;
 }
 

@@ -25,8 +25,13 @@ class LabelRoom {
   explicit LabelRoom(Viewport picture);
   /// Claims a box. False if the box is not wholly in the picture, or overlaps a box claimed before.
   bool take(const LabelBox& box);
+  /// Claims a box within the picture, even if it overlaps others.
+  void claim(const LabelBox& box);
 
  private:
+  template <class Visit>
+  void each_cell(const LabelBox& box, const Visit& visit);
+
   Viewport picture_;
   int columns_, rows_;
   std::vector<std::vector<LabelBox>> cells_;  ///< per square of the picture, the boxes that touch it

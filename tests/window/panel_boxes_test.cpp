@@ -120,7 +120,7 @@ TEST_P(PanelBoxes, ALabelUnderAPanelIsLeftOut) {
   ImGui::SetNextWindowSize({100, 60});
   ImGui::Begin("panel");
   ImGui::End();
-  const GraticulePart part{.size = {int(GetParam().width), int(GetParam().height)}};
+  const PicturePart part{.size = {int(GetParam().width), int(GetParam().height)}};
   const auto drawn = [&](glm::dvec2 at) {
     Graticule graticule;
     graticule.labels.push_back({.text = "10", .at_px = at, .anchor = {0.0, 0.0}});

@@ -65,11 +65,11 @@ class Display:
 class Viewer:
     """The program in a window; what it prints of its camera."""
 
-    def __init__(self, display, folder, *options, size=SIZE):
+    def __init__(self, display, folder, *options, size=SIZE, bare=True):
         self.environment = display.environment
         self.size = size or SIZE
         sized = ["--size", f"{size[0]}x{size[1]}"] if size else []
-        command = [PROGRAM, "view", *sized, "--print-camera", *options]
+        command = [PROGRAM, "view", *sized, "--print-camera", *(["--map", "off"] if bare else []), *options]
         self.program = subprocess.Popen(
             command, cwd=folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
@@ -230,8 +230,9 @@ class WindowTest(unittest.TestCase):
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
 
-    def start(self, *options, size=SIZE):
-        viewer = Viewer(self.display, self.folder, *options, size=size)
+    def start(self, *options, size=SIZE, bare=True):
+        """`bare`: without the map, whose lines and names would be in the pictures."""
+        viewer = Viewer(self.display, self.folder, *options, size=size, bare=bare)
         self.addCleanup(viewer.close)
         return viewer
 

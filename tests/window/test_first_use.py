@@ -23,7 +23,7 @@ class FirstUse(WindowTest):
 
     def test_from_the_first_start_to_the_second(self):
         self.settings.unlink()
-        viewer = self.start(size=None)
+        viewer = self.start(size=None, bare=False)
         self.shoot(viewer, "first_start")
         viewer.key("F1")
         self.shoot(viewer, "help")
@@ -44,7 +44,7 @@ class FirstUse(WindowTest):
         self.assertEqual(viewer.quit(), 0)
         kept = json.loads(self.settings.read_text(encoding="utf-8"))
         self.assertEqual((kept["width"], kept["height"], kept["graticule"]), (WIDTH, HEIGHT, True))
-        again = self.start(size=None)
+        again = self.start(size=None, bare=False)
         self.assertEqual(self.shoot(again, "second_start")[:2], (WIDTH, HEIGHT))
 
     def find_rome(self, viewer):

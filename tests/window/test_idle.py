@@ -20,7 +20,7 @@ def processor_s(pid):
 
 class Idle(WindowTest):
     def test_a_settled_view_costs_nothing(self):
-        viewer = self.start("--camera", "46,7,3000000,30,-50")
+        viewer = self.start("--camera", "46,7,3000000,30,-50", bare=False)
         shares = []
         end = time.monotonic() + CALM_S
         # The first frames compile and load: the share is that of the calmest watch.

@@ -119,6 +119,7 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
   ImGui::PushItemWidth(0.45F * kLayersWidth * unit);
   LayerWish wish;
   for (const LayerSwitch& more : switches) {
+    if (&more != &switches.front()) ImGui::SameLine();
     ImGui::Checkbox(more.name, &more.on);
     tip(more.tip);
   }

@@ -65,7 +65,17 @@ std::optional<NamedPlace> place_of(const nlohmann::json& feature) {
   return place;
 }
 
-/// Places of the columns `name`, `country`, `people`, `lat` and `lon`. Throws nlohmann::json::exception.
+/// Marks the places whose numbers a list has. Throws nlohmann::json::exception.
+void mark(const nlohmann::json& json, const char* list, bool NamedPlace::*what, std::vector<NamedPlace>& places) {
+  const auto found = json.find(list);
+  if (found == json.end()) return;
+  for (const nlohmann::json& number : *found) {
+    if (const auto k = number.get<std::size_t>(); k < places.size()) places[k].*what = true;
+  }
+}
+
+/// Places of the columns `name`, `country`, `people`, `lat` and `lon`. Throws
+/// nlohmann::json::exception.
 std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
   const auto &names = json.at("name"), &codes = json.at("country"), &countries = json.at("countries");
   std::vector<NamedPlace> places;
@@ -78,6 +88,8 @@ std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
                    .lon = Angle::degrees(json.at("lon").at(k).get<double>())};
     places.push_back(std::move(place));
   }
+  mark(json, "capitals", &NamedPlace::is_capital, places);
+  mark(json, "parts", &NamedPlace::is_part, places);
   return places;
 }
 

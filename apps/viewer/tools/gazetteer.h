@@ -16,6 +16,8 @@ struct NamedPlace {
   std::string folded = {};   ///< name as used in searches: without case and accents
   Geodetic place = {};
   double people = 0.0;
+  bool is_capital = false;  ///< of a country
+  bool is_part = false;     ///< of a city
 };
 
 /// Places by name. thread: any
@@ -29,6 +31,7 @@ class Gazetteer {
   /// Finds at most `most` places. Names that begin with the text come first, then names that contain the text; both are
   /// sorted by population, largest first. Case and accents do not count. A blank text finds nothing.
   [[nodiscard]] std::vector<const NamedPlace*> find(std::string_view text, std::size_t most) const;
+  [[nodiscard]] const std::vector<NamedPlace>& places() const { return places_; }  ///< largest population first
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:

@@ -27,6 +27,7 @@ void for_each_setting(Visit visit) {
   visit("panel", &KeptSettings::panel);
   visit("layers", &KeptSettings::layers);
   visit("graticule", &KeptSettings::graticule);
+  visit("map", &KeptSettings::map);
 }
 
 bool read_field(const Json& field, bool& value) {

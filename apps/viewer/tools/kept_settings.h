@@ -14,6 +14,7 @@ struct KeptSettings {
   bool panel = false;
   bool layers = false;
   bool graticule = false;
+  bool map = true;
   bool operator==(const KeptSettings&) const = default;
 };
 

@@ -1,4 +1,4 @@
-#include "apps/viewer/tools/legend_picture.h"
+#include "apps/viewer/tools/picture_ui.h"
 
 #include <epoxy/gl.h>
 // epoxy comes before other headers of OpenGL
@@ -42,16 +42,16 @@ class PictureUi {
 
 }  // namespace
 
-Status draw_legend_over(unsigned framebuffer, Viewport size, const std::vector<LegendItem>& items) {
-  if (items.empty()) return Done{};
+Status draw_over_picture(unsigned framebuffer, Viewport size, const std::function<void()>& draw) {
   PictureUi ui;
-  if (!ui.open(size)) return Error{"the legend cannot be drawn: libGL is missing; leave --legend out, or install it"};
+  if (!ui.open(size)) {
+    return Error{"legend and map cannot be drawn: libGL is missing; leave --legend and --map out, or install it"};
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, size.width_px, size.height_px);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  const double gap = 0.8 * Ui::text_height();
-  draw_legend(items, gap, size.height_px - gap);
+  draw();
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   return Done{};

@@ -1,0 +1,147 @@
+#include "apps/viewer/tools/map_data.h"
+
+#include <utf8proc.h>
+
+#include <CLI/Error.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/setup/data_dir.h"
+#include "apps/viewer/tools/gazetteer.h"
+#include "objects/label_layout.h"
+#include "streaming/file_bytes.h"
+#include "streaming/json_fields.h"
+
+namespace terrella {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostMapBytes = 8UL << 20;
+constexpr double kPeoplePerMetre = 320.0;  // a place has so many for each metre of a pixel, to be shown
+constexpr double kCapital = 4.0;           // a capital counts as a place with so many times its people
+constexpr double kPart = 0.1;              // the same for a part of a city
+constexpr double kCharacter_px = 9.0;      // mean width of a capital letter
+constexpr double kAreaShare = 0.5;         // a country's name is at most twice as wide as the country
+constexpr double kCountryRank = 1.0e6;     // of a km², so that all but the smallest countries come before places
+
+std::string mapped(std::string_view text, int how) {
+  utf8proc_uint8_t* bytes = nullptr;
+  const auto length =
+      utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()), static_cast<utf8proc_ssize_t>(text.size()),
+                   &bytes, static_cast<utf8proc_option_t>(how));
+  if (length < 0) return std::string(text);
+  std::string result(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(length));
+  std::free(bytes);
+  return result;
+}
+
+/// Joins letters with their marks, as fonts have them.
+std::string composed(std::string_view text) { return mapped(text, UTF8PROC_STABLE | UTF8PROC_COMPOSE); }
+
+std::string in_capitals(std::string_view text) {
+  std::string capitals;
+  for (const char32_t letter : code_points(text)) {
+    utf8proc_uint8_t bytes[4];
+    const auto length = utf8proc_encode_char(utf8proc_toupper(static_cast<utf8proc_int32_t>(letter)), bytes);
+    capitals.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(length));
+  }
+  return capitals;
+}
+
+/// Lines of whole numbers: the first place, then steps, in fractions of a degree.
+void add_lines(const Json& map, const char* field, MapLineKind kind, std::vector<MapLine>& lines) {
+  const double lon_step = map.at("degrees").at(0).get<double>(), lat_step = map.at("degrees").at(1).get<double>();
+  const double west = map.at("origin").at(0).get<double>(), south = map.at("origin").at(1).get<double>();
+  for (const Json& steps : map.at(field)) {
+    MapLine line{.kind = kind, .places = {}};
+    double lon = 0.0, lat = 0.0;
+    for (std::size_t k = 0; k + 1 < steps.size(); k += 2) {
+      lon += steps[k].get<double>(), lat += steps[k + 1].get<double>();
+      line.places.push_back(
+          {.lat = Angle::degrees(south + lat * lat_step), .lon = Angle::degrees(west + lon * lon_step)});
+    }
+    lines.push_back(std::move(line));
+  }
+}
+
+void add_countries(const Json& countries, std::vector<MapName>& names) {
+  for (std::size_t k = 0; k < countries.at("name").size(); ++k) {
+    MapName name{.text = in_capitals(composed(countries.at("name").at(k).get<std::string>())), .place = {}};
+    name.place = {.lat = Angle::degrees(countries.at("lat").at(k).get<double>()),
+                  .lon = Angle::degrees(countries.at("lon").at(k).get<double>())};
+    const double km2 = countries.at("km2").at(k).get<double>();
+    name.rank = kCountryRank * km2;
+    name.widest_m = 1000.0 * std::sqrt(km2) / (kAreaShare * kCharacter_px * double(code_points(name.text).size()));
+    name.is_area = true;
+    names.push_back(std::move(name));
+  }
+}
+
+Status add_map(const std::filesystem::path& file, MapData& data) {
+  const auto bytes = read_file(file, kMostMapBytes);
+  if (!bytes) return Error{bytes.error().message};
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const Result<Json> map = parse_json_object(text, kMostMapBytes, file.string());
+  if (!map) return map.error();
+  try {
+    add_lines(*map, "coasts", MapLineKind::coast, data.lines);
+    add_lines(*map, "borders", MapLineKind::border, data.lines);
+    add_countries(map->at("countries"), data.names);
+    data.attributions.push_back(map->at("attribution").get<std::string>());
+  } catch (const Json::exception& wrong) {
+    return Error{file.string() + ": not a map: " + wrong.what()};
+  }
+  return Done{};
+}
+
+/// Places without a number of people are shown at any distance, the first ones before the others.
+Status add_places(const std::filesystem::path& file, MapData& data) {
+  const auto gazetteer = Gazetteer::load(file);
+  if (!gazetteer) return gazetteer.error();
+  double rank = 1.0;
+  for (const NamedPlace& place : gazetteer->places()) {
+    const double people = place.people * (place.is_capital ? kCapital : place.is_part ? kPart : 1.0);
+    rank *= 1.0 - 1e-6;
+    data.names.push_back({.text = composed(place.name),
+                          .place = place.place,
+                          .rank = people > 0.0 ? people : rank,
+                          .widest_m = people > 0.0 ? people / kPeoplePerMetre : HUGE_VAL});
+  }
+  return Done{};
+}
+
+}  // namespace
+
+std::string without_marks(std::string_view utf8) {
+  return mapped(utf8, UTF8PROC_STABLE | UTF8PROC_DECOMPOSE | UTF8PROC_COMPAT | UTF8PROC_STRIPMARK | UTF8PROC_LUMP);
+}
+
+bool has_map(const Body& body, const std::filesystem::path& places) {
+  return body.name == earth().name || !places.empty();
+}
+
+void check_map(const SceneOptions& options, const Body& body) {
+  if (!options.map.value_or(false) || has_map(body, options.places)) return;
+  throw CLI::ValidationError(
+      "--map", "the included map is of the Earth; names of another body come from --places FILE, lines from --objects");
+}
+
+Result<MapData> load_map(const Body& body, const std::filesystem::path& places) {
+  MapData data;
+  try {
+    if (body.name == earth().name) {
+      if (Status added = add_map(data_file("map.json"), data); !added) return added.error();
+      if (places.empty()) data.attributions.emplace_back("GeoNames");
+    }
+    if (Status added = add_places(places.empty() ? data_file("cities.json") : places, data); !added)
+      return added.error();
+  } catch (const BrokenInstallation& broken) {
+    return Error{broken.what()};
+  }
+  return data;
+}
+
+}  // namespace terrella

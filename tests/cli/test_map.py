@@ -1,0 +1,84 @@
+"""--map: coastlines and borders are where the data say, and a picture without them is the picture as it was."""
+
+import json
+import pathlib
+import sys
+import unittest
+
+from pictures import png as png_bytes
+from program import SOURCE, WRONG_USAGE, ProgramTest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
+import png  # noqa: E402
+
+MAP = json.loads((SOURCE / "data/vector/map.json").read_text(encoding="utf-8"))
+SIDE = 64  # pixels
+LOOK = ["--unlit", "--size", f"{SIDE}x{SIDE}"]
+# A line is a pixel wide, and its edge three; data and picture agree to half a pixel.
+ON_LINE_PX, BESIDE_LINE_PX = 1, 5
+
+
+def places(kind, number):
+    """Latitudes and longitudes of a line: steps in fractions of a degree."""
+    steps, x, y = MAP[kind][number], 0, 0
+    for i in range(0, len(steps), 2):
+        x, y = x + steps[i], y + steps[i + 1]
+        yield MAP["origin"][1] + y * MAP["degrees"][1], MAP["origin"][0] + x * MAP["degrees"][0]
+
+
+def difference(a, b, x, y):
+    return sum(abs(a[2][y][3 * x + i] - b[2][y][3 * x + i]) for i in range(3))
+
+
+class MapTest(ProgramTest):
+    def picture(self, name, *options, look=LOOK):
+        self.assert_done("render", "-o", name, *look, *options)
+        return self.folder / name
+
+    def test_without_the_map_the_picture_is_as_it_was(self):
+        view = ["--camera", "46,9,800000"]
+        plain, off, on = (self.picture(f"{k}.png", *view, *more).read_bytes()
+                          for k, more in enumerate(([], ["--map", "off"], ["--map", "on"])))
+        self.assertEqual(plain, off)
+        self.assertNotEqual(plain, on)
+
+    def test_lines_are_where_the_data_say(self):
+        """Straight down on a place of a line, the middle of the picture has the line, and its ring has not."""
+        longest = {kind: max(range(len(MAP[kind])), key=lambda k: len(MAP[kind][k])) for kind in ("coasts", "borders")}
+        lines = [list(places(kind, number)) for kind, number in longest.items()]
+        spots = [line[len(line) // 3] for line in lines]
+        coasts = [list(places("coasts", k)) for k in range(len(MAP["coasts"]))]
+        spots.append(max((line[len(line) // 2] for line in coasts), key=lambda spot: abs(spot[1])))  # at the antimeridian
+        spots.append(min((line[len(line) // 2] for line in coasts), key=lambda spot: spot[0]))  # of Antarctica
+        for lat, lon in spots:
+            with self.subTest(lat=lat, lon=lon):
+                camera = ["--camera", f"{lat},{lon},60000"]
+                off, on = (png.read(self.picture(f"{word}.png", *camera, "--map", word)) for word in ("off", "on"))
+                middle = range(SIDE // 2 - ON_LINE_PX, SIDE // 2 + ON_LINE_PX)
+                self.assertGreater(max(difference(off, on, x, y) for x in middle for y in middle), 60)
+                ring = range(SIDE // 2 - BESIDE_LINE_PX, SIDE // 2 + BESIDE_LINE_PX)
+                same = sum(difference(off, on, x, y) == 0 for x in ring for y in ring)
+                self.assertGreater(same, BESIDE_LINE_PX**2)
+
+    def test_what_is_drawn_is_credited(self):
+        told = [json.loads(self.assert_done("render", "-o", "m.png", *LOOK, "--json", *more).stdout)["attributions"]
+                for more in (["--map", "on"], [])]
+        self.assertEqual(set(told[0]) - set(told[1]), {"Natural Earth", "GeoNames"})
+
+    def test_the_moon_has_no_map_but_names_from_a_file(self):
+        self.write("moon.png", png_bytes(64, 32))
+        moon = ["moon.png", "--body", "moon"]
+        self.assert_fails(WRONG_USAGE, "render", "-o", "m.png", *LOOK, *moon, "--map", "on",
+                          says=["--map", "Earth", "--places"])
+        feature = {"type": "Feature", "properties": {"name": "Tycho"},
+                   "geometry": {"type": "Point", "coordinates": [-11.2, -43.3]}}
+        self.write("moon.geojson", json.dumps({"type": "FeatureCollection", "features": [feature]}).encode())
+        view = [*moon, "--camera", "-43.3,-11.2,2000000"]
+        plain, named, off = (self.picture("moon_view.png", *view, *more, look=["--unlit", "--size", "256x256"]).read_bytes()
+                             for more in ([], ["--places", "moon.geojson"], ["--places", "moon.geojson", "--map", "off"]))
+        self.assertNotEqual(plain, named)
+        self.assertEqual(plain, off)
+
+
+if __name__ == "__main__":
+    unittest.main()
