@@ -75,7 +75,7 @@ Result<SheetTiles::OpenSheet> SheetTiles::open(int sheet) {
   auto raster =
       make_sheet_raster(index_.files, index_.sheets[static_cast<std::size_t>(sheet)], rasters_, index_.numbers);
   const WarpFigure figure{.ellipsoid = body_.ellipsoid, .latitude = index_.latitude, .crs_latitude = index_.latitude};
-  auto planner = TilePlanner::open(raster->info(), figure, grid_, Overviews::made);
+  auto planner = TilePlanner::open(raster->info(), figure, grid_, Overviews::made, Detail::full);
   if (!planner) return planner.error();
   TileSetInfo info;
   info.grid = grid_;

@@ -98,8 +98,7 @@ class Cutting(WindowTest):
         wait_until("the bar", lambda: self.has_bar(png.read(self.screenshot(viewer, "dropped"))))
         self.assertIsNotNone(self.work(), "the cut goes on")
         self.assert_coarse_picture_and_bar(viewer)
-        viewer.key("Escape")
-        self.assertEqual(viewer.program.wait(timeout=30), 0)
+        self.assertEqual(viewer.quit(), 0)
 
     def assert_coarse_picture_and_bar(self, viewer):
         shot = png.read(self.screenshot(viewer, "coarse"))

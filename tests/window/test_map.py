@@ -41,8 +41,7 @@ class Map(WindowTest):
         viewer.move(500, 300)  # away from the tip
         self.settle_until(viewer, False, "box_off")
         viewer.key("Escape")
-        viewer.key("Escape")
-        self.assertEqual(viewer.program.wait(timeout=30), 0)
+        self.assertEqual(viewer.quit(), 0)
         self.assertFalse(json.loads(self.settings.read_text(encoding="utf-8"))["map"])
 
     def test_the_first_run_shows_it(self):
