@@ -165,24 +165,23 @@ class Viewer:
         self.move(x, y)
         self.xdotool("click", "3")
 
-    def settled(self, rows=None, most=0):
-        """The picture once tiles and panels stand still but for `most` pixels, in the first rows."""
+    def settled(self, rows=None):
+        """The picture once tiles and panels stand still, in the first rows."""
 
         def same():
             one = self.grab()
             time.sleep(0.15)
-            return one if differing(one, self.grab(), rows) <= most else None
+            return one if differing(one, self.grab(), rows) == 0 else None
 
         return wait_until("a picture at rest", same, 20)
 
     def open_menu(self, x, y):
         """By a right click; waits until the menu is there and stands still."""
         self.move(x, y)
-        playing = MENU_PIXELS // 10  # pixels that change while the time plays
-        before = self.settled(most=playing)
+        before = self.settled()
         self.xdotool("click", "3")
         wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
-        self.settled(most=playing)
+        self.settled()
 
     def unfocus(self):
         """Gives the keyboard to what the pointer is over, and puts the pointer beside the window."""

@@ -217,7 +217,8 @@ class Walk(WindowTest):
                                             none),
             "open a file, folder or address": (self.shown, lambda: key("ctrl+o"),
                                                lambda: menu("open a file, folder or address"), none, self.close),
-            "play or pause the time": (self.said, lambda: key("t"), lambda: menu("play or pause the time"), none, none),
+            "play or pause the time": (self.said, lambda: key("t"), lambda: menu("play or pause the time"), none,
+                                       lambda: key("t")),  # nothing stands still while it plays
             "frame time, tiles, memory": (self.said, lambda: key("F3"), lambda: menu("frame time, tiles, memory"), none,
                                           none),
             "go under the ground, and back": (self.moved, lambda: key("x"),
