@@ -216,7 +216,8 @@ std::string to_json(const PictureFacts& facts) {
 
 std::string picture_report(const PictureFacts& facts, bool json) { return json ? to_json(facts) : to_text(facts); }
 
-std::vector<std::string> raster_facts(const std::filesystem::path& picture, const PlaceWords& words, const DescribedBand& band) {
+std::vector<std::string> raster_facts(const std::filesystem::path& picture, const PlaceWords& words,
+                                      const DescribedBand& band) {
   std::vector<std::string> lines;
   const auto facts = look_at(picture, words, band);
   if (!facts) return lines;

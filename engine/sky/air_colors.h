@@ -34,8 +34,8 @@ struct SkyColors {
 /// through the air, so an eye that looks straight down sees the picture's own colours. Only air beyond 1.2 times the
 /// air under the eye changes them. If t of the ground's light passes, and t0 through that air, then min(1, t / t0) = t'
 /// of the picture is left, and the air's light counts by (1 - t') / (1 - t). Light adds up as on film: 1 - exp(-x). The
-/// light on the ground has a colour of its own, red beside the terminator: a third factor of the squares, whose greatest
-/// channel is 1. Its red and green shares of its sum are the w of `through` and of `light_sq`. thread: any
+/// light on the ground has a colour of its own, red beside the terminator: a third factor of the squares, whose
+/// greatest channel is 1. Its red and green shares of its sum are the w of `through` and of `light_sq`. thread: any
 struct GroundColors {
   static constexpr int kColumns = 32;  ///< azimuths from the Sun, 0 to half a turn, both ends included
   /// Cosines m between the ray and the ground's vertical, by sqrt(1 - sqrt(1 - m)): 0 at the horizon, 1 at the nadir.

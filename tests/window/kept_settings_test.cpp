@@ -33,7 +33,8 @@ class KeptSettingsFile : public testing::Test {
 
 TEST_F(KeptSettingsFile, WhatWasSavedIsLoaded) {
   EXPECT_TRUE(load_settings(file).first_run);
-  const KeptSettings settings{.width_px = 900, .height_px = 700, .panel = true, .layers = true, .graticule = true, .map = false};
+  const KeptSettings settings{
+      .width_px = 900, .height_px = 700, .panel = true, .layers = true, .graticule = true, .map = false};
   ASSERT_TRUE(save_settings(file, settings));
   const LoadedSettings loaded = load_settings(file);
   EXPECT_EQ(loaded.settings, settings);
