@@ -39,7 +39,7 @@ TEST_F(Memory, AFlightHoldsNoMoreThanItsBudgetsAndNothingGrows) {
   }
   // The first third fills what has room.
   const std::span all(samples);
-  EXPECT_LT(mean_heap_mb(all.last(kLegs / 3)), kMostGrowth * mean_heap_mb(all.subspan(kLegs / 3, kLegs / 3)));
+  EXPECT_LE(mean_heap_mb(all.last(kLegs / 3)), kMostGrowth * mean_heap_mb(all.subspan(kLegs / 3, kLegs / 3)));
   // There was more than there is room for.
   EXPECT_GT(samples.back().most_held, kMostPatches * 3 / 4);
   EXPECT_GT(samples.back().last.height_bytes, MemoryFlight::kHeightBytes / 2);
