@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::chrono::seconds kMostWait(1);  // for the first pictures, if their tiles come slowly
 
+Result<std::unique_ptr<MapPainter>> load_painter(const Body& body, const std::filesystem::path& places) {
+  auto data = load_map(body, places);
+  if (!data) return data.error();
+  return std::make_unique<MapPainter>(*std::move(data), body.ellipsoid);
+}
+
 }  // namespace
 
 MapLayer::MapLayer(const ViewerContext& context, std::filesystem::path places)
@@ -33,12 +39,10 @@ void MapLayer::update() {
   moves_ = !context_.navigator.at_rest();
   if (should_load()) {
     tried_ = true;
-    loading_ = std::async(std::launch::async, [body = context_.globe.options().body, places = places_]() -> Loaded {
-      auto data = load_map(body, places);
-      auto painter = data ? std::make_unique<MapPainter>(*std::move(data), body.ellipsoid) : nullptr;
+    loading_ = std::async(std::launch::async, [body = context_.globe.options().body, places = places_] {
+      Loaded loaded = load_painter(body, places);
       glfwPostEmptyEvent();
-      if (!painter) return data.error();
-      return painter;
+      return loaded;
     });
   }
   if (loading_.valid() && loading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
