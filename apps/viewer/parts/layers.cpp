@@ -201,7 +201,7 @@ void Layers::add(OpenedFile file) {
   if (row.bounds) look_at(*row.bounds);
   insert(std::move(row));
   const Status kept = remember(file.path);
-  say(kept ? std::move(told) : kept.error().message);
+  say(kept ? told : kept.error().message);
 }
 
 Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
