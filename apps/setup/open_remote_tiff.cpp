@@ -63,7 +63,7 @@ Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish)
   return RemoteFile::open(options);
 }
 
-/// What is read of a TIFF, as of a local one.
+/// Options for reading a TIFF, the same as for a local one.
 RasterOptions reading_of(const TiffPyramid& pyramid, const NumberOptions& numbers) {
   RasterOptions reading;
   reading.heights = numbers.heights;

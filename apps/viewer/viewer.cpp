@@ -202,7 +202,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
   ui_.end_frame();
 }
 
-// What stands where the panels leave room.
+// Draws items where the panels leave room.
 void Viewer::draw_over_panels(const View& view, float foot) {
   measure_.draw_over(view, input_.is_over_panel() ? std::nullopt : input_.cursor_px(), foot);
   const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);

@@ -1,4 +1,4 @@
-// What each feature costs: a frame with it as a ratio to the plain opaque globe, and to imagery alone, all in turn in
+// Cost of each feature: a frame with it as a ratio to the plain opaque globe, and to imagery alone, all in turn in
 // one run.
 
 #include <fmt/format.h>

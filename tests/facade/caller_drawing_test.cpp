@@ -131,7 +131,7 @@ class CallerDrawing : public GlTest, public testing::WithParamInterface<DepthMod
     return std::make_unique<Box>(body.to_ecef(foot).xyz_m, glm::dmat3(u, glm::cross(up, u), up), 1500.0, GetParam());
   }
 
-  /// Of each pixel: true if a ray cast in double meets the box before the ground, or `any` place of the box.
+  /// True for each pixel whose ray, cast in double, meets the box before the ground, or `any` place of the box.
   static std::vector<bool> truth_of(const Globe& globe, const Box& box, bool any) {
     const View view = globe.view(kScene);
     std::vector<bool> inked;
@@ -181,7 +181,7 @@ TEST_P(CallerDrawing, ABoxMeetsTheGroundWhereRaysSayAtEachStage) {
       ++calls;
       EXPECT_EQ(matrices.depth, GetParam());
       box->draw();
-      // What a caller may leave behind.
+      // A caller may leave any state behind.
       glDisable(GL_DEPTH_TEST);
       glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
       glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);

@@ -14,7 +14,7 @@ namespace {
 constexpr Viewport kSmall{64, 64};
 const TileGrid kFew{.tile_px = 16, .max_level = 1};
 
-/// What a slow source and its test share.
+/// State that a slow source shares with its test.
 struct Gate {
   std::mutex mutex;
   std::condition_variable changed;

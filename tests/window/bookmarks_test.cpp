@@ -72,7 +72,7 @@ TEST(Bookmarks, HaveNamesAndAnOrderThatStay) {
   EXPECT_FALSE(again->at(3));
 }
 
-// What earlier versions wrote and read: cameras under numbers.
+// Files of earlier versions have cameras under numbers.
 TEST(Bookmarks, TheFileKeepsItsForm) {
   const test::ScratchFolder folder;
   const auto file = folder.path() / "bookmarks.json";

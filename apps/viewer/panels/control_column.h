@@ -7,7 +7,7 @@
 
 namespace terrella {
 
-/// What the control column did in a frame.
+/// Actions of the control column in a frame.
 struct ControlColumn {
   const Action* clicked = nullptr;
   bool held = false;  ///< true while a button is held: it repeats, so frames are needed

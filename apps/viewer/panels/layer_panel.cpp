@@ -51,7 +51,7 @@ void draw_look(LayerRow& row) {
   if (row.finest_level > 0) draw_levels(row);
 }
 
-/// What the raster itself says of its place, instead of facts about the tiles' grid.
+/// Draws the facts of the raster itself, instead of those of the tiles' grid.
 void draw_facts(LayerRow& row) {
   if (row.raster.empty()) return;
   if (!row.facts.valid()) {

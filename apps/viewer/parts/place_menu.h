@@ -11,7 +11,7 @@
 
 namespace terrella {
 
-/// What the menu asks other parts to do.
+/// Requests of the menu to other parts.
 struct PlaceMenuCalls {
   std::function<void(const Action&)> run;
   std::function<void(glm::dvec2)> measure_from;  ///< a pixel of the framebuffer

@@ -1,21 +1,16 @@
 #include "apps/viewer/tools/bookmarks.h"
 
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "apps/setup/user_folder.h"
-#include "apps/setup/write_file.h"
 #include "apps/viewer/panels/readout.h"
-#include "streaming/file_bytes.h"
-#include "streaming/json_fields.h"
+#include "apps/viewer/tools/kept_json.h"
 
 namespace terrella {
 namespace {
 
-constexpr std::size_t kMostBookmarkBytes = 1UL << 20;
 constexpr const char* kField = "bookmarks";
 constexpr const char* kNames = "names";
 
@@ -23,12 +18,9 @@ constexpr const char* kNames = "names";
 
 Result<Bookmarks> Bookmarks::load(const std::filesystem::path& file) {
   Bookmarks bookmarks;
-  const auto bytes = read_file(file, kMostBookmarkBytes);
-  if (!bytes && bytes.error().problem == FileProblem::missing) return bookmarks;
-  if (!bytes) return Error{bytes.error().message};
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  const Result<nlohmann::json> json = parse_json_object(text, kMostBookmarkBytes, file.string());
+  const Result<nlohmann::json> json = read_kept_json(file);
   if (!json) return json.error();
+  if (json->is_null()) return bookmarks;
   const auto kept = json->find(kField);
   if (kept == json->end() || !kept->is_object()) return Error{file.string() + ": not a file of bookmarks"};
   const auto names = json->find(kNames);
@@ -51,12 +43,8 @@ Status Bookmarks::save(const std::filesystem::path& file) const {
     cameras[std::to_string(number)] = camera_text(bookmark.camera);
     if (!bookmark.name.empty()) names[std::to_string(number)] = bookmark.name;
   }
-  std::error_code failed;
-  std::filesystem::create_directories(file.parent_path(), failed);
-  if (failed) return Error{file.parent_path().string() + ": " + failed.message()};
   const nlohmann::json json{{kField, cameras}, {kNames, names}};
-  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  return write_file(file, std::as_bytes(std::span(text)));
+  return write_kept_json(file, json);
 }
 
 std::optional<Camera> Bookmarks::at(int number) const {

@@ -1,0 +1,32 @@
+#include "apps/viewer/tools/kept_json.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "apps/setup/write_file.h"
+#include "streaming/file_bytes.h"
+#include "streaming/json_fields.h"
+
+namespace terrella {
+
+Result<nlohmann::json> read_kept_json(const std::filesystem::path& file) {
+  constexpr std::size_t kMostBytes = 1UL << 20;
+  const auto bytes = read_file(file, kMostBytes);
+  if (!bytes && bytes.error().problem == FileProblem::missing) return nlohmann::json();
+  if (!bytes) return Error{bytes.error().message};
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return parse_json_object(text, kMostBytes, file.string());
+}
+
+Status write_kept_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  std::error_code failed;
+  std::filesystem::create_directories(file.parent_path(), failed);
+  if (failed) return Error{file.parent_path().string() + ": " + failed.message()};
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return write_file(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace terrella
