@@ -38,10 +38,11 @@ class SourceTest(unittest.TestCase):
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="terrella-source-"))
         self.addCleanup(shutil.rmtree, self.scratch)
 
-    def data(self):
+    def write_data(self):
+        """The files that outside/main.cpp draws."""
         quakes = self.scratch / "quakes.geojson"
         quakes.write_text(QUAKES)
-        return [BUILD / "data/earth.gpkg", cut_square(BUILD / "terrella", self.scratch), quakes]
+        self.data = [BUILD / "data/earth.gpkg", cut_square(BUILD / "terrella", self.scratch), quakes]
 
     def test_fetch_content_and_shared_library(self):
         """The document's second project, with this folder in place of the archive that it fetches, draws a picture. It
@@ -50,7 +51,8 @@ class SourceTest(unittest.TestCase):
         configure(folder, f"-DFETCHCONTENT_SOURCE_DIR_TERRELLA={SOURCE}", "-DBUILD_SHARED_LIBS=ON", "-DTERRELLA_INSTALL=ON")
         run(CMAKE, "--build", folder / "build", "--parallel", "2")
         picture = self.scratch / "earth.png"
-        run(folder / "build/application", *self.data(), picture)
+        self.write_data()
+        run(folder / "build/application", *self.data, picture)
         assert_picture(self, picture)
         prefix = self.scratch / "prefix"
         run(CMAKE, "--install", folder / "build", "--prefix", prefix)
@@ -72,7 +74,7 @@ class SourceTest(unittest.TestCase):
         run(CMAKE, "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         run(CMAKE, "--build", folder / "build")
-        run(folder / "build/application", *self.data(), folder / "earth.png")
+        run(folder / "build/application", *self.data, folder / "earth.png")
         assert_picture(self, folder / "earth.png")
 
     def use_by_pkg_config(self, prefix):
@@ -82,7 +84,7 @@ class SourceTest(unittest.TestCase):
         self.assertIn("-lterrella", flags)
         run(COMPILER, "-std=c++20", "-Wall", "-Wextra", "-Werror", "main.cpp", "-o", "application", *flags, cwd=folder)
         libraries = {**os.environ, "LD_LIBRARY_PATH": str(next(prefix.rglob("libterrella.so")).parent)}
-        run(folder / "application", *self.data(), folder / "earth.png", env=libraries)
+        run(folder / "application", *self.data, folder / "earth.png", env=libraries)
         assert_picture(self, folder / "earth.png")
 
     def test_add_subdirectory(self):
