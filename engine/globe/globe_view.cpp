@@ -100,7 +100,7 @@ bool GlobeView::Impl::needs_frame(unsigned framebuffer, Viewport viewport) const
 bool GlobeView::Impl::is_hidden(std::size_t layer) const {
   std::vector<const PatchNode*> covered;
   for (std::size_t over = layer + 1; over < stack.size(); ++over) {
-    if (!stack[over]->layer().is_opaque(globe->has_night())) continue;
+    if (!stack[over]->hides()) continue;
     const std::vector<SelectedPatch>& patches = stack[over]->patches();
     for (std::size_t k = 0; k < patches.size(); ++k) {
       if (stack[over]->is_full(k)) covered.push_back(&patches[k].body());

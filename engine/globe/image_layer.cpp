@@ -147,6 +147,10 @@ bool ImageLayer::is_opaque(bool has_night) const {
   return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(has_night);
 }
 
+bool ImageLayer::hides(bool has_night) const {
+  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(has_night);
+}
+
 bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
          (has_night && look_.daylight != Daylight::both);
