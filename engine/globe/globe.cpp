@@ -242,6 +242,7 @@ bool Globe::needs_frame() const {
   const FrameStats& last = impl_->stats;
   if (impl_->changed || impl_->frame == 0 || last.heights_arrived || last.relief_put_off > 0) return true;
   if (impl_->heights && impl_->heights->has_news()) return true;
+  if (std::ranges::any_of(impl_->objects, &ObjectLayer::has_news)) return true;
   return std::ranges::any_of(impl_->images, [](const auto& layer) { return layer->has_news(); });
 }
 

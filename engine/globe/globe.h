@@ -14,6 +14,7 @@
 #include "base/result.h"
 #include "geo/body.h"
 #include "geo/camera.h"
+#include "geo/object_edits.h"
 #include "geo/objects.h"
 #include "objects/object_pick.h"
 #include "sky/cube_picture.h"
@@ -119,7 +120,7 @@ struct GlobePick {
   std::optional<Geodetic> place{};       ///< place on the ground (view/ground.h); none beside the globe
   LayerId imagery = LayerId::none;       ///< the top image layer drawn there, according to its bounds
   LayerId objects = LayerId::none;       ///< layer of the object; none: no object
-  std::optional<PickedObject> object{};  ///< kind and index in the layer's lists
+  std::optional<PickedObject> object{};  ///< its feature, and its kind and index in the layer's lists
 };
 
 /// A value of a number layer at a place.
@@ -170,8 +171,12 @@ class Globe {
   [[nodiscard]] std::vector<LayerId> imagery() const;  ///< lowest first
   /// Adds an object layer over the existing ones. Fails if its shader programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
-  /// Replaces the objects of a layer.
+  /// Replaces the objects of a layer. Many lines and areas are cut by a worker; until then the layer shows the earlier
+  /// objects, and settled() is false.
   Status set_objects(LayerId layer, ObjectScene objects);
+  /// Adds, moves, changes and removes single objects of a layer by their ids. Costs what the edits name. Fails if the
+  /// layer has none of an id, or if a size is not positive; all other edits are made.
+  Status edit_objects(LayerId layer, ObjectEdits edits);
   Status show_objects(LayerId layer, bool shown);
   /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
   /// Opaque objects cost slightly less than translucent ones.

@@ -163,6 +163,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   drawn = viewport;
   drawn_into = framebuffer;
   stats.uploaded_bytes = take_finished();
+  take_cuts();
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();
   plan(viewport);
@@ -186,6 +187,7 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
 bool Globe::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
+  if (std::ranges::any_of(objects, &ObjectLayer::waits)) return false;
   return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
 }
 

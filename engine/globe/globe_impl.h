@@ -10,27 +10,13 @@
 #include "globe/globe.h"
 #include "globe/height_layer.h"
 #include "globe/image_layer.h"
+#include "globe/object_layer.h"
 #include "render/gl/gl_state.h"
 #include "render/globe_renderer.h"
 #include "surface/plan/frame_plan.h"
 #include "tiles/arrival_bell.h"
 
 namespace terrella {
-
-/// Objects that are added and removed together.
-struct ObjectLayer {
-  LayerId id = LayerId::none;
-  ObjectScene scene;
-  bool shown = true;
-  double opacity = 1.0;
-  std::string attribution = {};
-  // Computed when first needed, and kept until the layer itself changes.
-  std::optional<Angle> line_length = {};
-  std::optional<CutObjects> cut = {};
-  std::optional<ObjectScene> faded = {};  ///< set if opacity is less than 1
-
-  [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
-};
 
 /// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
 using GlScope = std::unique_ptr<GlState>;
@@ -51,8 +37,8 @@ struct Globe::Impl {
   [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
   [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
   void share_gpu();
-  Status upload_objects();
-  [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
+  Status show_layers();
+  void take_cuts();
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
   // A frame.

@@ -35,9 +35,11 @@ GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
     if (found.place && impl_->shows(*layer, *found.place)) found.imagery = layer->id();
   }
   const PickOptions how{.through_ground = impl_->options.surface.alpha < 1.0};
-  for (const ObjectLayer& layer : impl_->objects) {
+  for (ObjectLayer& layer : impl_->objects) {
     if (!layer.is_drawn()) continue;
-    const auto object = pick_object(eye, drawn, layer.scene, pixel_px, how);
+    LayerObjects& objects = *layer.drawn().objects;
+    const auto labels = impl_->renderer->labels_at(objects, pixel_px, viewport);
+    const auto object = objects.pick(eye, drawn, pixel_px, how, labels);
     if (!object || (found.object && found.object->distance_m < object->distance_m)) continue;
     found.object = object;
     found.objects = layer.id;

@@ -39,18 +39,16 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   return renderer;
 }
 
-Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
+Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
   if (Status s = make_once(objects_, options_.depth); !s) return s;
   if (!label_font_.empty()) objects_->set_label_font(std::exchange(label_font_, {}));
-  objects_->set_objects(make_batches(scenes, ellipsoid_));
-  std::vector<MeshObject> meshes;
-  std::vector<LabelObject> labels;
-  for (const CutScene& from : scenes) {
-    meshes.insert(meshes.end(), from.scene.meshes.begin(), from.scene.meshes.end());
-    labels.insert(labels.end(), from.scene.labels.begin(), from.scene.labels.end());
-  }
-  if (Status set = objects_->set_meshes(meshes, ellipsoid_); !set) return set;
-  return objects_->set_labels(labels, ellipsoid_);
+  objects_->set_layers(std::move(layers));
+  return objects_->prepare();
+}
+
+std::vector<std::uint32_t> GlobeRenderer::labels_at(const LayerObjects& layer, glm::dvec2 pixel_px,
+                                                    Viewport viewport) const {
+  return objects_ ? objects_->labels_at(layer, pixel_px, viewport) : std::vector<std::uint32_t>{};
 }
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
@@ -75,6 +73,10 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
   FrameCounts counts;
+  if (objects_) {
+    if (Status prepared = objects_->prepare(); !prepared) return prepared.error();
+    objects_->upload();
+  }
   const std::vector<EyePicture> pictures = pictures_of(input);
   for (const EyePicture& eye : pictures) {
     if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared.error();

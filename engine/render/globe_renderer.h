@@ -104,8 +104,12 @@ class GlobeRenderer {
 
   /// Sets the bytes of the font file for labels, before the first objects. Without a font there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
-  /// Replaces all objects. The first call makes the programs for objects.
-  Status set_objects(std::span<const CutScene> scenes);
+  /// Sets the object layers to draw, the lowest first; they must stay until the next call. Makes the programs that the
+  /// layers need.
+  Status set_objects(std::vector<DrawnLayer> layers);
+  /// Returns the labels of an object layer that the last frame showed at a pixel, if it had this size.
+  [[nodiscard]] std::vector<std::uint32_t> labels_at(const LayerObjects& layer, glm::dvec2 pixel_px,
+                                                     Viewport viewport) const;
 
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.

@@ -4,15 +4,19 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "geo/camera.h"
 #include "geo/objects.h"
+#include "objects/label_layout.h"
 #include "objects/object_batches.h"
 #include "render/gl/stream_buffer.h"
 #include "render/objects/glyph_atlas.h"
+#include "render/objects/layer_buffers.h"
 #include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
@@ -33,16 +37,19 @@ class LabelPass {
  public:
   /// Limits: labels looked at, highest priority first, and characters per label.
   static constexpr std::size_t kMostLabels = 100'000;
-  static constexpr std::size_t kMostCharacters = 96;
+  static constexpr std::size_t kMostCharacters = kMostLabelCharacters;
 
   [[nodiscard]] static Result<std::unique_ptr<LabelPass>> create(DepthMode depth, std::vector<std::byte> font);
 
-  void set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
-  /// Chooses the labels of the frame.
-  void place(const View& view, const LabelSight& sight);
+  /// Chooses the labels of the frame: by priority over all layers; on a tie, by the order of layers.
+  void place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers);
+  /// Returns the labels of a layer that the last frame showed at a pixel, if it had this size.
+  [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
+  /// Forgets the labels of the last frame, because its layers may be gone.
+  void forget();
   /// Returns the draw calls made.
   [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
-  [[nodiscard]] std::size_t shown() const { return shown_; }
+  [[nodiscard]] std::size_t shown() const { return shown_.size(); }
 
  private:
   struct Character {
@@ -55,29 +62,33 @@ class LabelPass {
     std::vector<std::pair<Glyph, float>> glyphs;  ///< glyphs, each with the pen's position
     float width_px = 0.0F;
   };
-  struct Label {
-    glm::dvec3 place_m;
-    std::u32string text;
-    double radius_m;
-    float size_px;
-    ObjectColor color;
-    bool underground, chosen;
+  /// A label of a layer.
+  struct LabelRef {
+    const LayerObjects* layer;
+    std::uint32_t index;
+  };
+  struct Shown {
+    LabelRef label;
+    LabelBox box;
   };
 
   LabelPass() = default;
   void set_up_array();
   [[nodiscard]] Line line_of(const std::u32string& text);
-  [[nodiscard]] static bool in_sight(const Label& label, const View& view, const LabelSight& sight);
-  void put(const Label& label, const Line& line, float right_px);
+  [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
+  void merge(std::span<const DrawnLayer> layers);
+  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, float right_px);
 
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::vector<Label> labels_;  ///< in the order of placing
+  std::vector<LabelRef> order_;                                        ///< of placing
+  std::vector<std::pair<const LayerObjects*, std::uint64_t>> merged_;  ///< layers in order_, and their versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;
   std::array<std::size_t, 5> first_{};  ///< first character of each of those four ranges, and the end
-  std::size_t shown_ = 0;
+  std::vector<Shown> shown_;
+  Viewport picture_{0, 0};  ///< that shows them
 };
 
 }  // namespace terrella
