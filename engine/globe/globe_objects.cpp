@@ -109,16 +109,16 @@ Status Globe::Impl::show_layers() {
   return renderer->set_objects(std::move(layers));
 }
 
-// A frame takes what workers have cut. A program that cannot be made is reported by the frame.
+// A program that cannot be made is reported by the frame.
 void Globe::Impl::take_cuts() {
   bool replaced = false;
   for (ObjectLayer& layer : objects) {
-    objects_cut += layer.take_cuts();
+    const std::size_t taken = layer.take_cuts();
+    objects_cut += taken;
+    changed = changed || taken > 0;
     replaced = layer.take_replaced() || replaced;
   }
-  if (!replaced) return;
-  static_cast<void>(show_layers());
-  changed = false;
+  if (replaced) static_cast<void>(show_layers());
 }
 
 }  // namespace terrella

@@ -1,6 +1,7 @@
 #include "objects/layer_objects.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -13,10 +14,19 @@ namespace {
 /// Removed objects are forgotten once they are this many, and more than the others.
 constexpr std::size_t kFewRemoved = 1000;
 
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
 LayerObjects::LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color)
-    : ellipsoid_(ellipsoid), opacity_(opacity), selected_color_(selected_color), job_{.ellipsoid = ellipsoid} {
+    : serial_(next_serial()),
+      ellipsoid_(ellipsoid),
+      opacity_(opacity),
+      selected_color_(selected_color),
+      job_{.ellipsoid = ellipsoid} {
   add(std::move(scene));
 }
 

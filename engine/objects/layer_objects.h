@@ -39,6 +39,8 @@ class LayerObjects {
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< of what is cut; true if there is something to draw
 
+  [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< another one for each LayerObjects
+
   // Labels.
   [[nodiscard]] const std::vector<KeptLabel>& labels() const { return labels_; }
   /// Indices of the labels, the highest priority first.
@@ -96,6 +98,7 @@ class LayerObjects {
   void index_all();
   void index_part(PartRef part);
 
+  std::uint64_t serial_;
   Ellipsoid ellipsoid_;
   double opacity_;
   ObjectColor selected_color_;

@@ -55,7 +55,10 @@ endfunction()
 
 # The name under include/terrella: globe.h for engine/globe/globe.h, codecs/image.h for engine/codecs/image.h.
 function(terrella_installed_header header out)
-  string(REGEX REPLACE "^engine/(globe/)?" "" installed ${header})
+  string(REGEX REPLACE "^engine/(globe/globe.h$)?" "" installed ${header})
+  if(NOT installed)
+    set(installed globe.h)
+  endif()
   set(${out} ${installed} PARENT_SCOPE)
 endfunction()
 

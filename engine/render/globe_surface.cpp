@@ -64,6 +64,7 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
   patches_->set_plain_footprint(input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
   const bool shaded = input.relief != nullptr && input.lit;
   if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
+  if (slopes_) slopes_->set_views(input.views);
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;

@@ -15,6 +15,7 @@ SkyScene::SkyScene(const Body& body, Viewport size, const std::vector<Star>& sta
   auto sky = SkyPass::create(body, stars);
   if (!sky) throw std::runtime_error(sky.error().message);
   sky_ = std::move(*sky);
+  sky_->keep_air_in(air_);
   color_ = gl::make_texture(GL_TEXTURE_2D);
   depth_ = gl::make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(color_.name(), 1, GL_RGBA8, size.width_px, size.height_px);

@@ -21,6 +21,18 @@ constexpr GLint kLabelBiasUniform = 1;
 
 }  // namespace
 
+std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const {
+  std::vector<std::uint32_t> found;
+  if (viewport != picture) return found;
+  const glm::vec2 p(pixel_px);
+  for (const Label& label : labels) {
+    const glm::vec2 &low = label.box.low_px, &high = label.box.high_px;
+    const bool inside = p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y;
+    if (inside && label.layer == layer.serial()) found.push_back(label.index);
+  }
+  return found;
+}
+
 Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
   std::unique_ptr<LabelPass> pass(new LabelPass);
   auto atlas = GlyphAtlas::create(std::move(font), kText_px);
@@ -51,15 +63,10 @@ void LabelPass::set_up_array() {
   glVertexArrayBindingDivisor(array, 0, 1);
 }
 
-void LabelPass::forget() {
-  shown_.clear();
-  merged_.clear();
-}
-
 // Each layer keeps its labels in order. They are merged again only if labels come or go.
 void LabelPass::merge(std::span<const DrawnLayer> layers) {
-  std::vector<std::pair<const LayerObjects*, std::uint64_t>> now;
-  for (const DrawnLayer& layer : layers) now.emplace_back(layer.objects, layer.objects->label_version());
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> now;
+  for (const DrawnLayer& layer : layers) now.emplace_back(layer.objects->serial(), layer.objects->label_version());
   if (now == merged_) return;
   merged_ = std::move(now);
   order_.clear();
@@ -74,17 +81,6 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
     std::inplace_merge(order_.begin(), order_.begin() + old, order_.end(), before);
   }
   order_.resize(std::min(order_.size(), kMostLabels));
-}
-
-std::vector<std::uint32_t> LabelPass::at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const {
-  std::vector<std::uint32_t> found;
-  if (viewport != picture_) return found;
-  const glm::vec2 p(pixel_px);
-  for (const auto& [label, box] : shown_) {
-    const bool inside = p.x >= box.low_px.x && p.x < box.high_px.x && p.y >= box.low_px.y && p.y < box.high_px.y;
-    if (label.layer == &layer && inside) found.push_back(label.index);
-  }
-  return found;
 }
 
 LabelPass::Line LabelPass::line_of(const std::u32string& text) {
@@ -107,12 +103,12 @@ bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSi
   return !is_behind(label.place_m, view.eye.xyz_m, sight.hiding_half_axes_m);
 }
 
-void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers) {
+void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers,
+                      ShownLabels& shown) {
   merge(layers);
   LabelRoom room(view.viewport);
   for (auto& characters : characters_) characters.clear();
-  shown_.clear();
-  picture_ = view.viewport;
+  shown = {.picture = view.viewport};
   const double focal_px = view.pixels_per_radian();
   for (const LabelRef& ref : order_) {
     const KeptLabel& label = ref.layer->labels()[ref.index];
@@ -131,7 +127,7 @@ void LabelPass::place(const View& view, const LabelSight& sight, std::span<const
     const glm::vec2 margin(kMargin_px);
     if (!room.take({text.low_px - margin, text.high_px + margin})) continue;
     put(label, ref.layer->drawn(label.object.color, label), line, right_px);
-    shown_.push_back({ref, text});
+    shown.labels.push_back({ref.layer->serial(), ref.index, text});
   }
   std::vector<Character> all;
   for (std::size_t k = 0; k < characters_.size(); ++k) {

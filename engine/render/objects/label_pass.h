@@ -30,6 +30,20 @@ struct LabelSight {
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
 
+/// The labels that a frame of one view showed. A plain value.
+struct ShownLabels {
+  struct Label {
+    std::uint64_t layer;  ///< LayerObjects::serial()
+    std::uint32_t index;
+    LabelBox box;
+  };
+  Viewport picture{0, 0};
+  std::vector<Label> labels = {};
+
+  /// Returns the labels of a layer whose texts cover a pixel, if the frame had this size.
+  [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
+};
+
 /// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. If
 /// labels would overlap, only the label with the highest priority is drawn. The choice is made once per frame, so
 /// that both eyes show the same labels. Text runs left to right with kerning, without shaping. thread: main
@@ -42,14 +56,9 @@ class LabelPass {
   [[nodiscard]] static Result<std::unique_ptr<LabelPass>> create(DepthMode depth, std::vector<std::byte> font);
 
   /// Chooses the labels of the frame: by priority over all layers; on a tie, by the order of layers.
-  void place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers);
-  /// Returns the labels of a layer that the last frame showed at a pixel, if it had this size.
-  [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
-  /// Forgets the labels of the last frame, because its layers may be gone.
-  void forget();
+  void place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers, ShownLabels& shown);
   /// Returns the draw calls made.
   [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
-  [[nodiscard]] std::size_t shown() const { return shown_.size(); }
 
  private:
   struct Character {
@@ -67,10 +76,6 @@ class LabelPass {
     const LayerObjects* layer;
     std::uint32_t index;
   };
-  struct Shown {
-    LabelRef label;
-    LabelBox box;
-  };
 
   LabelPass() = default;
   void set_up_array();
@@ -82,13 +87,11 @@ class LabelPass {
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::vector<LabelRef> order_;                                        ///< of placing
-  std::vector<std::pair<const LayerObjects*, std::uint64_t>> merged_;  ///< layers in order_, and their versions
+  std::vector<LabelRef> order_;                                  ///< of placing
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;
   std::array<std::size_t, 5> first_{};  ///< first character of each of those four ranges, and the end
-  std::vector<Shown> shown_;
-  Viewport picture_{0, 0};  ///< that shows them
 };
 
 }  // namespace terrella

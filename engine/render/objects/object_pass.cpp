@@ -58,7 +58,6 @@ void ObjectPass::set_up_arrays() {
 void ObjectPass::set_layers(std::vector<DrawnLayer> layers) {
   layers_ = std::move(layers);
   planned_.clear();
-  if (labels_) labels_->forget();
 }
 
 Status ObjectPass::prepare() {

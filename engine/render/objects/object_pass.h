@@ -34,14 +34,9 @@ class ObjectPass {
 
   /// Sets the font of labels, the bytes of a font file. Without a font, no labels are drawn.
   void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
-  /// Chooses the labels of a frame. Before the first call, no labels are drawn.
-  void place_labels(const View& view, const LabelSight& sight) {
-    if (labels_) labels_->place(view, sight, layers_);
-  }
-  /// Returns the labels of a layer whose texts covered a pixel in the last frame, if it had this size.
-  [[nodiscard]] std::vector<std::uint32_t> labels_at(const LayerObjects& layer, glm::dvec2 pixel_px,
-                                                     Viewport viewport) const {
-    return labels_ ? labels_->at(layer, pixel_px, viewport) : std::vector<std::uint32_t>{};
+  /// Chooses the labels of a frame, which `shown` remembers. Before the first call, no labels are drawn.
+  void place_labels(const View& view, const LabelSight& sight, ShownLabels& shown) {
+    if (labels_) labels_->place(view, sight, layers_, shown);
   }
 
   /// Draws one part into the bound framebuffer with the depth test, stencil and color mask of `state`. The caller has

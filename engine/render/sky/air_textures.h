@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <memory>
 #include <optional>
 
 #include "geo/body.h"
@@ -15,12 +16,12 @@ namespace terrella {
 /// sphere of radius 1; the axes of the horizon are x towards the Sun's azimuth and z up. thread: main
 class AirTextures {
  public:
-  AirTextures(const Body& body, const Atmosphere& air);
+  AirTextures(const Body& body, std::shared_ptr<const AirTables> tables);
 
   /// Computes the air again if the eye or the Sun has moved. False if the eye is at the planet's centre.
   bool fit(const View& view, const EcefDir& sun);
 
-  [[nodiscard]] const Atmosphere& air() const { return tables_.air(); }
+  [[nodiscard]] const Atmosphere& air() const { return tables_->air(); }
   [[nodiscard]] const SkyColors& sky() const { return sky_; }
   /// Turns a direction or an offset from the eye, metres, into the axes of the horizon, in scaled space.
   [[nodiscard]] glm::dmat3 horizon_from_ecef() const;
@@ -39,7 +40,7 @@ class AirTextures {
   void upload();
 
   Body body_;
-  AirTables tables_;
+  std::shared_ptr<const AirTables> tables_;  ///< the same for all eyes
   AirEye eye_{.radius = 0.0};
   double pixel_ = 0.0;
   glm::dmat3 axes_{1.0};

@@ -68,11 +68,18 @@ Columns columns_in_view(const View& view, const AirTextures& air) {
 
 Result<std::unique_ptr<SkyPass>> SkyPass::create(const Body& body, const std::vector<Star>& stars) {
   std::unique_ptr<SkyPass> pass(new SkyPass(body));
-  if (const auto air = atmosphere_of(body)) pass->air_.emplace(body, *air);
+  if (const auto air = atmosphere_of(body)) {
+    pass->tables_ = std::make_shared<const AirTables>(*air, body.ellipsoid.a_m());
+  }
   if (const Status built = pass->build_programs(); !built) return built.error();
   pass->empty_array_ = gl::make_vertex_array();
   pass->load_stars(stars);
   return pass;
+}
+
+void SkyPass::keep_air_in(std::unique_ptr<AirTextures>& place) {
+  if (tables_ && !place) place = std::make_unique<AirTextures>(body_, tables_);
+  air_ = place.get();
 }
 
 Status SkyPass::build_programs() {
@@ -85,7 +92,7 @@ Status SkyPass::build_programs() {
   if (Status s = build(star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
   if (Status s = build(sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
   if (Status s = build(moon_program_, "sky_disc.vert", "sky_moon.frag"); !s) return s;
-  if (!air_) return Done{};
+  if (!tables_) return Done{};
   return build(air_program_, "sky_air.vert", "sky_air.frag");
 }
 
@@ -105,7 +112,7 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
 int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state) const {
   if (star_count_ == 0) return 0;
   const double height_m = body_.ellipsoid.to_geodetic(view.eye).height_m;
-  const double visibility = air_ && input.atmosphere
+  const double visibility = air_ != nullptr && input.atmosphere
                                 ? star_visibility(air_->air(), height_m, sun_cosine(body_, view, input.almanac.sun))
                                 : 1.0;
   if (visibility < 1e-3) return 0;
@@ -173,7 +180,7 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
 }
 
 const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
-  return input.atmosphere && air_ && air_->fit(view, input.almanac.sun) ? &*air_ : nullptr;
+  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun) ? air_ : nullptr;
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -31,6 +30,9 @@ class SkyPass {
   /// `stars` may be empty. A body without an atmosphere needs no program for it.
   [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
 
+  /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before the other
+  /// functions.
+  void keep_air_in(std::unique_ptr<AirTextures>& place);
   /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. The frame's uniform block
   /// must be bound and of this view. Returns the draw calls made. Changes vertex array and texture units 0 and 1.
   int draw(const View& view, const SkyInput& input, DrawState state);
@@ -54,7 +56,8 @@ class SkyPass {
   void place_disc(const View& view, const Disc& disc, double square) const;
 
   Body body_;
-  std::optional<AirTextures> air_;
+  std::shared_ptr<const AirTables> tables_;  ///< null: a body without an atmosphere
+  AirTextures* air_ = nullptr;               ///< of the view that is drawn; null: none
   gl::Program star_program_, sun_program_, moon_program_, air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;
