@@ -97,6 +97,7 @@ class LayerObjects {
   // layer_pick.cpp
   void index_all();
   void index_part(PartRef part);
+  void take(PartRef part, ObjectPicker& picker);
 
   std::uint64_t serial_;
   Ellipsoid ellipsoid_;

@@ -68,40 +68,42 @@ void LayerObjects::index_part(PartRef part) {
   }
 }
 
+void LayerObjects::take(PartRef part, ObjectPicker& picker) {
+  if (!kept(part).visible) return;
+  if (part.kind == ObjectKind::point) {
+    const KeptPoint& point = points_[part.index];
+    picker.point(point.object, point.place_m, point.number);
+  } else if (part.kind == ObjectKind::line) {
+    KeptLine& line = lines_[part.index];
+    if (!line.picked) line.picked = std::make_unique<PickWay>(pick_way(*line.object, ellipsoid_));
+    picker.line(*line.object, *line.picked, line.number);
+  } else if (part.kind == ObjectKind::polygon) {
+    KeptArea& area = areas_[part.index];
+    if (!area.picked) area.picked = std::make_unique<PickArea>(*area.object, ellipsoid_);
+    picker.area(*area.object, *area.picked, area.number);
+  } else if (part.kind == ObjectKind::mesh) {
+    const KeptMesh& mesh = meshes_[part.index];
+    picker.mesh(mesh.object, mesh.place_m, batches_.models[mesh.model].reach_m * mesh.object.scale, mesh.number);
+  } else {
+    const KeptLabel& label = labels_[part.index];
+    picker.label(label.object, label.place_m, label.number);
+  }
+}
+
 // pick_object() lets a later object win at equal distance. So the objects that the index finds are taken in its order.
 std::optional<PickedObject> LayerObjects::pick(const View& view, const Ground& ground, glm::dvec2 pixel_px,
                                                const PickOptions& options, std::span<const std::uint32_t> labels) {
   if (!index_) index_all();
   std::vector<std::uint32_t> items;
   index_->find(PickCone(view, pixel_px, most_reach_px_ + options.slack_px), items);
-  const auto rank = [](std::uint32_t item) {
+  std::ranges::sort(items, {}, [](std::uint32_t item) {
     constexpr std::array<std::uint32_t, kKinds> kOrder{3, 1, 0, 2};  // areas, lines, models, points
     return std::pair(kOrder[item % kKinds], item);
-  };
-  std::ranges::sort(items, {}, rank);
+  });
   ObjectPicker picker(view, ground, pixel_px, options);
-  for (const std::uint32_t item : items) {
-    const PartRef part = part_of(item);
-    if (!kept(part).visible) continue;
-    if (part.kind == ObjectKind::point) {
-      const KeptPoint& point = points_[part.index];
-      picker.point(point.object, point.place_m, point.number);
-    } else if (part.kind == ObjectKind::line) {
-      KeptLine& line = lines_[part.index];
-      if (!line.picked) line.picked = std::make_unique<PickWay>(pick_way(*line.object, ellipsoid_));
-      picker.line(*line.object, *line.picked, line.number);
-    } else if (part.kind == ObjectKind::polygon) {
-      KeptArea& area = areas_[part.index];
-      if (!area.picked) area.picked = std::make_unique<PickArea>(*area.object, ellipsoid_);
-      picker.area(*area.object, *area.picked, area.number);
-    } else {
-      const KeptMesh& mesh = meshes_[part.index];
-      picker.mesh(mesh.object, mesh.place_m, batches_.models[mesh.model].reach_m * mesh.object.scale, mesh.number);
-    }
-  }
+  for (const std::uint32_t item : items) take(part_of(item), picker);
   for (const std::uint32_t k : labels) {
-    if (k < labels_.size() && labels_[k].visible)
-      picker.label(labels_[k].object, labels_[k].place_m, labels_[k].number);
+    if (k < labels_.size()) take({ObjectKind::label, k}, picker);
   }
   return picker.best();
 }

@@ -133,9 +133,30 @@ TEST(SphereGroups, TranslucentSpheresKeepTheirOrderAndAreNoPoints) {
   std::mt19937 random(10);
   Batch<DotInstance> batch = any_spheres(random, 500);
   for (DotInstance& sphere : batch.items) sphere.color.alpha = 100;
+  const std::size_t translucent = Batch<DotInstance>::bucket(ObjectPart::above_ground, false, false);
+  std::fill(batch.first.begin(), batch.first.begin() + std::ptrdiff_t(translucent) + 1, 0);
   SphereGroups groups(batch);
   for (std::size_t k = 0; k < batch.items.size(); ++k) ASSERT_EQ(groups.items()[k].high_m, batch.items[k].high_m);
   EXPECT_TRUE(groups.seen({0, batch.items.size()}, sights().front()).points.empty());
+}
+
+// A sphere that moves away is seen where it comes to, and its group's ball follows it.
+TEST(SphereGroups, AMovedSphereIsSeenWhereItIs) {
+  std::mt19937 random(12);
+  const Batch<DotInstance> before = any_spheres(random, 3000), after = any_spheres(random, 3000);
+  SphereGroups moved(before);
+  std::vector<DotInstance> spheres(3000);
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    EXPECT_EQ(moved.items()[k].high_m, before.items[moved.source(k)].high_m);
+    spheres[k] = after.items[moved.source(k)];
+    moved.set(k, spheres[k]);
+  }
+  for (const SphereSight& from : sights()) {
+    const std::vector<int> how = drawn(moved, from);
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+      if (is_seen(spheres[k], from)) ASSERT_GT(how[k], 0) << k;
+    }
+  }
 }
 
 TEST(SphereGroups, ARangeIsItsOwnBuckets) {
