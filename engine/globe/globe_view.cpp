@@ -51,7 +51,10 @@ FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewp
   FrameStats drawn_stats;
   {
     const auto scope = may_draw(call);
-    if (!scope) return drawn_stats;
+    if (!scope) {
+      if (std::this_thread::get_id() == thread) status = scope.error();
+      return drawn_stats;
+    }
     drawn_stats = draw(framebuffer, viewport, corner_px);
   }
   const bool settled_before = std::exchange(was_settled, settled());

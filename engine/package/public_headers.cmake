@@ -1,5 +1,6 @@
 # What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
 set(TERRELLA_PUBLIC_HEADERS
+  engine/globe/data_files.h
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h

@@ -223,9 +223,9 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const int rows_apart = pass.eye.interlaced ? 2 : 1;
   if (!in_place) return draw(targets_->color(), targets_->depth(), rows_apart);
   // A pass must not read the texture that it writes, so the limb is first drawn beside the picture.
-  apply({});
-  targets_->resolve(GL_COLOR_BUFFER_BIT);
   const FrameTargets::Beside beside = targets_->beside();
+  apply({});
+  targets_->resolve_color(beside);  // the ribbon covers samples of pixels whose centres it misses
   glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
   apply(state);
   if (mountains) glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{}.data());

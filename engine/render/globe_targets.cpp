@@ -34,7 +34,7 @@ void GlobeRenderer::hand_over(const FrameInput& input, GLuint framebuffer) {
   apply({});  // a scissor would cut the copy
   if (targets_->samples() == 0) return targets_->copy_to(framebuffer, input.corner_px);
   copy_samples(color_samples_copy_, targets_->color_samples(), framebuffer, {}, *targets_, input.corner_px);
-  targets_->resolve(GL_DEPTH_BUFFER_BIT);
+  targets_->resolve_depth();
 }
 
 Status GlobeRenderer::prepare_copy(gl::Program& program, std::string_view fragment, bool samples) {

@@ -103,6 +103,17 @@ class WithoutWindow(ExampleTest):
         self.assertEqual(len({frame.read_bytes() for frame in frames}), 6, "each frame is another")
 
 
+    def test_overview(self):
+        file = self.folder / "overview.png"
+        self.run_example("overview", EARTH, file)
+        drawn = Picture("convert", file)
+        self.assertEqual((drawn.width, drawn.height), (640, 360))
+        corner = Picture("convert", file, "-crop", "160x90+0+270", "+repage")
+        above = Picture("convert", file, "-crop", "160x90+0+180", "+repage")
+        self.assertGreater(corner.colours(), 500, "the map has many colours")
+        self.assertNotEqual(corner.rgb, above.rgb)
+
+
 class InWindow(ExampleTest):
     def test_ten_lines(self):
         display = self.open_example("ten_lines", EARTH)

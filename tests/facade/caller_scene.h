@@ -15,7 +15,7 @@
 
 namespace terrella::test {
 
-constexpr Viewport kScene{160, 120};
+inline constexpr Viewport kScene{160, 120};
 
 /// Waves of 300 m, which tiles of 0.04 degrees a texel follow.
 inline double waves_m(double lat_rad, double lon_rad) {

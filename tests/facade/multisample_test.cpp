@@ -157,7 +157,9 @@ TEST_F(MultisampleOutline, TheLimbIsThatOfOneSample) {
       worst = std::max(worst, apart);
       off += apart > 24 ? 1 : 0;
     }
-    EXPECT_LT(worst, 64) << (sky ? "sky" : "no sky");
+    RecordProperty(sky ? "worst_sky" : "worst", worst);
+    RecordProperty(sky ? "off_sky" : "off", off);
+    EXPECT_LT(worst, 64) << (sky ? "sky " : "no sky ") << off;
     EXPECT_LT(off, 40) << (sky ? "sky" : "no sky");
   }
 }

@@ -17,8 +17,8 @@
 namespace terrella::test {
 namespace {
 
-constexpr Viewport kSmall{64, 64};
-const TileGrid kFew{.tile_px = 16, .max_level = 1};
+constexpr Viewport kMuteView{64, 64};
+const TileGrid kMuteGrid{.tile_px = 16, .max_level = 1};
 
 /// Listens on the loopback. The system accepts connections for it; nobody reads what they bring.
 class MuteServer {
@@ -66,11 +66,11 @@ class MuteServers : public GlTest {
  protected:
   static TileSetInfo land_info() {
     TileSetInfo info;
-    info.grid = kFew;
+    info.grid = kMuteGrid;
     return info;
   }
   static std::shared_ptr<TileSource> hills() {
-    return painted_heights(kFew, [](double lat, double) { return 1000.0 * lat; });
+    return painted_heights(kMuteGrid, [](double lat, double) { return 1000.0 * lat; });
   }
 };
 
@@ -81,14 +81,14 @@ TEST_F(MuteServers, HoldUpNoCallThatEndsALayerHeightsOrAGlobe) {
     const bool heights = what.starts_with("the elevation");
     std::optional<ElevationSource> elevation;
     if (heights) elevation = *ElevationSource::open(remote(server.url(), hills()->info()), "heights");
-    auto land = one_colour(kFew, {10, 200, 30});
+    auto land = one_colour(kMuteGrid, {10, 200, 30});
     auto globe =
         Globe::create(unlit_options(), heights ? land : remote(server.url(), land_info()), std::move(elevation));
     ASSERT_TRUE(globe) << globe.error().message;
     elevation.reset();
-    draw(**globe, kSmall);
+    draw(**globe, kMuteView);
     ASSERT_TRUE(server.wait_for_a_client());
-    draw(**globe, kSmall);
+    draw(**globe, kMuteView);
     if (what == "the elevation") {
       EXPECT_TRUE((*globe)->set_elevation({}));
     } else if (heights) {
@@ -99,7 +99,7 @@ TEST_F(MuteServers, HoldUpNoCallThatEndsALayerHeightsOrAGlobe) {
       globe->reset();
       continue;
     }
-    EXPECT_EQ(settle(**globe, kSmall).tiles_pending, 0);
+    EXPECT_EQ(settle(**globe, kMuteView).tiles_pending, 0);
     EXPECT_TRUE((*globe)->add_imagery(remote(server.url(), land_info()))) << "a further source of that server";
   }
 }
@@ -109,7 +109,7 @@ TEST(RemoteSourceOfAnAnswer, EndsOnItsOwnThread) {
   ScratchFolder folder;
   std::ofstream(folder.path() / "0-0-0") << "no picture";
   TileSetInfo info;
-  info.grid = kFew;
+  info.grid = kMuteGrid;
   RemoteTileSet set;
   set.info = info;
   set.url = "file://" + (folder.path() / "{z}-{x}-{y}").string();

@@ -54,11 +54,19 @@ FrameTargets::Beside FrameTargets::beside() {
   return {beside_framebuffer_.name(), beside_.name()};
 }
 
-void FrameTargets::resolve(GLbitfield what) const {
+void FrameTargets::resolve_color(const Beside& beside) const {
   if (form_.samples == 0) return;
+  resolve(GL_COLOR_BUFFER_BIT, resolved_.name());
+  resolve(GL_COLOR_BUFFER_BIT, beside.framebuffer);
+}
+
+void FrameTargets::resolve_depth() const {
+  if (form_.samples > 0) resolve(GL_DEPTH_BUFFER_BIT, resolved_.name());
+}
+
+void FrameTargets::resolve(GLbitfield what, GLuint into) const {
   const auto [width, height] = form_.size;
-  glBlitNamedFramebuffer(framebuffer_.name(), resolved_.name(), 0, 0, width, height, 0, 0, width, height, what,
-                         GL_NEAREST);
+  glBlitNamedFramebuffer(framebuffer_.name(), into, 0, 0, width, height, 0, 0, width, height, what, GL_NEAREST);
 }
 
 void FrameTargets::copy_to(GLuint framebuffer, glm::ivec2 corner_px) const {

@@ -9,7 +9,7 @@ namespace terrella {
 
 /// The picture into which the passes draw before it is copied to the caller's framebuffer. It has depth and, if a frame
 /// needs it, stencil. With samples, color() and depth() are textures of one value a pixel beside the picture itself;
-/// resolve() fills them. thread: main
+/// resolve_color() and resolve_depth() fill them. thread: main
 class FrameTargets {
  public:
   struct Form {
@@ -33,12 +33,15 @@ class FrameTargets {
     GLuint framebuffer, texture;
   };
   [[nodiscard]] Beside beside();
-  /// Copies the means of the samples to color(), or one sample of a pixel to depth(). Does nothing without samples.
-  void resolve(GLbitfield what) const;
+  /// Copies the means of the samples to color() and to a picture beside it. Does nothing without samples.
+  void resolve_color(const Beside& beside) const;
+  void resolve_depth() const;  ///< copies one sample of each pixel to depth(); does nothing without samples
   /// Copies a picture without samples to a framebuffer, with its lower left corner at `corner_px`.
   void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:
+  void resolve(GLbitfield what, GLuint into) const;
+
   gl::Texture color_, depth_, beside_, color_samples_, depth_samples_;
   gl::Framebuffer framebuffer_, beside_framebuffer_, resolved_;
   Form form_;
