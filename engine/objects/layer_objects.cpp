@@ -191,6 +191,7 @@ void LayerObjects::forget_removed() {
   forget(areas_);
   forget(meshes_);
   forget(labels_);
+  serial_ = next_serial();
   index_.reset();
   parts_.clear();
   live_ = removed_ = 0;

@@ -39,7 +39,7 @@ class LayerObjects {
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< of what is cut; true if there is something to draw
 
-  [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< another one for each LayerObjects
+  [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
 
   // Labels.
   [[nodiscard]] const std::vector<KeptLabel>& labels() const { return labels_; }
