@@ -60,14 +60,17 @@ ObjectScene any_scene(Chance& chance, std::size_t points) {
   return scene;
 }
 
-/// Looks at an object, more or less.
-View any_view(Chance& chance, const ObjectScene& scene) {
-  Camera camera;
+Geodetic place_of_any(Chance& chance, const ObjectScene& scene) {
   const Geodetic places[] = {scene.points[chance.below(scene.points.size() - 1)].place,
                              scene.lines[chance.below(scene.lines.size())].places[1],
                              scene.polygons[chance.below(scene.polygons.size())].rings[0][0],
                              scene.meshes[chance.below(scene.meshes.size())].place};
-  camera.eye = chance.near(places[chance.below(4)], 0.3);
+  return places[chance.below(4)];
+}
+
+View any_view(Chance& chance, const Geodetic& near) {
+  Camera camera;
+  camera.eye = chance.near(near, 0.3);
   camera.eye.height_m = std::pow(10.0, chance.from(3.5, 7.5));
   camera.heading = Angle::degrees(chance.from(0.0, 360.0));
   camera.pitch = Angle::degrees(chance.from(-90.0, -50.0));
@@ -75,12 +78,10 @@ View any_view(Chance& chance, const ObjectScene& scene) {
   return make_view(camera, earth().ellipsoid, kPicture);
 }
 
-/// A pixel near the place in the middle of the view, or anywhere.
-glm::dvec2 any_pixel(Chance& chance, const View& view, const Ellipsoid& ellipsoid) {
-  Geodetic below = ellipsoid.to_geodetic(view.eye);
-  below.height_m = 0.0;
-  const auto pixel = project(view, ellipsoid.to_ecef(below));
-  const glm::dvec2 aside(chance.from(-30.0, 30.0), chance.from(-30.0, 30.0));
+/// A pixel beside a place, if that is in front of the eye.
+glm::dvec2 any_pixel(Chance& chance, const View& view, const Geodetic& beside) {
+  const auto pixel = project(view, earth().ellipsoid.to_ecef(beside));
+  const glm::dvec2 aside(chance.from(-6.0, 6.0), chance.from(-6.0, 6.0));
   if (pixel && std::abs(pixel->x) < 2000.0 && std::abs(pixel->y) < 2000.0) return *pixel + aside;
   return {chance.from(0.0, kPicture.width_px), chance.from(0.0, kPicture.height_px)};
 }
@@ -88,8 +89,9 @@ glm::dvec2 any_pixel(Chance& chance, const View& view, const Ellipsoid& ellipsoi
 void expect_as_scan(LayerObjects& layer, const ObjectScene& scene, Chance& chance, int picks, int& found) {
   const Ground ground(earth().ellipsoid);
   for (int k = 0; k < picks; ++k) {
-    const View view = any_view(chance, scene);
-    const glm::dvec2 pixel = any_pixel(chance, view, earth().ellipsoid);
+    const Geodetic place = place_of_any(chance, scene);
+    const View view = any_view(chance, place);
+    const glm::dvec2 pixel = any_pixel(chance, view, place);
     const PickOptions how{.through_ground = k % 3 == 0};
     const auto scan = pick_object(view, ground, scene, pixel, how), quick = layer.pick(view, ground, pixel, how, {});
     ASSERT_EQ(scan.has_value(), quick.has_value()) << k;

@@ -154,7 +154,7 @@ TEST(SphereGroups, AMovedSphereIsSeenWhereItIs) {
   for (const SphereSight& from : sights()) {
     const std::vector<int> how = drawn(moved, from);
     for (std::size_t k = 0; k < spheres.size(); ++k) {
-      if (is_seen(spheres[k], from)) ASSERT_GT(how[k], 0) << k;
+      ASSERT_TRUE(how[k] > 0 || !is_seen(spheres[k], from)) << k;
     }
   }
 }
