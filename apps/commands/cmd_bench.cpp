@@ -24,9 +24,10 @@ struct NamedBench {
   const char* name;
   Result<bench::Report> (*run)(const bench::BenchOptions&);
 };
-constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBench{"accuracy", bench::bench_accuracy},
-                              NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
-                              NamedBench{"stability", bench::bench_stability}};
+constexpr std::array kBenches{
+    NamedBench{"polar", bench::bench_polar},       NamedBench{"accuracy", bench::bench_accuracy},
+    NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
+    NamedBench{"objects", bench::bench_objects},   NamedBench{"stability", bench::bench_stability}};
 
 constexpr const char* kBenchExamples =
     "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
@@ -35,6 +36,7 @@ constexpr const char* kBenchExamples =
     "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
     "traverse   selection, draws, uploads and wasted drawing on flights\n"
     "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"
+    "objects    time of edits of single objects, beside scenes set anew, and of picks\n"
     "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
     "Examples:\n"
     "  terrella bench polar --out results        results/polar.csv, .json, .gnuplot and .png\n"
@@ -96,7 +98,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<BenchCommand>();
   sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
-      ->type_name("polar|accuracy|traverse|stream|stability");
+      ->type_name("polar|accuracy|traverse|stream|objects|stability");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
   sub.add_option("--work", command->work,

@@ -50,7 +50,7 @@ struct GlobePick {
   std::optional<Geodetic> place{};       ///< place on the ground (view/ground.h); none beside the globe
   LayerId imagery = LayerId::none;       ///< the top image layer drawn there, according to its bounds
   LayerId objects = LayerId::none;       ///< layer of the object; none: no object
-  std::optional<PickedObject> object{};  ///< kind and index in the layer's lists
+  std::optional<PickedObject> object{};  ///< its feature, and its kind and index in the layer's lists
 };
 
 /// A value of a number layer at a place.

@@ -13,6 +13,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "geo/object_edits.h"
 #include "geo/objects.h"
 #include "globe/frame_stats.h"
 #include "globe/globe_options.h"
@@ -64,8 +65,12 @@ class Globe {
   [[nodiscard]] std::vector<LayerId> imagery() const;  ///< lowest first
   /// Adds an object layer over the existing ones. Fails if its shader programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
-  /// Replaces the objects of a layer.
+  /// Replaces the objects of a layer. Many lines and areas are cut by a worker; until then the layer shows the earlier
+  /// objects, and settled() is false.
   Status set_objects(LayerId layer, ObjectScene objects);
+  /// Adds, moves, changes and removes single objects of a layer by their ids. Costs what the edits name. Fails if the
+  /// layer has none of an id, or if a size is not positive; all other edits are made.
+  Status edit_objects(LayerId layer, ObjectEdits edits);
   Status show_objects(LayerId layer, bool shown);
   /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
   /// Opaque objects cost slightly less than translucent ones.

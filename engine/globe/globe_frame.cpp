@@ -185,6 +185,7 @@ void GlobeView::Impl::take_heights() {
 }
 
 FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+  globe->take_cuts();
   if (std::exchange(globe->changed, false)) {
     for (Impl* each : globe->views) each->changed = true;
   }
@@ -213,6 +214,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
 bool GlobeView::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
+  if (std::ranges::any_of(globe->objects, &ObjectLayer::waits)) return false;
   return std::ranges::all_of(stack, [](const LayerView* layer) { return layer->settled(); });
 }
 

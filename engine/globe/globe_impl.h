@@ -10,26 +10,12 @@
 #include "globe/globe.h"
 #include "globe/height_layer.h"
 #include "globe/image_layer.h"
+#include "globe/object_layer.h"
 #include "globe/view_impl.h"
 #include "render/globe_renderer.h"
 #include "tiles/arrival_bell.h"
 
 namespace terrella {
-
-/// Objects that are added and removed together.
-struct ObjectLayer {
-  LayerId id = LayerId::none;
-  ObjectScene scene;
-  bool shown = true;
-  double opacity = 1.0;
-  std::string attribution = {};
-  // Computed when first needed, and kept until the layer itself changes.
-  std::optional<Angle> line_length = {};
-  std::optional<CutObjects> cut = {};
-  std::optional<ObjectScene> faded = {};  ///< set if opacity is less than 1
-
-  [[nodiscard]] bool is_drawn() const { return shown && opacity > 0.0 && !scene.empty(); }
-};
 
 /// The state of a Globe. Functions of Globe call may_call() or may_draw() first. thread: main
 struct Globe::Impl {
@@ -55,8 +41,8 @@ struct Globe::Impl {
   [[nodiscard]] ViewId next_view() { return static_cast<ViewId>(++last_view); }
   [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
   void share_gpu();
-  Status upload_objects();
-  [[nodiscard]] CutScene cut_scene(ObjectLayer& layer, Angle step);
+  Status show_layers();
+  void take_cuts();  ///< takes the objects that workers have cut
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
   // A frame of any view.

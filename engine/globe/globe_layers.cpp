@@ -104,7 +104,7 @@ Status Globe::move(LayerId layer, std::size_t position) {
   auto& objects = impl_->objects;
   if (const auto from = std::ranges::find(objects, layer, &ObjectLayer::id); from != objects.end()) {
     move_to(objects, from, position);
-    return impl_->upload_objects();
+    return impl_->show_layers();
   }
   auto& images = impl_->images;
   const auto from = std::ranges::find_if(images, [layer](const auto& image) { return image->id() == layer; });
@@ -119,7 +119,7 @@ Status Globe::remove(LayerId layer) {
   if (!call) return call.error();
   if (impl_->object(layer) != nullptr) {
     std::erase_if(impl_->objects, [layer](const ObjectLayer& other) { return other.id == layer; });
-    return impl_->upload_objects();
+    return impl_->show_layers();
   }
   ImageLayer* image = impl_->image(layer);
   if (image == nullptr) return no_layer("Globe::remove", "layer", layer);

@@ -39,7 +39,8 @@ GlobePick GlobeView::Impl::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   const PickOptions how{.through_ground = globe->options.surface.alpha < 1.0};
   for (const ObjectLayer& layer : globe->objects) {
     if (!layer.is_drawn()) continue;
-    const auto object = pick_object(eye, drawn_ground, layer.scene, pixel_px, how);
+    LayerObjects& objects = *layer.drawn().objects;
+    const auto object = objects.pick(eye, drawn_ground, pixel_px, how, memory.labels.at(objects, pixel_px, viewport));
     if (!object || (found.object && found.object->distance_m < object->distance_m)) continue;
     found.object = object;
     found.objects = layer.id;

@@ -89,6 +89,7 @@ bool GlobeView::Impl::needs_frame() const {
   if (globe == nullptr) return false;
   if (globe->changed || changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
   if (globe->heights && globe->heights->has_news(heights_seen, stats.heights_pending > 0)) return true;
+  if (std::ranges::any_of(globe->objects, &ObjectLayer::has_news)) return true;
   return std::ranges::any_of(stack, [](const LayerView* layer) { return layer->has_news(); });
 }
 

@@ -39,18 +39,11 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   return renderer;
 }
 
-Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
+Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
   if (Status s = make_once(objects_, options_.depth); !s) return s;
   if (!label_font_.empty()) objects_->set_label_font(std::exchange(label_font_, {}));
-  objects_->set_objects(make_batches(scenes, ellipsoid_));
-  std::vector<MeshObject> meshes;
-  std::vector<LabelObject> labels;
-  for (const CutScene& from : scenes) {
-    meshes.insert(meshes.end(), from.scene.meshes.begin(), from.scene.meshes.end());
-    labels.insert(labels.end(), from.scene.labels.begin(), from.scene.labels.end());
-  }
-  if (Status set = objects_->set_meshes(meshes, ellipsoid_); !set) return set;
-  return objects_->set_labels(labels, ellipsoid_);
+  objects_->set_layers(std::move(layers));
+  return objects_->prepare();
 }
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
@@ -78,6 +71,10 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
   FrameCounts counts;
+  if (objects_) {
+    if (Status prepared = objects_->prepare(); !prepared) return prepared.error();
+    objects_->upload();
+  }
   if (sky_) sky_->keep_air_in(memory.air);
   if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits.error();
   const std::vector<EyePicture> pictures = pictures_of(input);
@@ -87,7 +84,9 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& 
   upload_layers(input);
   begin_frame(input, counts);
   // Places for labels are chosen for the first eye, so that both eyes see the same labels.
-  if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}));
+  if (objects_) {
+    objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}), memory.labels);
+  }
   for (const EyePicture& eye : pictures) draw_picture({input, eye, counts});
   hand_over(input, framebuffer);
   if (limb_comes_last({input, pictures.front(), counts})) {

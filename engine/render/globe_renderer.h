@@ -84,6 +84,7 @@ struct FrameInput {
 struct PictureMemory {
   FrameTargets targets;
   std::unique_ptr<AirTextures> air;
+  ShownLabels labels;
 };
 
 /// Data of the sky. The renderer makes programs for the sky only if it gets this data.
@@ -112,8 +113,9 @@ class GlobeRenderer {
 
   /// Sets the bytes of the font file for labels, before the first objects. Without a font there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
-  /// Replaces all objects. The first call makes the programs for objects.
-  Status set_objects(std::span<const CutScene> scenes);
+  /// Sets the object layers to draw, the lowest first; they must stay until the next call. Makes the programs that the
+  /// layers need.
+  Status set_objects(std::vector<DrawnLayer> layers);
 
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.

@@ -89,6 +89,13 @@ class WithoutWindow(ExampleTest):
         red = sum(1 for k in range(0, len(drawn.rgb), 3) if drawn.rgb[k] > 200 and drawn.rgb[k + 2] < 80)
         self.assertGreater(red, 200, "shallow earthquakes are red")
 
+    def test_aircraft(self):
+        picture = self.folder / "aircraft.png"
+        self.run_example("aircraft", EARTH, picture, "0.1")
+        drawn = Picture("convert", picture)
+        red = sum(1 for k in range(0, len(drawn.rgb), 3) if drawn.rgb[k] > 200 and drawn.rgb[k + 2] < 80)
+        self.assertGreater(red, 1000, "aircraft are red")
+
     def test_flight_frames(self):
         self.run_example("flight_frames", EARTH, self.folder, "0.2")
         frames = sorted(self.folder.iterdir())
