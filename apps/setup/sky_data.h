@@ -17,8 +17,8 @@ struct SkyData {
   std::vector<std::string> problems;
 };
 
-/// Reads the included files (apps/setup/data_dir.h). thread: any
-[[nodiscard]] SkyData load_sky_data();
+/// Reads the included files (apps/setup/data_dir.h); the city lights only if a night may be drawn. thread: any
+[[nodiscard]] SkyData load_sky_data(bool night_lights = true);
 
 /// Reads a star catalogue. The error names the file. thread: any
 [[nodiscard]] Result<std::vector<Star>> load_stars(const std::filesystem::path& path);

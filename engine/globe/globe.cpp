@@ -125,7 +125,7 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
   if (elevation) impl->heights = std::make_unique<HeightLayer>(*elevation, impl->options, impl->bell);
-  if (Status made = impl->renderer->set_relief(elevation.has_value()); !made) return made.error();
+  impl->renderer->set_relief(elevation.has_value());
   impl->renderer->set_label_font(std::move(impl->options.label_font));
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
 }
@@ -214,13 +214,13 @@ FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 cor
   {
     const auto call = impl_->may_draw("Globe::render");
     if (!call) return stats;
-    stats = impl_->draw(framebuffer, viewport, corner_px);
+    stats = impl_->draw(framebuffer, viewport, corner_px, Draw::always);
   }
-  const bool settled_before = std::exchange(impl_->was_settled, impl_->settled());
-  if (impl_->was_settled && !settled_before && impl_->on_settled) impl_->on_settled();
+  impl_->tell_settled();
   return stats;
 }
 
+const FrameStats& Globe::last_frame() const { return impl_->stats; }
 const Status& Globe::status() const { return impl_->status; }
 bool Globe::settled() const { return impl_->settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
@@ -250,13 +250,17 @@ bool Globe::needs_frame(unsigned framebuffer, Viewport viewport) const {
 }
 
 bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
-  if (!impl_->may_draw("Globe::render_until_settled")) return false;
   for (;;) {
-    render(framebuffer, viewport);
+    const bool last = Clock::now() >= deadline;
+    {
+      const auto call = impl_->may_draw("Globe::render_until_settled");
+      if (!call) return false;
+      impl_->draw(framebuffer, viewport, {0, 0}, last ? Draw::always : Draw::when_settled);
+    }
+    impl_->tell_settled();
     if (settled()) return true;
-    if (!status()) return false;
+    if (last || !status()) return false;
     while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
-    if (Clock::now() >= deadline) return false;
   }
 }
 

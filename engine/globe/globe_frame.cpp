@@ -155,7 +155,15 @@ void Globe::Impl::plan(Viewport viewport) {
   stats.heights_missing = relief()->missing();
 }
 
-FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+void Globe::Impl::draw_picture(unsigned framebuffer, const FrameInput& input) {
+  const Result<FrameCounts> counts = renderer->draw(input, framebuffer);
+  status = counts ? Status(Done{}) : counts.error();
+  if (!counts) return;
+  stats.draw_calls = counts->draw_calls;
+  stats.triangles = counts->triangles;
+}
+
+FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when) {
   stats = {};
   ++frame;
   changed = false;
@@ -166,11 +174,13 @@ FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2
   stats.objects_cut = std::exchange(objects_cut, 0);
   stack_layers();
   plan(viewport);
-  const Result<FrameCounts> counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
-  status = counts ? Status(Done{}) : counts.error();
-  if (counts) {
-    stats.draw_calls = counts->draw_calls;
-    stats.triangles = counts->triangles;
+  status = Done{};
+  const FrameInput input = frame_input(viewport, corner_px);
+  // Programs are made while tiles are on their way.
+  if (when == Draw::when_settled && !settled()) {
+    status = renderer->prepare(input);
+  } else {
+    draw_picture(framebuffer, input);
   }
   for (ImageLayer* layer : stack) layer->end_frame(frame);
   count();
@@ -187,6 +197,11 @@ bool Globe::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
   return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
+}
+
+void Globe::Impl::tell_settled() {
+  const bool settled_before = std::exchange(was_settled, settled());
+  if (was_settled && !settled_before && on_settled) on_settled();
 }
 
 void Globe::Impl::restore_detail() {

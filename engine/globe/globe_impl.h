@@ -35,6 +35,9 @@ struct ObjectLayer {
 /// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
 using GlScope = std::unique_ptr<GlState>;
 
+/// Says when a frame draws its picture, after it has taken and requested tiles.
+enum class Draw { always, when_settled };
+
 /// The state of a Globe. Functions of Globe call may_call() or may_draw() first. thread: main
 struct Globe::Impl {
   explicit Impl(const GlobeOptions& o) : options(o) {}
@@ -56,7 +59,9 @@ struct Globe::Impl {
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
   // A frame.
-  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
+  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when);
+  void draw_picture(unsigned framebuffer, const FrameInput& input);
+  void tell_settled();
   void stack_layers();
   [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
   void look(Viewport viewport);

@@ -53,7 +53,7 @@ class Programs : public GlTest {
     return all;
   }
   static Names plain() {
-    return {"limb_air.frag", "patch_magnified.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
+    return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
   }
 };
 
@@ -64,6 +64,21 @@ TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
   Names no_polar = plain();
   no_polar.erase("patch_polar.frag");
   EXPECT_EQ(of(options), no_polar);
+}
+
+TEST_F(Programs, APatchProgramComesWithTheFirstPatchThatNeedsIt) {
+  const auto globe = make_globe({}, one_colour(kProgramsGrid, {200, 120, 40}));
+  const auto at = [&](double lat_deg, double height_m) {
+    globe->set_camera(camera_at(lat_deg, 20, height_m));
+    settle(*globe, kProgramsPicture);
+    return programs();
+  };
+  Names expected{"limb_air.frag", "patch_magnified.frag"};
+  EXPECT_EQ(at(10, 1.0e5), expected) << "a texel covers many pixels, and no pole is in view";
+  expected.insert("patch_polar.frag");
+  EXPECT_EQ(at(90, 1.0e5), expected);
+  expected.insert({"patch_oblique.frag", "patch_plain.frag"});
+  EXPECT_EQ(at(10, 2.0e7), expected);
 }
 
 TEST_F(Programs, TranslucencyBringsADepthPassAndWithSomethingBelowTheInnerSphere) {
@@ -95,9 +110,9 @@ TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAga
     return std::pair(all.count("patch_polar.frag"), all.size());
   };
   const std::size_t alone = plain().size();
-  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 5)) << "and a flat one";
-  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 5)) << "no time";
-  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 9));
+  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 4)) << "and a flat one";
+  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 4)) << "no time";
+  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 7));
 }
 
 TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
@@ -112,16 +127,20 @@ TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
   const auto layer = globe->add_imagery(numbers, look);
   ASSERT_TRUE(layer);
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 5) << "four and a flat one";
+  EXPECT_EQ(all_programs().size(), alone + 4) << "three and a flat one";
   look.opacity = 1.0;
   ASSERT_TRUE(globe->set_look(*layer, look) && globe->move(*layer, 0));
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 13) << "as the base layer, and the picture over it";
+  EXPECT_EQ(all_programs().size(), alone + 10) << "as the base layer, and the picture over it";
 }
 
-TEST_F(Programs, TheSkyBringsStarsSunMoonAndAir) {
+TEST_F(Programs, TheSkyBringsAirWithStarsThoseAndWithATimeSunAndMoon) {
   GlobeOptions options;
   options.sky = true;
+  EXPECT_EQ(more(of(options)), (Names{"sky_air.frag"}));
+  options.stars = {Star{.direction_j2000 = {1.0F, 0.0F, 0.0F}, .magnitude = 1.0F, .color_linear = {1.0F, 1.0F, 1.0F}}};
+  EXPECT_EQ(more(of(options)), (Names{"sky_air.frag", "sky_star.frag"}));
+  options.time = *parse_utc("2026-06-21T12:00Z");
   EXPECT_EQ(more(of(options)), (Names{"sky_air.frag", "sky_moon.frag", "sky_star.frag", "sky_sun.frag"}));
 }
 
