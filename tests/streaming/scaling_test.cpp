@@ -15,7 +15,7 @@
 namespace terrella {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(30);  // a loaded machine under a sanitizer
+constexpr auto kMeetingPatience = std::chrono::seconds(30);  // a loaded machine under a sanitizer
 constexpr int kRounds = 6;
 
 /// Holds each piece of work until as many are under way as there are threads. Only that many threads at once can come
@@ -29,7 +29,8 @@ class Meeting {
     ++pieces_[std::this_thread::get_id()];
     const int round = begun_++ / threads_;
     changed_.notify_all();
-    all_came_ = changed_.wait_for(lock, kPatience, [&] { return begun_ >= (round + 1) * threads_; }) && all_came_;
+    all_came_ =
+        changed_.wait_for(lock, kMeetingPatience, [&] { return begun_ >= (round + 1) * threads_; }) && all_came_;
   }
   void expect_even() const {
     EXPECT_TRUE(all_came_) << "fewer than " << threads_ << " threads work at once";
@@ -73,7 +74,7 @@ TEST_P(Scaling, EachDecoderThreadHasItsShareOfTiles) {
   std::vector<TileRequest> wanted;
   for (int x = 0; x < kRounds * GetParam(); ++x) wanted.push_back({{10, x, 0}, 0.0});
   loader.request(wanted);
-  const auto late = std::chrono::steady_clock::now() + 10 * kPatience;
+  const auto late = std::chrono::steady_clock::now() + 10 * kMeetingPatience;
   while (loader.wait(late)) static_cast<void>(loader.poll(std::numeric_limits<std::size_t>::max()));
   EXPECT_EQ(loader.counts().read, wanted.size());
   source->meeting.expect_even();

@@ -122,16 +122,17 @@ class CacheGrowth {
       cpu_ms = std::min(cpu_ms, processor_ms() - cpu);
       ms = std::min(ms, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }
-    add(subject, ms / items, cpu_ms / items);
+    add(subject, ms / items, cpu_ms / items, items > 1.0);
   }
 
-  void add(const char* subject, double ms, double cpu_ms) {
+  void add(const char* subject, double ms, double cpu_ms, bool of_one) {
     add_({.series = "cache",
           .subject = subject,
           .size = static_cast<double>(tiles_),
           .ms = ms,
           .cpu_ms = cpu_ms,
           .tiles = tiles_,
+          .of_one = of_one,
           .megabytes = megabytes_});
   }
 
@@ -163,7 +164,7 @@ class CacheGrowth {
     settle(*globe, {.eye = {20, 0, 2e7}}, target, kSize);
     std::vector<Subject> frames = {{.name = "", .draw = [&] { globe->render(target.framebuffer(), kSize); }}};
     time_frames(frames, options_.effort == Effort::quick ? 3 : 15);
-    add("frame", median(frames[0].ms), median(frames[0].cpu_ms));
+    add("frame", median(frames[0].ms), median(frames[0].cpu_ms), false);
   }
 
   void merge(const fs::path& folder, const fs::path& path) {

@@ -16,6 +16,7 @@ struct GrowthRow {
   double ms = kNoFigure, cpu_ms = kNoFigure;
   double selection_ms = kNoFigure;
   std::int64_t patches = 0, tiles = 0;
+  bool of_one = false;           ///< times are of one item, and should hardly grow
   double megabytes = kNoFigure;  ///< texture slots of a view; file of a cache
 };
 
