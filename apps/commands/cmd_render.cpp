@@ -202,7 +202,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
-  add_sky_data(options);
+  add_sky_data(options, options.time.has_value());
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = create_globe(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
@@ -217,7 +217,10 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const OffscreenTarget target(command.scene.size);
   render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
-  const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  if ((*globe)->needs_frame(target.framebuffer(), command.scene.size)) {
+    (*globe)->render(target.framebuffer(), command.scene.size);
+  }
+  const FrameStats stats = (*globe)->last_frame();
   if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
   if (const Status some = check_some_came(stats, (*globe)->missing_tiles()); !some) return some.error();
   std::vector<LegendItem> legend;

@@ -131,7 +131,7 @@ int view(const ViewOptions& options) {
   }
   check_map(options.scene, *body);
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
-  add_sky_data(globe_options_with_sky);
+  add_sky_data(globe_options_with_sky, true);  // the user may choose a time
   add_label_font(globe_options_with_sky);
   auto globe = create_globe(globe_options_with_sky, *imagery, *elevation);
   if (!globe) return fail("view", globe.error().message);

@@ -12,9 +12,9 @@
 
 namespace terrella {
 
-void add_sky_data(GlobeOptions& options) {
+void add_sky_data(GlobeOptions& options, bool night_lights) {
   if (!options.sky) return;
-  SkyData data = load_sky_data();
+  SkyData data = load_sky_data(night_lights);
   for (const std::string& problem : data.problems) print_message("{}\n", problem);
   options.stars = std::move(data.stars);
   options.night_lights = std::move(data.night_lights);
