@@ -26,6 +26,10 @@ struct DrawCommand {
 
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
+// In the pole bands (PatchSelectionOptions::band) pixels are long without a slant. Three taps would leave more error
+// there than elsewhere.
+constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
+constexpr double kBesidePole_texels = 5.0;
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
@@ -150,7 +154,10 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
-  return patch.footprint_texels > plain_footprint_texels_ ? oblique : plain;
+  const bool beside_pole = patch.node->min_colatitude_rad < kBesidePole_rad;
+  const double plain_texels =
+      beside_pole ? std::min(kBesidePole_texels, plain_footprint_texels_) : plain_footprint_texels_;
+  return patch.footprint_texels > plain_texels ? oblique : plain;
 }
 
 void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
