@@ -48,6 +48,37 @@ void place_panel(const UiBox& room) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
 }
 
+std::string wrapped(const std::string& text, float widest) {
+  const ImFont& font = *ImGui::GetFont();
+  const char *from = text.data(), *end = from + text.size();
+  std::string lines;
+  while (from < end) {
+    const char* to = font.CalcWordWrapPositionA(ImGui::GetFontSize() / font.FontSize, from, end, widest);
+    to = std::max(to, from + 1);
+    lines.append(lines.empty() ? "" : "\n").append(from, to);
+    from = std::find_if(to, end, [](char c) { return c != ' '; });
+  }
+  return lines;
+}
+
+std::string end_of(const std::string& text, float widest) {
+  const auto fits = [widest](const std::string& one) { return ImGui::CalcTextSize(one.c_str()).x <= widest; };
+  if (fits(text)) return text;
+  const auto is_inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  for (std::size_t from = 1; from < text.size(); ++from) {
+    if (is_inside(text[from])) continue;
+    if (const std::string end = "..." + text.substr(from); fits(end)) return end;
+  }
+  return "...";
+}
+
+void beside_if_room(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float wide = ImGui::CalcTextSize(text).x + 2.0F * style.FramePadding.x;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + wide <= right) ImGui::SameLine();
+}
+
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;

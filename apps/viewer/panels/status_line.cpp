@@ -154,7 +154,7 @@ void draw_head(const PanelStatus& status) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), whole = size.x - 2.0F * gap - 2.0F * padding.x;
   const bool narrow = size.x < kNarrow * ImGui::GetFontSize();
-  draw_at_head("##attribution", {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
+  draw_at_head(kAttributionBox, {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
 }
 
 void draw_message(const PanelStatus& status, float foot) {

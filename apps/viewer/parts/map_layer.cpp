@@ -61,9 +61,9 @@ void MapLayer::draw_lines(const View& view) const {
   painter_->draw_lines(context_.globe, view, context_.window.pixels_per_unit().x, detail());
 }
 
-void MapLayer::draw_names(const View& view, const std::vector<UiBox>& taken) const {
-  if (!on_ || !painter_) return;
-  painter_->draw_names(context_.globe, view, context_.window.pixels_per_unit().x, detail(), taken);
+std::vector<UiBox> MapLayer::draw_names(const View& view, const std::vector<UiBox>& taken) const {
+  if (!on_ || !painter_) return {};
+  return painter_->draw_names(context_.globe, view, context_.window.pixels_per_unit().x, detail(), taken);
 }
 
 std::vector<std::string> MapLayer::attributions() const {

@@ -29,9 +29,11 @@ class MapLayer : public Part {
   void update();
   [[nodiscard]] bool changed() const override;
   /// Draws lines and names under the panels, if on. Call these within a frame, after its panels; the names after
-  /// everything whose boxes `taken` has, in units of the window.
+  /// everything whose boxes `taken` has, in units of the window. They return their boxes.
   void draw_lines(const View& view) const;
-  void draw_names(const View& view, const std::vector<UiBox>& taken) const;
+  std::vector<UiBox> draw_names(const View& view, const std::vector<UiBox>& taken) const;
+  /// The map for other pictures; null if it is off or not yet read.
+  [[nodiscard]] MapPainter* painter() const { return on_ ? painter_.get() : nullptr; }
   /// Texts that credit what is drawn.
   [[nodiscard]] std::vector<std::string> attributions() const;
 
