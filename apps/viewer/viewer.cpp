@@ -187,7 +187,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
   messages_.drop_due();
   job_text_ = job();
   labels_.clear();
-  map_.update();
+  map_.update(frame_graph_.last_ms());
   ui_.begin_frame();
   if (help_.is_open()) {
     help_.draw(0.0F);

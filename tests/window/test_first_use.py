@@ -45,6 +45,16 @@ class FirstUse(WindowTest):
     def type(self, text):
         self.viewer.xdotool("type", "--delay", "30", text)
 
+    def free_spot(self):
+        """A place of the globe that no panel covers, another one each time."""
+        width, height = self.viewer.geometry()[2:]
+        boxes = self.viewer.layout.panels.values()
+        spots = [(x * width // 24, y * height // 24) for y in range(8, 17) for x in range(6, 18)]
+        free = [(x, y) for x, y in spots
+                if not any(left - 4 < x < right + 4 and top - 4 < y < bottom + 4 for left, top, right, bottom in boxes)]
+        self.spots = getattr(self, "spots", 0) + 1
+        return free[self.spots * len(free) // 3 % len(free)]
+
     # The steps of a session
 
     def search(self):
@@ -115,10 +125,10 @@ class FirstUse(WindowTest):
         self.viewer.key("k")
 
     def measure_and_copy(self):
-        width, height = self.viewer.geometry()[2:]
         self.viewer.key("m")
-        self.viewer.click(width // 3, height // 2)
-        self.viewer.click(width // 2, height // 3)
+        for _ in range(2):
+            self.viewer.settled()
+            self.viewer.click(*self.free_spot())
         self.shoot("measured")
         self.viewer.set_clipboard("nothing")
         self.viewer.key("ctrl+c")

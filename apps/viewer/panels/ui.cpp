@@ -234,8 +234,9 @@ std::string Ui::boxes_text(const std::vector<UiBox>& labels) {
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!is_panel(*window)) continue;
     all["panels"][window->Name] = numbers(box_of(*window));
-    if (!is_text(*window) && window->ContentSizeIdeal.x > window->WorkRect.GetWidth() + 1.0F)
-      all["cut"].push_back(window->Name);
+    // Small panels beside the globe fit their contents a frame later.
+    const bool fits = (window->Flags & (ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar)) != 0;
+    if (!fits && window->ContentSizeIdeal.x > window->WorkRect.GetWidth() + 1.0F) all["cut"].push_back(window->Name);
   }
   for (const UiBox& label : labels) all["labels"].push_back(numbers(label));
   return all.dump();
