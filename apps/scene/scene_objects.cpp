@@ -40,7 +40,9 @@ Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
-  if (const auto added = globe.add_objects(file->scene); !added) return added.error();
+  const auto added = globe.add_objects(file->scene);
+  if (!added) return added.error();
+  if (const Status credited = globe.set_attribution(*added, file->attribution); !credited) return credited.error();
   return file->complaints.empty();
 }
 
