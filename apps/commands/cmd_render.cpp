@@ -117,6 +117,8 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();
   sub.add_flag("--legend", command.legend, "Draw a colour bar with units for each raster of numbers");
+  sub.add_flag("--graticule", command.graticule, "Draw lines of latitude and longitude with labels");
+  sub.add_flag("--credits", command.credits, "Write the sources of imagery and map into the upper right corner");
   sub.add_flag("--json", command.json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
   return sub;

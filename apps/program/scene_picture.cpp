@@ -102,26 +102,13 @@ Result<std::unique_ptr<MapPainter>> open_map(const SceneOptions& scene, const Bo
   return std::make_unique<MapPainter>(*std::move(data), body.ellipsoid);
 }
 
-/// Draws map and legend over the picture of the globe.
-Status draw_over(const Globe& globe, unsigned framebuffer, Viewport size, const std::vector<LegendItem>& legend,
-                 MapPainter* map) {
-  if (legend.empty() && map == nullptr) return Done{};
-  return draw_over_picture(framebuffer, size, [&] {
-    const View view = globe.view(size);
-    if (map != nullptr) map->draw_lines(globe, view, 1.0, MapDetail::full);
-    const double gap = 0.8 * Ui::text_height();
-    draw_legend(legend, gap, size.height_px - gap);
-    if (map != nullptr) map->draw_names(globe, view, 1.0, MapDetail::full, Ui::panel_boxes());
-  });
-}
-
 GlobeOptions picture_options(const RenderCommand& command, const Body& body) {
   GlobeOptions options = globe_options(command.scene, body);
   // Intermediate frames are invisible, so all arrived tiles are uploaded at once.
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
-  add_sky_data(options);
+  add_sky_data(options, options.time.has_value());
   if (command.more_objects || !command.scene.objects.empty()) add_label_font(options);
   return options;
 }
@@ -216,18 +203,22 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   const Viewport size = own.command.scene.size;
   const unsigned framebuffer = own.target->framebuffer();
   render_all(*own.globe, own.command, camera, framebuffer);
-  if (StopSignals::came()) return Error{own.command.output + ": stopped; no picture was written"};
-  const FrameStats stats = own.globe->render(framebuffer, size);
+  const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
+  if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
+  if (own.globe->needs_frame(framebuffer, size)) own.globe->render(framebuffer, size);
+  const FrameStats stats = own.globe->last_frame();
   if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
   const auto& missing = own.globe->missing_tiles();
   if (const Status some = check_some_came(stats, missing); !some) return some.error();
-  std::vector<LegendItem> legend;
-  if (own.command.legend) legend = legend_of(*own.globe, own.command.scene, own.base, own.overlays);
-  if (const Status drawn = draw_over(*own.globe, framebuffer, size, legend, own.map.get()); !drawn)
-    return drawn.error();
-  const auto& heights = own.globe->missing_heights();
   std::vector<std::string> thanks = own.globe->attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
+  PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
+  if (own.command.legend) overlay.legend = legend_of(*own.globe, own.command.scene, own.base, own.overlays);
+  if (own.command.credits) overlay.credits = thanks;
+  if (const Status drawn = draw_over_picture(*own.globe, framebuffer, size, overlay); !drawn) {
+    return Error{where + drawn.error().message};
+  }
+  const auto& heights = own.globe->missing_heights();
   return Rendered{{size.width_px, size.height_px, own.target->read()},
                   stats,
                   {missing.begin(), missing.end()},

@@ -18,6 +18,8 @@ struct RenderCommand {
   double timeout_s = 600.0;
   bool json = false;
   bool legend = false;
+  bool graticule = false;
+  bool credits = false;
   bool more_objects = false;  ///< objects with labels may be added to the globe later
 };
 

@@ -189,6 +189,12 @@ py::dict pick(PythonGlobe& self, double x, double y) {
   answer["place"] = found.place ? py::cast(place_of(*found.place)) : py::none();
   answer["imagery"] = id_or_none(found.imagery);
   answer["layer"] = id_or_none(found.objects);
+  const bool is_feature = found.object && found.object->of.feature && !found.object->of.feature->properties.empty();
+  answer["id"] = found.object && found.object->of.id != ObjectId::none
+                     ? py::object(py::int_(static_cast<std::uint64_t>(found.object->of.id)))
+                     : py::none();
+  answer["properties"] =
+      is_feature ? py::module_::import("json").attr("loads")(found.object->of.feature->properties) : py::none();
   answer["kind"] = found.object ? py::object(py::str(kind_name(found.object->kind))) : py::none();
   answer["index"] = found.object ? py::object(py::int_(found.object->index)) : py::none();
   return answer;
@@ -203,6 +209,12 @@ std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson) {
 void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson) {
   ObjectScene scene = objects_of(geojson);
   value_or_raise(self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(scene)); }));
+}
+
+void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m) {
+  ObjectEdits edits;
+  edits.moves = {{.id = ObjectId{id}, .place = geodetic(lat, lon, height_m)}};
+  value_or_raise(self.with_globe([&](Globe& globe) { return globe.edit_objects(LayerId{layer}, std::move(edits)); }));
 }
 
 /// Shows or hides a layer of either kind.
@@ -245,7 +257,10 @@ void add_layer_methods(GlobeClass& globe) {
            "Add a layer of objects: the path of a GeoJSON file, a dict, or an object with __geo_interface__. Returns "
            "the layer's number.")
       .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"),
-           "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer, for example to move them.")
+           "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer.")
+      .def("move", &move, py::arg("layer"), py::arg("id"), py::arg("lat"), py::arg("lon"), py::arg("height") = 0.0,
+           "move(self, layer, id, lat, lon, height=0.0)\n--\n\n"
+           "Move a feature of a layer: its points, labels and models. The first feature of a GeoJSON has id 1.")
       .def("show", &show, py::arg("layer"), py::arg("shown") = true,
            "show(self, layer, shown=True)\n--\n\nShow or hide a layer.")
       .def("set_opacity", &set_opacity, py::arg("layer"), py::arg("opacity"),
@@ -271,8 +286,8 @@ void add_questions(GlobeClass& globe) {
       .def("pick", &pick, py::arg("x"), py::arg("y"),
            "pick(self, x, y)\n--\n\n"
            "What the last view shows at a pixel, x to the right and y down from the top left corner: a dict with "
-           "'place' (latitude, longitude, height), 'imagery' (layer), and for an object 'layer', 'kind' and 'index' "
-           "in the layer's list of that kind. None is nothing.")
+           "'place' (latitude, longitude, height), 'imagery' (layer), and for an object 'layer', 'id' and 'properties' "
+           "of its feature, 'kind' and 'index' in the layer's list of that kind. None is nothing.")
       .def(
           "project",
           [](PythonGlobe& self, double lat, double lon, double height_m) -> std::optional<std::pair<double, double>> {

@@ -147,7 +147,8 @@ class Globes(ModuleTest):
             self.assertAlmostEqual(x, 80, delta=1)
             self.assertAlmostEqual(y, 60, delta=1)
             self.assertEqual((globe.pick(x, y)["layer"], globe.pick(x, y)["kind"], globe.pick(x, y)["index"]), (layer, "point", 0))
-            globe.set_objects(layer, {"type": "FeatureCollection", "features": [mark(20, 10)]})
+            self.assertEqual((globe.pick(x, y)["id"], globe.pick(x, y)["properties"]["marker-size"]), (1, "large"))
+            globe.move(layer, 1, 10, 20)
             second = globe.render()
             moved = middle_of(second, MAGENTA)
             where = globe.project(10, 20)
@@ -158,6 +159,10 @@ class Globes(ModuleTest):
             self.assertEqual(under["layer"], layer)
             self.assertAlmostEqual(under["place"][0], 10, places=1)
             self.assertAlmostEqual(under["place"][1], 20, places=1)
+            globe.set_objects(layer, {"type": "FeatureCollection", "features": [mark(0, 0)]})
+            self.assertTrue((globe.render() == first).all())
+            with self.assertRaises(terrella.Error):
+                globe.move(layer, 2, 10, 20)
 
     def test_globe_draws_what_render_draws(self):
         options = {"camera": (46, 7, 3e6, 0, -60), "size": SIZE, "surface_alpha": 0.7}
