@@ -17,7 +17,7 @@ void main() {
   for (int i = 0; i < n; ++i) {
     float s = float(i) + 0.5;
     float t = float((i * stride) % n) + 0.5;
-    vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (t * step - 0.5) * w.dy, vec2(0.0), high);
+    vec2 p = in_window(w.p + (s * step - 0.5) * w.dx + (t * step - 0.5) * w.dy, high);
     sum += precise_tap(cell_at(p), p);
   }
   finish(seen(sum * step));

@@ -71,8 +71,9 @@ SelectedPatch ImageryFit::choose_level(const PatchNode& node, const PatchSight& 
   const double sine = std::sin(std::max(node.min_colatitude_rad, 1e-3));
   const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
   SelectedPatch patch{.node = &node, .in_band = in_band(node) && is_bent(node, sight), .pixel_m = pixel_m(sight)};
+  const double across_m = patch.pixel_m * std::pow(slant(sight), 0.5 - options_.slant_power);
   patch.tile_level =
-      std::clamp(wanted_level(texel0_m * imagery_.texels_per_pixel, patch.pixel_m), grid.min_level, finest_level_);
+      std::clamp(wanted_level(texel0_m * imagery_.texels_per_pixel, across_m), grid.min_level, finest_level_);
   for (;; --patch.tile_level) {
     const double columns = span_deg / tile_span_deg(grid, patch.tile_level);
     const double texel_m = std::ldexp(texel0_m, -patch.tile_level);
