@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/commands/raster_facts.h"
 #include "apps/program/commands.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
@@ -17,6 +18,7 @@
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/opened_rasters.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/tools/recent_files.h"
@@ -78,13 +80,15 @@ LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
 
 /// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
-                                 const std::vector<std::optional<NumberFacts>>& overlays,
-                                 const std::string& of_heights) {
+                                 const std::vector<std::optional<NumberFacts>>& overlays, const std::string& of_heights,
+                                 const OpenedRasters& opened) {
   const TileSetInfo& first = base.tiles->info();
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
-    rows.push_back(
-        {.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query()), .attribution = of_heights});
+    LayerRow heights{.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query())};
+    heights.attribution = of_heights;
+    heights.read_facts = facts_reader(scene.elevation, {}, {}, opened);
+    rows.push_back(std::move(heights));
   }
   std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
@@ -94,9 +98,8 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
   for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
     const auto look = globe.look(ids[i]);
     rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
-    if (!is_remote(names[i]) && is_picture(names[i].with_secrets())) rows.back().raster = names[i].with_secrets();
-    if (i == 0) rows.back().words = scene.place;
-    rows.back().band = {.band = scene.numbers.band, .nodata = scene.numbers.nodata};
+    const DescribedBand band{.band = scene.numbers.band, .nodata = scene.numbers.nodata};
+    rows.back().read_facts = facts_reader(names[i], i == 0 ? scene.place : PlaceWords{}, band, opened);
     if (const auto attribution = globe.attribution(ids[i])) rows.back().attribution = *attribution;
     rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
@@ -136,7 +139,9 @@ int view(const ViewOptions& options) {
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   SceneOptions layers = options.scene;
   layers.cuts = &cuts;
-  const auto imagery = open_base(layers);
+  auto opened = std::make_unique<OpenedRasters>();
+  layers.opened = opened.get();
+  auto imagery = open_base(layers);
   if (!imagery) return fail("view", imagery.error().message);
   const auto body = scene_body(options.scene, imagery->tiles->info());
   if (!body) return fail("view", body.error().message);
@@ -167,11 +172,18 @@ int view(const ViewOptions& options) {
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);
   const std::string of_heights = *elevation ? (*elevation)->tiles()->info().attribution : std::string();
+  auto rows = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights, *opened);
+  const std::vector<std::weak_ptr<GrowingCut>> growing(cuts.begin(), cuts.end());
+  // From here on the globe alone owns what the layers read, so that removing a layer ends its work.
+  layers.opened = nullptr;
+  opened.reset();
+  imagery->tiles.reset();
+  cuts.clear();
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .print_panels = options.print_panels,
-                                     .cuts = cuts,
-                                     .layers = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights),
+                                     .cuts = growing,
+                                     .layers = std::move(rows),
                                      .heights = *elevation,
                                      .places = options.scene.places,
                                      .files = layers,

@@ -37,7 +37,7 @@ struct ViewerOptions {
   Camera camera;
   bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
   bool print_panels = false;  ///< prints the places of panels and labels on standard output each time they change
-  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< in the background
+  std::vector<std::weak_ptr<GrowingCut>> cuts = {};  ///< in the background; the layers own them
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
   std::filesystem::path places = {};            ///< GeoJSON for search and map; empty: the program's cities

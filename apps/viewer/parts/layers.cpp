@@ -178,7 +178,7 @@ bool Layers::cancel() {
 
 void Layers::add(OpenedFile file) {
   LayerRow row{.name = shown_name(file.path)};
-  if (is_picture(file.path)) row.raster = file.path;
+  row.read_facts = std::move(file.read_facts);
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
   if (auto* layer = std::get_if<ImageryLayer>(&file.what)) {
