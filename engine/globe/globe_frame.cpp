@@ -219,7 +219,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   const FrameInput input = frame_input(viewport, corner_px);
   // Programs are made while tiles are on their way.
   if (when == Draw::when_settled && !settled()) {
-    status = globe->renderer->prepare(input, memory);
+    status = globe->renderer->prepare(input, memory, framebuffer);
   } else {
     draw_picture(framebuffer, input);
   }
@@ -239,6 +239,11 @@ bool GlobeView::Impl::settled() const {
 void GlobeView::Impl::restore_detail() {
   changed = true;
   for (LayerView* layer : stack) layer->restore_detail();
+}
+
+void Globe::Impl::restore_detail() {
+  changed = true;
+  for (const auto& layer : images) layer->restore_detail();
 }
 
 void GlobeView::Impl::tell_settled() {
