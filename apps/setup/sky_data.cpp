@@ -23,9 +23,10 @@ void load_into(Value& value, std::string_view file, Result<Value> (*load)(const 
 
 }  // namespace
 
-SkyData load_sky_data() {
+SkyData load_sky_data(bool night_lights) {
   SkyData data;
   load_into(data.stars, "stars.csv", &load_stars, "the sky is without stars", data.problems);
+  if (!night_lights) return data;
   load_into(data.night_lights, "night_lights.png", &load_night_lights, "the night is without lights", data.problems);
   return data;
 }

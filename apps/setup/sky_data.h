@@ -15,7 +15,7 @@ struct SkyData {
   std::vector<std::string> problems;
 };
 
-/// Reads the included files (apps/setup/data_dir.h). thread: any
-[[nodiscard]] SkyData load_sky_data();
+/// Reads the included files (apps/setup/data_dir.h); the city lights only if a night may be drawn. thread: any
+[[nodiscard]] SkyData load_sky_data(bool night_lights = true);
 
 }  // namespace terrella

@@ -127,7 +127,7 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
   if (elevation) impl->heights = std::make_unique<HeightLayer>(*elevation, impl->options, impl->bell);
-  if (Status made = impl->renderer->set_relief(elevation.has_value()); !made) return made.error();
+  impl->renderer->set_relief(elevation.has_value());
   impl->renderer->set_label_font(std::move(impl->options.label_font));
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
 }
@@ -221,6 +221,7 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport,
   return impl_->first().render_until_settled("Globe::render_until_settled", framebuffer, viewport, deadline);
 }
 
+const FrameStats& Globe::last_frame() const { return impl_->first().stats; }
 const Status& Globe::status() const { return impl_->first().status; }
 bool Globe::settled() const { return impl_->first().settled(); }
 void Globe::on_settled(std::function<void()> told) { impl_->first().on_settled = std::move(told); }

@@ -41,9 +41,9 @@ namespace terrella {
 /// in the destructor. If no context is current, the GL objects are taken to be gone with their context.
 class Globe {
  public:
-  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current, the context is older than
-  /// 4.5, or a shader does not compile. Also fails if the time is outside the almanac's years, or if detail, error,
-  /// segments or gutter are out of range.
+  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current or the context is older
+  /// than 4.5. Also fails if the time is outside the almanac's years, or if detail, error, segments or gutter are out
+  /// of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
   /// The same with a base layer and, optionally, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
@@ -122,6 +122,7 @@ class Globe {
   /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
   /// if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
+  [[nodiscard]] const FrameStats& last_frame() const;  ///< what the last frame did
   /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
   /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
@@ -148,7 +149,8 @@ class Globe {
   [[nodiscard]] bool needs_frame() const;
   /// The same for a frame in this framebuffer with this viewport: also true if the last one had others.
   [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
-  /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
+  /// Waits until a frame would be settled, and draws that one; at the deadline draws what there is and returns false.
+  /// Returns false at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
   /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now

@@ -184,7 +184,15 @@ void GlobeView::Impl::take_heights() {
   }
 }
 
-FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+void GlobeView::Impl::draw_picture(unsigned framebuffer, const FrameInput& input) {
+  const Result<FrameCounts> counts = globe->renderer->draw(input, memory, framebuffer);
+  status = counts ? Status(Done{}) : counts.error();
+  if (!counts) return;
+  stats.draw_calls = counts->draw_calls;
+  stats.triangles = counts->triangles;
+}
+
+FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when) {
   globe->take_cuts();
   if (std::exchange(globe->changed, false)) {
     for (Impl* each : globe->views) each->changed = true;
@@ -199,11 +207,13 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   stats.objects_cut = std::exchange(globe->objects_cut, 0);
   stack_layers();
   plan(viewport);
-  const Result<FrameCounts> counts = globe->renderer->draw(frame_input(viewport, corner_px), memory, framebuffer);
-  status = counts ? Status(Done{}) : counts.error();
-  if (counts) {
-    stats.draw_calls = counts->draw_calls;
-    stats.triangles = counts->triangles;
+  status = Done{};
+  const FrameInput input = frame_input(viewport, corner_px);
+  // Programs are made while tiles are on their way.
+  if (when == Draw::when_settled && !settled()) {
+    status = globe->renderer->prepare(input, memory);
+  } else {
+    draw_picture(framebuffer, input);
   }
   for (LayerView* layer : stack) layer->layer().end_frame(*layer, frame);
   count();
@@ -223,9 +233,9 @@ void GlobeView::Impl::restore_detail() {
   for (LayerView* layer : stack) layer->restore_detail();
 }
 
-void Globe::Impl::restore_detail() {
-  changed = true;
-  for (const auto& layer : images) layer->restore_detail();
+void GlobeView::Impl::tell_settled() {
+  const bool settled_before = std::exchange(was_settled, settled());
+  if (was_settled && !settled_before && on_settled) on_settled();
 }
 
 }  // namespace terrella

@@ -166,7 +166,7 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   if (!call) return call.error();
   if (!elevation && !impl_->heights) return Done{};
   if (elevation.has_value() != has_relief()) {
-    if (Status made = impl_->renderer->set_relief(elevation.has_value()); !made) return made;
+    impl_->renderer->set_relief(elevation.has_value());
   }
   impl_->renderer->forget_slopes();
   impl_->heights.reset();

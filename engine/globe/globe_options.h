@@ -57,7 +57,7 @@ struct GlobeOptions {
   /// Patches whose relief may be rebuilt per frame, about 0.3 ms each. Patches without which the frame cannot be drawn
   /// do not count. The other height tiles wait, and mountains become finer frame by frame.
   int relief_meshes_per_frame = 24;
-  int workers = 2;                               ///< decoder threads
+  int workers = 0;                               ///< decoder threads of an image layer, up to 64; 0: decoder_threads()
   GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
   /// A tile of imagery or heights that failed for now (MissingKind::failed) is requested again after this time, if it
   /// is still wanted. Positive.

@@ -55,23 +55,26 @@ FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewp
       if (std::this_thread::get_id() == thread) status = scope.error();
       return drawn_stats;
     }
-    drawn_stats = draw(framebuffer, viewport, corner_px);
+    drawn_stats = draw(framebuffer, viewport, corner_px, Draw::always);
   }
-  const bool settled_before = std::exchange(was_settled, settled());
-  if (was_settled && !settled_before && on_settled) on_settled();
+  tell_settled();
   return drawn_stats;
 }
 
 bool GlobeView::Impl::render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                                            Clock::time_point deadline) {
-  if (!may_draw(call)) return false;
   for (;;) {
-    render(call, framebuffer, viewport, {0, 0});
+    const bool last = Clock::now() >= deadline;
+    {
+      const auto scope = may_draw(call);
+      if (!scope) return false;
+      draw(framebuffer, viewport, {0, 0}, last ? Draw::always : Draw::when_settled);
+    }
+    tell_settled();
     if (settled()) return true;
-    if (!status) return false;
+    if (last || !status) return false;
     ArrivalBell& bell = *globe->bell;
     while (!needs_frame() && Clock::now() < deadline) bell.wait_until(std::min(deadline, Clock::now() + kLook));
-    if (Clock::now() >= deadline) return false;
   }
 }
 
@@ -101,7 +104,7 @@ bool GlobeView::Impl::needs_frame(unsigned framebuffer, Viewport viewport) const
 bool GlobeView::Impl::is_hidden(std::size_t layer) const {
   std::vector<const PatchNode*> covered;
   for (std::size_t over = layer + 1; over < stack.size(); ++over) {
-    if (!stack[over]->layer().is_opaque(globe->has_night())) continue;
+    if (!stack[over]->hides()) continue;
     const std::vector<SelectedPatch>& patches = stack[over]->patches();
     for (std::size_t k = 0; k < patches.size(); ++k) {
       if (stack[over]->is_full(k)) covered.push_back(&patches[k].body());
@@ -176,6 +179,7 @@ FrameStats GlobeView::render(unsigned framebuffer, Viewport viewport, glm::ivec2
   return impl_->render("GlobeView::render", framebuffer, viewport, corner_px);
 }
 
+const FrameStats& GlobeView::last_frame() const { return impl_->stats; }
 const Status& GlobeView::status() const { return impl_->status; }
 
 void GlobeView::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {

@@ -42,6 +42,7 @@ class GlobeView {
   [[nodiscard]] const Camera& camera() const;
   void set_stereo(const StereoLook& stereo);  ///< initially off
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
+  [[nodiscard]] const FrameStats& last_frame() const;
   [[nodiscard]] const Status& status() const;
   void on_draw(std::function<void(DrawStage stage, const FrameMatrices& matrices)> draw);
   [[nodiscard]] unsigned depth_texture() const;

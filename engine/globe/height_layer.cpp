@@ -1,5 +1,6 @@
 #include "globe/height_layer.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace terrella {
@@ -8,7 +9,8 @@ HeightLayer::HeightLayer(const ElevationSource& elevation, const GlobeOptions& o
                          std::shared_ptr<ArrivalBell> bell)
     : relief_(std::make_shared<Relief>(options.body.ellipsoid, elevation.grid(), options.exaggeration,
                                        options.height_bytes)),
-      stream_(HeightLoader(elevation, {.bell = std::move(bell)}), relief_->tiles(), LayerId::none, options.retry_after),
+      stream_(HeightLoader(elevation, {.workers = std::max(1, decoder_threads() / 2), .bell = std::move(bell)}),
+              relief_->tiles(), LayerId::none, options.retry_after),
       attribution_(elevation.tiles()->info().attribution) {}
 
 void HeightLayer::take_finished(std::span<Viewer> viewers, int meshes, std::deque<MissingTile>& missing) {

@@ -42,7 +42,8 @@ ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<Tile
       retry_after_(setup.options.retry_after) {
   if (!source_) return;
   if (const auto& slots = tiles_.layout().numbers) numbers_.emplace(*source_->info().numbers, *slots);
-  loading_ = {.workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
+  const int workers = setup.options.workers > 0 ? setup.options.workers : decoder_threads();
+  loading_ = {.workers = workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
   // Tiles waiting for slots hold at most as many bytes as all slots.
   loading_.max_finished_bytes =
       std::min(loading_.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
@@ -145,6 +146,10 @@ bool ImageLayer::is_opaque(bool has_night) const {
   // A base layer of numbers shows the plain colour where it has none.
   const bool covers = has_numbers() || !has_transparency_;
   return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(has_night);
+}
+
+bool ImageLayer::hides(bool has_night) const {
+  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(has_night);
 }
 
 bool ImageLayer::is_special(bool has_night) const {

@@ -36,7 +36,7 @@ LayerSnapshot LayerView::snapshot() {
                       .detail = detail_,
                       .max_tile_level = look.max_level,
                       .daylight = look.daylight};
-  if (layer_.stream()) layer.room = layer_.room_for(*this);
+  if (layer_.stream()) layer.room = room_ = layer_.room_for(*this);
   if (look.min_level > layer_.grid().min_level) layer.least_level = look.min_level;
   return layer;
 }
@@ -91,6 +91,7 @@ LayerFrame LayerView::frame(bool is_base, bool has_night) {
   NumberColors* numbers = layer_.numbers();
   if (numbers != nullptr) numbers->set(*look.numbers);
   gpu_.numbers = numbers;
+  hides_ = layer_.hides(has_night);
   layer_.tiles().set_empty(is_base ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
@@ -117,7 +118,7 @@ bool LayerView::settled() const {
 bool LayerView::has_news() const {
   if (!layer_.stream()) return false;
   return layer_.stream()->has_news(seen_, !requests_.empty()) || layer_.source()->edition() != edition_ ||
-         layer_.is_crowded(*this);
+         (layer_.is_crowded(*this) && layer_.room_for(*this) < room_);
 }
 
 }  // namespace terrella

@@ -30,6 +30,8 @@ class LayerView {
   [[nodiscard]] const TileCoverage& coverage() const { return coverage_; }
   /// True if the last frame drew some of the layer's tiles in view.
   [[nodiscard]] bool is_on_screen() const { return coverage_.shown; }
+  /// True if in the last frame the layer hid all layers under it wherever it has tiles.
+  [[nodiscard]] bool hides() const { return hides_; }
   /// True if some cell of a patch, or every cell, has a tile.
   [[nodiscard]] bool has_tiles(std::size_t patch) const;
   [[nodiscard]] bool is_full(std::size_t patch) const;
@@ -62,6 +64,8 @@ class LayerView {
   PatchLayer gpu_;
   std::vector<SelectedPatch> patches_;
   TileCoverage coverage_;
+  int room_ = 0;  ///< tiles that the last plan might want
+  bool hides_ = false;
   double detail_ = 1.0;  ///< part of the layer's texels_per_pixel that the view has room for
   std::vector<TileRequest> requests_;
   StreamCounts seen_;          ///< of the layer's stream, at the last request

@@ -20,6 +20,9 @@ namespace terrella {
 /// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
 using GlScope = std::unique_ptr<GlState>;
 
+/// Says when a frame draws its picture, after it has taken and requested tiles.
+enum class Draw { always, when_settled };
+
 /// The state of a GlobeView. Functions of Globe and GlobeView call may_call() or may_draw() first. `call` is the name
 /// of the call for messages. thread: main
 struct GlobeView::Impl {
@@ -47,7 +50,9 @@ struct GlobeView::Impl {
   [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
 
   // A frame.
-  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
+  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when);
+  void draw_picture(unsigned framebuffer, const FrameInput& input);
+  void tell_settled();
   void stack_layers();
   [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
   void look(Viewport viewport);

@@ -31,7 +31,7 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
   renderer->limb_ = std::make_unique<LimbPass>();
   if (sky != nullptr) {
-    if (Status s = make_once(renderer->sky_, sky->body, sky->stars); !s) return s.error();
+    renderer->sky_ = std::make_unique<SkyPass>(sky->body, sky->stars);
     if (Status s = renderer->set_night_lights(sky->night_lights); !s) return s.error();
   }
   renderer->frame_block_ = gl::make_buffer();
@@ -46,14 +46,24 @@ Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
   return objects_->prepare();
 }
 
+Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory) {
+  if (objects_) {
+    if (Status prepared = objects_->prepare(); !prepared) return prepared;
+  }
+  if (sky_) sky_->keep_air_in(memory.air);
+  FrameCounts counts;
+  for (const EyePicture& eye : pictures_of(input)) {
+    if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared;
+  }
+  return Done{};
+}
+
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  patches_->set_air(air_of(pass));
-  patches_->set_light(light_of(pass.input));
-  for (const LayerFrame& layer : pass.input.layers) {
-    const bool numbers = layer.gpu->numbers != nullptr;
-    if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
+  if (pass.input.sky && sky_) {
+    if (Status s = sky_->prepare(*pass.input.sky); !s) return s;
   }
+  if (Status s = prepare_layers(pass); !s) return s;
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;
   }
@@ -70,17 +80,11 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 }
 
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
+  if (Status prepared = prepare(input, memory); !prepared) return prepared.error();
   FrameCounts counts;
-  if (objects_) {
-    if (Status prepared = objects_->prepare(); !prepared) return prepared.error();
-    objects_->upload();
-  }
-  if (sky_) sky_->keep_air_in(memory.air);
+  if (objects_) objects_->upload();
   if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits.error();
   const std::vector<EyePicture> pictures = pictures_of(input);
-  for (const EyePicture& eye : pictures) {
-    if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared.error();
-  }
   upload_layers(input);
   begin_frame(input, counts);
   // Places for labels are chosen for the first eye, so that both eyes see the same labels.

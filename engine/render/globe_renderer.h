@@ -100,9 +100,9 @@ class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
                                                                      const Ellipsoid& ellipsoid, const SkyAssets* sky);
-  /// Makes the programs for patches with or without relief. Call it before the first frame. The caller discards the
+  /// Draws patches with or without relief from now on. Call it before the first frame. The caller discards the
   /// vertices of all layers.
-  Status set_relief(bool on);
+  void set_relief(bool on);
   /// Draws city lights on the night side from now on; an empty map: none.
   Status set_night_lights(const GreyPicture& map);
   [[nodiscard]] bool has_night_lights() const { return options_.night_lights; }
@@ -117,6 +117,8 @@ class GlobeRenderer {
   /// layers need.
   Status set_objects(std::vector<DrawnLayer> layers);
 
+  /// Makes the programs of a frame that no earlier frame needed. Draws nothing.
+  Status prepare(const FrameInput& input, PictureMemory& memory);
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
   /// A multisampled framebuffer gets the samples of a picture with as many. `memory` is that of the view.
@@ -154,7 +156,7 @@ class GlobeRenderer {
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
-  Status make_patches(RenderOptions options, bool relief);
+  void make_patches(RenderOptions options, bool relief);
   // globe_renderer.cpp: the order of the passes.
   Status prepare(const Pass& pass);
   [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
@@ -188,6 +190,7 @@ class GlobeRenderer {
                            const FrameTargets& from, glm::ivec2 corner_px);
 
   // globe_surface.cpp: the image layers.
+  Status prepare_layers(const Pass& pass);
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);

@@ -33,6 +33,7 @@ class FeatureTaker {
 
   /// For JsonBuilder: keeps everything except features.
   bool keep(std::size_t depth, const std::string& member, const json& value) {
+    if (depth == 1 && member == "attribution") credit(value);
     if (depth == 1 && member == "metadata" && is_quake_catalogue(value)) quakes_ = true;
     if (depth != 2 || member != "features") return true;
     take(value, count_++);
@@ -62,6 +63,11 @@ class FeatureTaker {
     } else {
       ++file_.complaints_left_out;
     }
+  }
+
+  void credit(const json& text) {
+    if (!text.is_string()) return complain_of("its \"attribution\" is not a text; it is left out");
+    file_.attribution = text.get<std::string>();
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }

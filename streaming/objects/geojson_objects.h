@@ -21,6 +21,7 @@ inline constexpr std::size_t kMostComplaints = 100;
 /// Objects read from a file, and complaints about the rest.
 struct ObjectFile {
   ObjectScene scene;
+  std::string attribution = {};         ///< the document's "attribution"; may be empty
   std::vector<std::string> complaints;  ///< each names the file, the feature counted from 1, and the action taken
   std::size_t complaints_left_out = 0;
 };

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <future>
 #include <thread>
@@ -89,6 +90,11 @@ TEST_F(MuteServers, HoldUpNoCallThatEndsALayerHeightsOrAGlobe) {
     draw(**globe, kMuteView);
     ASSERT_TRUE(server.wait_for_a_client());
     draw(**globe, kMuteView);
+    const auto start = std::chrono::steady_clock::now();
+    const auto took = [&] {
+      const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
+      RecordProperty("ms_" + std::to_string(what.size()), std::to_string(ms.count()));
+    };
     if (what == "the elevation") {
       EXPECT_TRUE((*globe)->set_elevation({}));
     } else if (heights) {
@@ -97,8 +103,10 @@ TEST_F(MuteServers, HoldUpNoCallThatEndsALayerHeightsOrAGlobe) {
       EXPECT_TRUE((*globe)->remove((*globe)->imagery().front()));
     } else {
       globe->reset();
+      took();
       continue;
     }
+    took();
     EXPECT_EQ(settle(**globe, kMuteView).tiles_pending, 0);
     EXPECT_TRUE((*globe)->add_imagery(remote(server.url(), land_info()))) << "a further source of that server";
   }

@@ -37,6 +37,18 @@ std::string collection(const std::string& features, const std::string& more = ""
 }
 const std::string kPoint = geometry("Point", "[8.5,47.25,-1200.5]");
 
+TEST(GeojsonObjects, ReadsTheAttributionOfTheDocument) {
+  const std::string inner = feature(kPoint, R"({"attribution":"of a feature"})");
+  EXPECT_EQ(good(collection(inner)).attribution, "");
+  EXPECT_EQ(good(collection(inner, R"("attribution":"Survey",)")).attribution, "Survey");
+  EXPECT_EQ(good(R"({"features":[)" + inner + R"(],"attribution":"after","type":"FeatureCollection"})").attribution,
+            "after");
+  EXPECT_EQ(good(R"({"attribution":"alone",)" + inner.substr(1)).attribution, "alone");
+  const ObjectFile odd = good(collection(inner, R"("attribution":7,)"));
+  EXPECT_EQ(odd.attribution, "");
+  EXPECT_THAT(odd.complaints, ElementsAre(HasSubstr("attribution")));
+}
+
 TEST(GeojsonObjects, ReadsEveryKindOfGeometryWithHeightsInMetres) {
   const ObjectFile file = good(collection(
       feature(kPoint) + "," + feature(geometry("MultiPoint", "[[1,2],[3,4,5]]")) + "," +
