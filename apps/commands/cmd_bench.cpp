@@ -13,7 +13,7 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/report_files.h"
 #include "apps/bench/report_page.h"
-#include "apps/commands/commands.h"
+#include "apps/program/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/commands/commands.h"
+#include "apps/program/commands.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
@@ -22,6 +22,7 @@
 #include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {

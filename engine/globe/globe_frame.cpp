@@ -11,6 +11,10 @@ namespace {
 
 using FrameClock = std::chrono::steady_clock;
 
+// A lit picture shows ground up to the limb, so texels there are closer to a pixel's width, and pixels may be longer. A
+// view of the whole globe takes 15 % more tiles. A picture of the imagery alone keeps what measurements compare.
+constexpr double kLitPixel_texels = 24.0, kLitSlantPower = 0.25;
+
 // Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
@@ -55,6 +59,10 @@ PatchSelectionOptions GlobeView::Impl::selection_options() const {
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
   selection.relief = globe->relief();
+  if (!options.unlit) {
+    selection.max_footprint_texels = kLitPixel_texels;
+    selection.slant_power = kLitSlantPower;
+  }
   selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;

@@ -103,7 +103,7 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& 
 // The air before ground and limb. An eye under the ground sees none.
 const AirTextures* GlobeRenderer::air_of(const Pass& pass) const {
   if (!pass.input.sky || !sky_ || under_ground(pass) || pass.input.naive_translucency) return nullptr;
-  return sky_->fit_air(pass.eye.view, *pass.input.sky);
+  return sky_->fit_air(pass.eye.view, sky_of(pass));
 }
 
 void GlobeRenderer::draw_picture(const Pass& pass) {
@@ -187,7 +187,7 @@ void GlobeRenderer::draw_sky(const Pass& pass) {
     state.depth = {.test = depth(DepthTest::nearer_or_equal).test, .write = false};
     state.flat_depth = no_depth();
   }
-  pass.counts.draw_calls += sky_->draw(pass.eye.view, *pass.input.sky, state);
+  pass.counts.draw_calls += sky_->draw(pass.eye.view, sky_of(pass), state);
 }
 
 void GlobeRenderer::draw_inner_sphere(const Pass& pass) {

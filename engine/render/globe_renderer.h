@@ -215,6 +215,7 @@ class GlobeRenderer {
   [[nodiscard]] double hiding_radius_m(const Pass& pass) const;
   [[nodiscard]] LabelSight label_sight(const Pass& pass) const;
   [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
+  [[nodiscard]] SkyInput sky_of(const Pass& pass) const;
   [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
   [[nodiscard]] static LimbLook limb_look(const Pass& pass, const AirTextures* air);
   [[nodiscard]] double near_m(const Pass& pass) const;

@@ -12,11 +12,11 @@ void main() {
   Texels sum = Texels(0.0);
   for (int i = apart_taps; i < lattice.n; ++i) {
     vec2 at = place(lattice, i);
-    sum += precise_tap(cell, clamp(w.p + at.x * w.dx + at.y * w.dy, vec2(0.0), high));
+    sum += precise_tap(cell, in_window(w.p + at.x * w.dx + at.y * w.dy, high));
   }
   for (int i = 0; i < apart_taps; ++i) {
     vec2 at = place(lattice, i);
-    vec2 p = clamp(w.p + at.x * w.dx + at.y * w.dy, vec2(0.0), high);
+    vec2 p = in_window(w.p + at.x * w.dx + at.y * w.dy, high);
     sum += precise_tap(cell_at(p), p);
   }
   finish(seen(sum * lattice.step));

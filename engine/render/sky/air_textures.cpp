@@ -63,7 +63,7 @@ double sun_cosine(const Body& body, const View& view, const EcefDir& sun) {
 AirTextures::AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables)
     : body_(body), air_(air), tables_(std::move(tables)) {}
 
-bool AirTextures::fit(const View& view, const EcefDir& sun) {
+bool AirTextures::fit(const View& view, const EcefDir& sun, double below_m) {
   const Ellipsoid& e = body_.ellipsoid;
   const glm::dvec3 from_center = view.eye.xyz_m / semi_axes_m(e);
   const double length = glm::length(from_center);
@@ -77,9 +77,13 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
   const double pixel =
       eye.radius > tables().top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
   const bool same_pixel = std::abs(pixel - pixel_) <= 0.003 * pixel_;
-  if (!crossed && same_pixel && moved < kHeightStep && std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep) return true;
+  const double below = below_m / e.a_m();
+  if (below == below_ && !crossed && same_pixel && moved < kHeightStep &&
+      std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep)
+    return true;
   eye_ = eye;
   pixel_ = pixel;
+  below_ = below;
   upload();
   return true;
 }
@@ -87,7 +91,7 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
 void AirTextures::upload() {
   std::future<GroundColors> ground_colors =
       std::async(std::launch::async, [this] { return make_ground_colors(tables(), eye_); });
-  sky_ = make_sky_colors(tables(), eye_, pixel_);
+  sky_ = make_sky_colors(tables(), eye_, pixel_, below_);
   sky_light_ = make_table(sky_.columns, sky_.rows, sky_.light_srgb);
   std::vector<glm::vec4> rows;
   for (std::size_t k = 0; k < sky_.through.size(); ++k) {

@@ -21,8 +21,9 @@ class AirTextures {
   /// `tables` are those of `air`; fit() waits for them.
   AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables);
 
-  /// Computes the air again if the eye or the Sun has moved. False if the eye is at the planet's centre.
-  bool fit(const View& view, const EcefDir& sun);
+  /// Computes the air again if the eye, the Sun or the depth of the ground under the ellipsoid has changed. False if the
+  /// eye is at the planet's centre.
+  bool fit(const View& view, const EcefDir& sun, double below_m);
 
   [[nodiscard]] const Atmosphere& air() const { return air_; }
   [[nodiscard]] const SkyColors& sky() const { return sky_; }
@@ -48,6 +49,7 @@ class AirTextures {
   std::shared_future<AirTables> tables_;  ///< the same for all eyes
   AirEye eye_{.radius = 0.0};
   double pixel_ = 0.0;
+  double below_ = 0.0;  ///< depth of the ground at the limb, in radii
   glm::dmat3 axes_{1.0};
   SkyColors sky_;
   gl::Texture sky_light_, sky_rows_, limb_light_, limb_through_, ground_through_, ground_light_;

@@ -179,7 +179,7 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
 }
 
 const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
-  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun) ? air_ : nullptr;
+  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun, input.below_m) ? air_ : nullptr;
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {
