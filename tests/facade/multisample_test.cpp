@@ -159,8 +159,8 @@ TEST_F(MultisampleOutline, TheLimbIsThatOfOneSample) {
     }
     RecordProperty(sky ? "worst_sky" : "worst", worst);
     RecordProperty(sky ? "off_sky" : "off", off);
-    EXPECT_LT(worst, 64) << (sky ? "sky " : "no sky ") << off;
-    EXPECT_LT(off, 40) << (sky ? "sky" : "no sky");
+    EXPECT_LT(worst, 40) << (sky ? "sky " : "no sky ") << off;
+    EXPECT_LT(off, 10) << (sky ? "sky" : "no sky");
   }
 }
 

@@ -93,7 +93,7 @@ TEST_F(MuteServers, HoldUpNoCallThatEndsALayerHeightsOrAGlobe) {
     const auto start = std::chrono::steady_clock::now();
     const auto took = [&] {
       const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
-      RecordProperty("ms_" + std::to_string(what.size()), std::to_string(ms.count()));
+      RecordProperty("ms_" + std::string(what.substr(4)), std::to_string(ms.count()));
     };
     if (what == "the elevation") {
       EXPECT_TRUE((*globe)->set_elevation({}));

@@ -63,18 +63,20 @@ class Views : public GlTest {
     (*view)->set_camera(camera);
     return *std::move(view);
   }
-  /// Draws the views in turn, each while it needs frames, until all are settled. A round begins when all requested
-  /// tiles have come, so that frames can be counted.
-  static void settle_all(Globe& globe, std::vector<Drawn>& all) {
+  /// Draws the views in turn, each while it needs frames, until all are settled. In a round no tile comes before all
+  /// views have asked, and the next round begins when all tiles have come: frames and requests can be counted.
+  static void settle_all(Globe& globe, std::vector<Drawn>& all, PaintedSource* source = nullptr) {
     const auto deadline = std::chrono::steady_clock::now() + kSettles;
     const auto is_done = [](const Drawn& one) { return one.view->settled() && !one.view->needs_frame(); };
     while (!std::ranges::all_of(all, is_done)) {
       ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "not settled";
+      if (source != nullptr) source->hold();
       for (Drawn& one : all) {
         if (is_done(one)) continue;
         one.stats = one.view->render(one.target->framebuffer(), one.size);
         ++one.frames_to_settle;
       }
+      if (source != nullptr) source->release(1000);
       while (globe.loading().waiting + globe.loading().running > 0) std::this_thread::yield();
     }
   }
@@ -100,7 +102,7 @@ TEST_F(Views, EachSettlesAsFastAsAloneAndLooksAsItDoesAlone) {
         std::vector<Drawn> one = drawn({&globe->main_view()});
         one.front().size = size;
         one.front().target = std::make_unique<OffscreenTarget>(size);
-        settle_all(*globe, one);
+        settle_all(*globe, one, source.get());
         reads = source->reads();
         return std::pair(one.front().frames_to_settle, one.front().target->read());
       };
@@ -113,7 +115,7 @@ TEST_F(Views, EachSettlesAsFastAsAloneAndLooksAsItDoesAlone) {
       globe->set_camera(kNearView);
       const auto further = view_of(*globe, second);
       std::vector<Drawn> both = drawn({&globe->main_view(), further.get()});
-      settle_all(*globe, both);
+      settle_all(*globe, both, source.get());
       EXPECT_LE(both[0].frames_to_settle, first_frames + 1 + first_frames / 10);
       EXPECT_LE(both[1].frames_to_settle, second_frames + 1 + second_frames / 10);
       EXPECT_LE(source->reads(), first_reads + second_reads) << "tiles were read again";
