@@ -25,7 +25,12 @@ struct ObjectChange {
   std::optional<ObjectColor> fill = {};   ///< of areas
   std::optional<float> size_px = {};      ///< diameter of markers, width of lines and strokes; positive
   std::optional<Angle> heading = {};      ///< of models
-  std::optional<std::string> text = {};   ///< of labels
+};
+
+/// Replaces the text of a feature's labels.
+struct ObjectText {
+  ObjectId id = ObjectId::none;
+  std::string text = {};
 };
 
 /// Edits of one object layer, made together in this order. Their cost follows from what they name, and not from what
@@ -35,6 +40,7 @@ struct ObjectEdits {
   ObjectScene add = {};  ///< an id that the layer has gets further parts
   std::vector<ObjectMove> moves = {};
   std::vector<ObjectChange> changes = {};
+  std::vector<ObjectText> texts = {};
   std::optional<ObjectColor> selected_color = {};  ///< of the layer's selected objects from now on; its alpha is unused
 };
 

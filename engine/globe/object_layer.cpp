@@ -62,6 +62,9 @@ std::size_t ObjectLayer::edit(ObjectEdits edits, std::vector<ObjectId>& unknown)
   for (const ObjectChange& change : edits.changes) {
     if (!objects.change(change)) unknown.push_back(change.id);
   }
+  for (const ObjectText& text : edits.texts) {
+    if (!objects.set_text(text)) unknown.push_back(text.id);
+  }
   return cut(version);
 }
 

@@ -47,6 +47,17 @@ bool LayerObjects::change(const ObjectChange& change) {
   return true;
 }
 
+bool LayerObjects::set_text(const ObjectText& text) {
+  const auto found = parts_.find(static_cast<std::uint64_t>(text.id));
+  if (found == parts_.end()) return false;
+  for (PartRef part = found->second; part; part = kept(part).next) {
+    if (part.kind != ObjectKind::label) continue;
+    labels_[part.index].object.text = text.text;
+    labels_[part.index].text = label_text(text.text);
+  }
+  return true;
+}
+
 void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
   if (change.size_px) most_reach_px_ = std::max(most_reach_px_, 0.5 * double(*change.size_px));
   if (part.kind == ObjectKind::point) {
@@ -70,9 +81,6 @@ void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
     KeptLabel& label = labels_[part.index];
     label.object.color = change.color.value_or(label.object.color);
     label.object.size_px = change.size_px.value_or(label.object.size_px);
-    if (!change.text) return;
-    label.object.text = *change.text;
-    label.text = label_text(*change.text);
   }
 }
 

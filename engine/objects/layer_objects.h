@@ -23,6 +23,7 @@ class LayerObjects {
   bool remove(ObjectId id);
   bool move(const ObjectMove& move);
   bool change(const ObjectChange& change);
+  bool set_text(const ObjectText& text);
   void set_selected_color(ObjectColor color);
   /// Sets the factor of alpha of all objects.
   void set_opacity(double opacity);

@@ -51,6 +51,7 @@ Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GL
   if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits;
   if (objects_) {
     if (Status prepared = objects_->prepare(); !prepared) return prepared;
+    objects_->upload();  // what is drawn besides depends on what there is
   }
   if (sky_) sky_->keep_air_in(memory.air);
   FrameCounts counts;
@@ -84,7 +85,6 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
   if (Status prepared = prepare(input, memory, framebuffer); !prepared) return prepared.error();
   FrameCounts counts;
-  if (objects_) objects_->upload();
   const std::vector<EyePicture> pictures = pictures_of(input);
   upload_layers(input);
   begin_frame(input, counts);

@@ -1,7 +1,8 @@
 // Edits of single objects: what they change, what they leave alone, and what they cost, counted.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -196,6 +197,36 @@ TEST_F(LivingObjects, APickReturnsTheFeature) {
   EXPECT_EQ(found.object->of.feature->properties, R"({"name": "Ada"})");
   EXPECT_EQ(found.object->of.feature->user, 7U);
   EXPECT_EQ(pick(at(0, 0)).object->of.id, ObjectId{2});
+}
+
+// A label is drawn to the right of its marker. It moves with the marker, and is picked by its text.
+TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
+  GlobeOptions options = unlit_options();
+  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
+  const std::string font{std::istreambuf_iterator<char>(file), {}};
+  for (const char byte : font) options.label_font.push_back(static_cast<std::byte>(byte));
+  globe_ = *Globe::create(options);
+  globe_->set_camera(camera_at(0, 0, 5.0e6));
+  const LayerId layer =
+      *globe_->add_objects({.points = {marker(1, at(0, 0))},
+                            .labels = {{.text = "WW", .place = at(0, 0), .size_px = 9.0F, .of = named(1)}}});
+  settle(*globe_, kLiving);
+  const auto beside = [this](const Geodetic& place, double right_px) {
+    return globe_->pick(*globe_->project(place, kLiving) + glm::dvec2(right_px, 0.0), kLiving).object;
+  };
+  const auto found = beside(at(0, 0), 20.0);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->kind, ObjectKind::label);
+  EXPECT_EQ(found->of.id, ObjectId{1});
+  EXPECT_EQ(beside(at(0, 0), 0.0)->kind, ObjectKind::point);
+  EXPECT_FALSE(beside(at(0, 0), 55.0));
+  ASSERT_TRUE(globe_->edit_objects(layer, {.moves = {{ObjectId{1}, at(9, -9)}}, .texts = {{ObjectId{1}, "WWWW"}}}));
+  settle(*globe_, kLiving);
+  EXPECT_FALSE(beside(at(0, 0), 20.0));
+  ASSERT_TRUE(beside(at(9, -9), 55.0));
+  EXPECT_EQ(beside(at(9, -9), 55.0)->kind, ObjectKind::label);
+  ASSERT_TRUE(globe_->edit_objects(layer, {.changes = {{.id = ObjectId{1}, .visible = false}}}));
+  EXPECT_FALSE(beside(at(9, -9), 55.0)) << "at once";
 }
 
 // So many areas that a worker cuts them. What was drawn before stays until then, and an edit meanwhile is not lost.
