@@ -241,6 +241,11 @@ void GlobeView::Impl::restore_detail() {
   for (LayerView* layer : stack) layer->restore_detail();
 }
 
+void Globe::Impl::restore_detail() {
+  changed = true;
+  for (const auto& layer : images) layer->restore_detail();
+}
+
 void GlobeView::Impl::tell_settled() {
   const bool settled_before = std::exchange(was_settled, settled());
   if (was_settled && !settled_before && on_settled) on_settled();
