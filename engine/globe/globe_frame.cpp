@@ -219,7 +219,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   const FrameInput input = frame_input(viewport, corner_px);
   // Programs are made while tiles are on their way.
   if (when == Draw::when_settled && !settled()) {
-    status = globe->renderer->prepare(input, memory);
+    status = globe->renderer->prepare(input, memory, framebuffer);
   } else {
     draw_picture(framebuffer, input);
   }

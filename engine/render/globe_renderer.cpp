@@ -46,7 +46,8 @@ Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
   return objects_->prepare();
 }
 
-Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory) {
+Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
+  if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits;
   if (objects_) {
     if (Status prepared = objects_->prepare(); !prepared) return prepared;
   }
@@ -80,10 +81,9 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 }
 
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
-  if (Status prepared = prepare(input, memory); !prepared) return prepared.error();
+  if (Status prepared = prepare(input, memory, framebuffer); !prepared) return prepared.error();
   FrameCounts counts;
   if (objects_) objects_->upload();
-  if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits.error();
   const std::vector<EyePicture> pictures = pictures_of(input);
   upload_layers(input);
   begin_frame(input, counts);

@@ -118,7 +118,7 @@ class GlobeRenderer {
   Status set_objects(std::vector<DrawnLayer> layers);
 
   /// Makes the programs of a frame that no earlier frame needed. Draws nothing.
-  Status prepare(const FrameInput& input, PictureMemory& memory);
+  Status prepare(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
   /// A multisampled framebuffer gets the samples of a picture with as many. `memory` is that of the view.
