@@ -29,9 +29,10 @@ struct NamedBench {
   Result<bench::Report> (*run)(const bench::BenchOptions&);
 };
 constexpr std::array kBenches{
-    NamedBench{"polar", bench::bench_polar},         NamedBench{"accuracy", bench::bench_accuracy},
-    NamedBench{"traverse", bench::bench_traverse},   NamedBench{"stream", bench::bench_stream},
-    NamedBench{"stability", bench::bench_stability}, NamedBench{"growth", bench::bench_growth}};
+    NamedBench{"polar", bench::bench_polar},       NamedBench{"accuracy", bench::bench_accuracy},
+    NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
+    NamedBench{"objects", bench::bench_objects},   NamedBench{"stability", bench::bench_stability},
+    NamedBench{"growth", bench::bench_growth}};
 
 constexpr const char* kBenchExamples =
     "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
@@ -40,6 +41,7 @@ constexpr const char* kBenchExamples =
     "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
     "traverse   selection, draws, uploads and wasted drawing on flights\n"
     "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"
+    "objects    time of edits of single objects, beside scenes set anew, and of picks\n"
     "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
     "growth     cost against size: depth of a set, pixels, layers, tiles in a cache (--full: up to 10^7)\n"
     "all        every one of these; one page, index.html, with all tables and plots, to attach to a report\n"
@@ -152,7 +154,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<BenchCommand>();
   sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
-      ->type_name("polar|accuracy|traverse|stream|stability|growth|all");
+      ->type_name("polar|accuracy|traverse|stream|objects|stability|growth|all");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
   sub.add_option("--work", command->work,

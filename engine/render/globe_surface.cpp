@@ -55,7 +55,7 @@ Status GlobeRenderer::prepare_layers(const Pass& pass) {
   patches_->set_light(light_of(pass.input));
   patches_->set_plain_footprint(pass.input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
   for (const LayerFrame& layer : pass.input.layers) {
-    const bool numbers = layer.gpu->numbers.has_value();
+    const bool numbers = layer.gpu->numbers != nullptr;
     if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches); !s) return s;
   }
   return Done{};
@@ -68,6 +68,7 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
   patches_->set_paper_band(input.paper_band);
   const bool shaded = input.relief != nullptr && input.lit;
   if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
+  if (slopes_) slopes_->set_views(input.views);
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;

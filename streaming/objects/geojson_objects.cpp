@@ -17,6 +17,14 @@ namespace {
 
 using nlohmann::json;
 
+/// Names the objects of a feature by its number in the file, and gives them its properties.
+void name_feature(ObjectStyle& style, std::size_t index, const json& properties) {
+  auto feature = std::make_shared<ObjectFeature>();
+  feature->properties = properties.dump(-1, ' ', false, json::error_handler_t::replace);
+  style.point.of = style.line.of = style.polygon.of = style.label.of =
+      style.mesh.of = {.id = ObjectId{index + 1}, .feature = std::move(feature)};
+}
+
 /// Takes each feature out of the document as soon as it is complete. No more than one feature is held as JSON.
 class FeatureTaker {
  public:
@@ -42,6 +50,7 @@ class FeatureTaker {
     const auto properties = feature.find("properties");
     ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
     if (quakes_) style_quake(feature, style);
+    name_feature(style, index, properties == feature.end() ? json::object() : *properties);
     if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
     add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,
                  complain);

@@ -27,9 +27,12 @@ struct ObjectFile {
 
 /// Reads the objects of GeoJSON (RFC 7946): all its geometries. Positions are longitude, latitude, and metres over the
 /// ellipsoid, negative below it.
-/// Properties are those of simplestyle 1.1.0 with its defaults. The description is dropped, and icons of marker-symbol
-/// are not supported. Further properties: radius_m makes a Point a sphere, model a glTF model; through_surface. See
-/// streaming/objects/README.md, also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
+/// Properties are those of simplestyle 1.1.0 with its defaults. Icons of marker-symbol are not supported. Further
+/// properties: radius_m makes a Point a sphere, model a glTF model; through_surface. See streaming/objects/README.md,
+/// also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
+///
+/// Each object has the id of its feature, which is the feature's number in the file, counted from 1, and the feature's
+/// properties as JSON text.
 ///
 /// A faulty geometry is skipped with a complaint. A faulty property counts as missing, with a complaint. If the text
 /// stops being valid JSON, the features before that point stay. Fails if nothing was read at all. `where` (a path)

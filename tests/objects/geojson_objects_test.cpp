@@ -59,6 +59,20 @@ TEST(GeojsonObjects, ReadsEveryKindOfGeometryWithHeightsInMetres) {
   EXPECT_EQ(file.scene.polygons[0].rings[0].size(), 3U);
 }
 
+TEST(GeojsonObjects, ObjectsHaveTheNumberAndThePropertiesOfTheirFeature) {
+  const ObjectFile file = good(collection(
+      feature(kPoint) + "," +
+      feature(geometry("MultiPoint", "[[1,2],[3,4]]"), R"({"title":"Zürich","people":[1,2.5],"description":"x"})")));
+  ASSERT_EQ(file.scene.points.size(), 3U);
+  EXPECT_EQ(file.scene.points[0].of.id, ObjectId{1});
+  EXPECT_EQ(file.scene.points[0].of.feature->properties, "{}");
+  ASSERT_EQ(file.scene.labels.size(), 2U);
+  for (const ObjectIdentity& of : {file.scene.points[1].of, file.scene.points[2].of, file.scene.labels[1].of}) {
+    EXPECT_EQ(of.id, ObjectId{2});
+    EXPECT_EQ(of.feature->properties, R"({"description":"x","people":[1,2.5],"title":"Zürich"})");
+  }
+}
+
 TEST(GeojsonObjects, ReadsAGeometryOrAFeatureThatIsTheWholeDocument) {
   EXPECT_EQ(good(kPoint).scene.points.size(), 1U);
   EXPECT_EQ(good(feature(kPoint)).scene.points.size(), 1U);

@@ -13,6 +13,7 @@ SkyScene::SkyScene(const Body& body, Viewport size, const std::vector<Star>& sta
   if (!context) throw std::runtime_error(context.error().message);
   context_ = std::move(*context);
   sky_ = std::make_unique<SkyPass>(body, stars);
+  sky_->keep_air_in(air_);
   color_ = gl::make_texture(GL_TEXTURE_2D);
   depth_ = gl::make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(color_.name(), 1, GL_RGBA8, size.width_px, size.height_px);

@@ -68,8 +68,18 @@ Columns columns_in_view(const View& view, const AirTextures& air) {
 
 SkyPass::SkyPass(const Body& body, const std::vector<Star>& stars)
     : body_(body), empty_array_(gl::make_vertex_array()) {
-  if (const auto air = atmosphere_of(body)) air_.emplace(body, *air);
+  if (const auto air = atmosphere_of(body)) {
+    const auto make = [air = *air, radius_m = body.ellipsoid.a_m()] {
+      return std::make_shared<const AirTables>(air, radius_m);
+    };
+    tables_ = std::async(std::launch::async, make).share();
+  }
   load_stars(stars);
+}
+
+void SkyPass::keep_air_in(std::unique_ptr<AirTextures>& place) {
+  if (tables_.valid() && !place) place = std::make_unique<AirTextures>(body_, tables_.get());
+  air_ = place.get();
 }
 
 Status SkyPass::prepare(const SkyInput& input) {
@@ -83,7 +93,7 @@ Status SkyPass::prepare(const SkyInput& input) {
   if (Status s = build(input.stars && star_count_ > 0, star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
   if (Status s = build(input.sun, sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
   if (Status s = build(has_moon(input), moon_program_, "sky_disc.vert", "sky_moon.frag"); !s) return s;
-  return build(input.atmosphere && air_, air_program_, "sky_air.vert", "sky_air.frag");
+  return build(input.atmosphere && tables_.valid(), air_program_, "sky_air.vert", "sky_air.frag");
 }
 
 void SkyPass::load_stars(const std::vector<Star>& stars) {
@@ -102,7 +112,7 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
 int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state) const {
   if (star_count_ == 0) return 0;
   const double height_m = body_.ellipsoid.to_geodetic(view.eye).height_m;
-  const double visibility = air_ && input.atmosphere
+  const double visibility = air_ != nullptr && input.atmosphere
                                 ? star_visibility(air_->air(), height_m, sun_cosine(body_, view, input.almanac.sun))
                                 : 1.0;
   if (visibility < 1e-3) return 0;
@@ -170,7 +180,7 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
 }
 
 const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
-  return input.atmosphere && air_ && air_->fit(view, input.almanac.sun) ? &*air_ : nullptr;
+  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun) ? air_ : nullptr;
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <future>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -28,9 +28,12 @@ struct SkyInput {
 /// stencil tests of the caller decide where the sky is drawn: where nothing is in front of it. thread: main
 class SkyPass {
  public:
-  /// `stars` may be empty.
+  /// `stars` may be empty. Begins to compute the tables of the air on other threads.
   SkyPass(const Body& body, const std::vector<Star>& stars);
 
+  /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before the other
+  /// functions.
+  void keep_air_in(std::unique_ptr<AirTextures>& place);
   /// Builds the programs for what is on, each once.
   Status prepare(const SkyInput& input);
   /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. Needs prepare(). The
@@ -56,7 +59,9 @@ class SkyPass {
   void place_disc(const View& view, const Disc& disc, double square) const;
 
   Body body_;
-  std::optional<AirTextures> air_;
+  /// Under way, or made; none for a body without an atmosphere.
+  std::shared_future<std::shared_ptr<const AirTables>> tables_;
+  AirTextures* air_ = nullptr;  ///< of the view that is drawn; null: none
   gl::Program star_program_, sun_program_, moon_program_, air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;

@@ -209,7 +209,7 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  const ProgramSet& set = sets_[set_index(role, layer.numbers.has_value())];
+  const ProgramSet& set = sets_[set_index(role, layer.numbers != nullptr)];
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
@@ -217,13 +217,13 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
-  if (layer.numbers) layer.numbers->bind();
+  if (layer.numbers != nullptr) layer.numbers->bind();
   bind_vertices(layer, vertices);
   for (int p = 0; p < kPrograms; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
     const GLuint program = set.programs[p].name();
     assert(program != 0);
-    if (layer.numbers) {
+    if (layer.numbers != nullptr) {
       glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
     }
     apply(state.with(program));

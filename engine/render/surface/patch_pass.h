@@ -62,7 +62,6 @@ class PatchPass {
  public:
   /// `has_relief`: the patches have heights.
   [[nodiscard]] static std::unique_ptr<PatchPass> create(const RenderOptions& options, bool has_relief);
-  [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
   /// Sees the ground through this air from now on; null: without air.
   void set_air(const AirTextures* air) { air_ = air; }
   /// Draws in this light from now on.
