@@ -68,8 +68,8 @@ void store_drawn_tiles(TileCache& cache) {
 }
 
 /// A cache of so many tiles. Those of kDeepLevel are written column by column with SQL, because a million answers of a
-/// server would take minutes. Their last uses are roughly in the order of storing, as after
-/// a flight.
+/// server would take minutes. Their last uses are roughly in the order of storing, as after a
+/// flight.
 void make_cache(const fs::path& path, std::int64_t tiles) {
   remove_database(path);
   store_drawn_tiles(*open_cache(path));
