@@ -47,7 +47,8 @@ void GlobeView::Impl::set_stereo(const StereoLook& look) {
   restore_detail();
 }
 
-FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px,
+                                   Draw when) {
   FrameStats drawn_stats;
   {
     const auto scope = may_draw(call);

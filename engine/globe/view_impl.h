@@ -35,7 +35,8 @@ struct GlobeView::Impl {
 
   void set_camera(const Camera& to);
   void set_stereo(const StereoLook& look);
-  FrameStats render(const char* call, unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
+  FrameStats render(const char* call, unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px,
+                    Draw when = Draw::always);
   bool render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                             std::chrono::steady_clock::time_point deadline);
   Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);

@@ -129,13 +129,15 @@ class MergedFile {
   }
 
  private:
-  /// No journal: no other process knows the file, and a broken one is deleted.
+  /// No journal: no other process knows the file, and a broken one is deleted. The pages of the indexes of some
+  /// millions of tiles stay in memory, because last uses come in no order.
   WriteStatus write_head(const CacheReport& first) {
     WriteResult<SqliteWriter> database = SqliteWriter::open(part_, SqliteWriter::Mode::existing);
     if (!database) return database.error();
     database_ = *std::move(database);
     if (WriteStatus done = write_cache_schema(*database_, first.info, first.source_key); !done) return done;
-    for (const char* pragma : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "BEGIN"}) {
+    for (const char* pragma :
+         {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "PRAGMA cache_size = -65536", "BEGIN"}) {
       if (WriteStatus done = database_->run(pragma); !done) return done;
     }
     WriteResult<CacheRows> rows = CacheRows::prepare(*database_, first.info.grid.min_level);

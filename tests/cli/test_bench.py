@@ -52,7 +52,7 @@ class Bench(ProgramTest):
 
     def test_all_write_tables_and_one_page(self):
         results = self.run_benches()
-        self.assertEqual(set(results), set(BENCHES) | {"stability", "growth"})
+        self.assertEqual(set(results), set(BENCHES) | {"stability", "growth", "objects"})
         for name, (time, error) in BENCHES.items():
             with self.subTest(name):
                 rows = self.check_files(name, results[name])
@@ -64,6 +64,7 @@ class Bench(ProgramTest):
                 if name == "polar":
                     self.check_the_papers_sphere(rows)
         self.check_the_self_test(results["stability"])
+        self.check_files("objects", results["objects"])
         self.check_the_growth(results["growth"])
         self.check_the_page(results)
 

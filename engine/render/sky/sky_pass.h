@@ -30,7 +30,7 @@ struct SkyInput {
 /// stencil tests of the caller decide where the sky is drawn: where nothing is in front of it. thread: main
 class SkyPass {
  public:
-  /// `stars` may be empty.
+  /// `stars` may be empty. Begins to compute the tables of the air on other threads.
   SkyPass(const Body& body, const std::vector<Star>& stars);
 
   /// Builds the programs for what is on, each once.
