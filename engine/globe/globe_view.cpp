@@ -56,7 +56,7 @@ FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewp
       if (std::this_thread::get_id() == thread) status = scope.error();
       return drawn_stats;
     }
-    drawn_stats = draw(framebuffer, viewport, corner_px, Draw::always);
+    drawn_stats = draw(framebuffer, viewport, corner_px, when);
   }
   tell_settled();
   return drawn_stats;
@@ -66,12 +66,7 @@ bool GlobeView::Impl::render_until_settled(const char* call, unsigned framebuffe
                                            Clock::time_point deadline) {
   for (;;) {
     const bool last = Clock::now() >= deadline;
-    {
-      const auto scope = may_draw(call);
-      if (!scope) return false;
-      draw(framebuffer, viewport, {0, 0}, last ? Draw::always : Draw::when_settled);
-    }
-    tell_settled();
+    render(call, framebuffer, viewport, {0, 0}, last ? Draw::always : Draw::when_settled);
     if (settled()) return true;
     if (last || !status) return false;
     ArrivalBell& bell = *globe->bell;

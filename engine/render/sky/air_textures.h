@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <glm/mat3x3.hpp>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "geo/camera.h"
 #include "render/gl/gl_handle.h"
 #include "sky/air_colors.h"
+#include "sky/air_tables.h"
 #include "sky/almanac.h"
 
 namespace terrella {
@@ -40,6 +42,7 @@ class AirTextures {
 
  private:
   void upload();
+  [[nodiscard]] const AirTables& tables() const { return tables_.get(); }
 
   Body body_;
   Atmosphere air_;
