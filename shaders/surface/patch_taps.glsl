@@ -79,11 +79,14 @@ struct Lattice {
 // Strides by n. 4 and 6 have no good one and take one place more.
 const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
 
-// Enough places for a pixel with the sides `a` and `b`, in cells: about one a texel.
-Lattice lattice_of(vec2 a, vec2 b, Cell cell) {
+float length_texels(vec2 a, vec2 b, Cell cell) {
   vec2 a_slot = a * cell.scale, b_slot = b * cell.scale;
-  float length_texels = sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
-  int n = int(clamp(ceil(0.9 * length_texels), 3.0, 16.0));
+  return sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
+}
+
+// Enough places for a pixel of that length: about one a texel.
+Lattice lattice_of(float pixel_texels) {
+  int n = int(clamp(ceil(0.9 * pixel_texels), 3.0, 16.0));
   n += int(n == 4 || n == 6);
   float step = 1.0 / float(n);
   return Lattice(n, step, strides[n] * step);
