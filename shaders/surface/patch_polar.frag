@@ -3,9 +3,9 @@
 
 // Texels are narrow there, but imagery has no finer detail than elsewhere. So a pixel that is short along the meridian
 // needs no more taps than this many times its length there.
-const float kMostOverMeridian = 8.0;
+const float kMostOverMeridian = 6.0;
 // Least number of taps where they lie in several cells: around the pole itself.
-const float kApart_texels = 5.0;
+const float kApart_texels = 7.0;
 
 void main() {
   WindowPoint w = exact_window_point();

@@ -76,7 +76,7 @@ struct Lattice {
   float stride;                  // over n
 };
 
-// Strides by n. 4 and 6 have no good one and take one place more.
+// Strides by n: of 3, and of 7 to 16.
 const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
 
 float length_texels(vec2 a, vec2 b, Cell cell) {
@@ -84,10 +84,11 @@ float length_texels(vec2 a, vec2 b, Cell cell) {
   return sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
 }
 
-// Enough places for a pixel of that length: about one a texel.
+// Enough places for a pixel of that length: about one a texel. A pixel may be long along its diagonal, where four to six
+// places leave gaps.
 Lattice lattice_of(float pixel_texels) {
-  int n = int(clamp(ceil(0.9 * pixel_texels), 3.0, 16.0));
-  n += int(n == 4 || n == 6);
+  int n = int(min(ceil(0.9 * pixel_texels), 16.0));
+  n = n <= 3 ? 3 : max(n, 7);
   float step = 1.0 / float(n);
   return Lattice(n, step, strides[n] * step);
 }
