@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/commands.h"
 #include "apps/commands/option_checks.h"
+#include "apps/program/commands.h"
 #include "apps/scene/number_options.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"

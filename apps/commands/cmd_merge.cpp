@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/commands.h"
+#include "apps/program/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/progress.h"
 #include "apps/setup/stop_signals.h"

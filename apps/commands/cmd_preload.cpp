@@ -9,7 +9,6 @@
 #include <memory>
 #include <utility>
 
-#include "apps/commands/commands.h"
 #include "apps/commands/missing_report.h"
 #include "apps/preload/preload_options.h"
 #include "apps/preload/preload_plan.h"
@@ -17,6 +16,7 @@
 #include "apps/preload/preload_report.h"
 #include "apps/preload/preload_room.h"
 #include "apps/preload/preload_source.h"
+#include "apps/program/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_files.h"

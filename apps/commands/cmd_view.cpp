@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/commands/commands.h"
+#include "apps/commands/raster_facts.h"
+#include "apps/program/commands.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
@@ -17,10 +18,13 @@
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/opened_rasters.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/tools/map_data.h"
+#include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
@@ -48,6 +52,7 @@ constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
 struct ViewOptions {
   SceneOptions scene;
   bool print_camera = false;
+  bool print_panels = false;
   bool full_screen = false;
   KeptSettings kept;
   bool first_run = false;
@@ -75,13 +80,15 @@ LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
 
 /// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
 std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
-                                 const std::vector<std::optional<NumberFacts>>& overlays,
-                                 const std::string& of_heights) {
+                                 const std::vector<std::optional<NumberFacts>>& overlays, const std::string& of_heights,
+                                 const OpenedRasters& opened) {
   const TileSetInfo& first = base.tiles->info();
   std::vector<LayerRow> rows;
   if (globe.has_relief()) {
-    rows.push_back(
-        {.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query()), .attribution = of_heights});
+    LayerRow heights{.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query())};
+    heights.attribution = of_heights;
+    heights.read_facts = facts_reader(scene.elevation, {}, {}, opened);
+    rows.push_back(std::move(heights));
   }
   std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
@@ -91,9 +98,8 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
   for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
     const auto look = globe.look(ids[i]);
     rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
-    if (!is_remote(names[i]) && is_picture(names[i].with_secrets())) rows.back().raster = names[i].with_secrets();
-    if (i == 0) rows.back().words = scene.place;
-    rows.back().band = {.band = scene.numbers.band, .nodata = scene.numbers.nodata};
+    const DescribedBand band{.band = scene.numbers.band, .nodata = scene.numbers.nodata};
+    rows.back().read_facts = facts_reader(names[i], i == 0 ? scene.place : PlaceWords{}, band, opened);
     if (const auto attribution = globe.attribution(ids[i])) rows.back().attribution = *attribution;
     rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
@@ -105,8 +111,22 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
                     .kind = LayerKind::objects,
                     .name = std::filesystem::path(scene.objects).filename().string(),
                     .bounds = {}});
+    if (const auto attribution = globe.attribution(id)) rows.back().attribution = *attribution;
   }
   return rows;
+}
+
+/// Puts the files of the command line into the list of recent files; the complaint if this fails.
+std::string remember(const SceneOptions& scene) {
+  std::vector<std::string> opened;
+  std::vector<Url> urls = {scene.tile_set};
+  for (const OverlayOption& overlay : scene.overlays) urls.push_back(overlay.tile_set);
+  urls.push_back(scene.elevation);
+  for (const Url& url : urls) opened.push_back(url.with_secrets());
+  opened.push_back(scene.objects);
+  std::erase(opened, std::string());
+  const Status kept = remember_opened(opened);
+  return kept ? std::string() : kept.error().message;
 }
 
 int view(const ViewOptions& options) {
@@ -119,7 +139,9 @@ int view(const ViewOptions& options) {
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   SceneOptions layers = options.scene;
   layers.cuts = &cuts;
-  const auto imagery = open_base(layers);
+  auto opened = std::make_unique<OpenedRasters>();
+  layers.opened = opened.get();
+  auto imagery = open_base(layers);
   if (!imagery) return fail("view", imagery.error().message);
   const auto body = scene_body(options.scene, imagery->tiles->info());
   if (!body) return fail("view", body.error().message);
@@ -131,7 +153,7 @@ int view(const ViewOptions& options) {
   }
   check_map(options.scene, *body);
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
-  add_sky_data(globe_options_with_sky);
+  add_sky_data(globe_options_with_sky, true);  // the user may choose a time
   add_label_font(globe_options_with_sky);
   auto globe = create_globe(globe_options_with_sky, *imagery, *elevation);
   if (!globe) return fail("view", globe.error().message);
@@ -150,17 +172,25 @@ int view(const ViewOptions& options) {
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);
   const std::string of_heights = *elevation ? (*elevation)->tiles()->info().attribution : std::string();
+  auto rows = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights, *opened);
+  const std::vector<std::weak_ptr<GrowingCut>> growing(cuts.begin(), cuts.end());
+  // From here on the globe alone owns what the layers read, so that removing a layer ends its work.
+  layers.opened = nullptr;
+  opened.reset();
+  imagery->tiles.reset();
+  cuts.clear();
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
-                                     .cuts = cuts,
-                                     .layers = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights),
+                                     .print_panels = options.print_panels,
+                                     .cuts = growing,
+                                     .layers = std::move(rows),
                                      .heights = *elevation,
                                      .places = options.scene.places,
                                      .files = layers,
                                      .map = options.scene.map.value_or(options.kept.map && !options.scene.unlit),
                                      .kept = options.kept,
                                      .first_run = options.first_run,
-                                     .message = options.message};
+                                     .message = options.message.empty() ? remember(options.scene) : options.message};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;
 }
@@ -175,6 +205,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command->add_flag("--print-panels", options->print_panels,
+                    "Print where panels and labels are, as JSON, to standard output each time this changes");
   command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);

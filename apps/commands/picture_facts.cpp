@@ -30,11 +30,11 @@ Result<PictureFacts> measure(const std::filesystem::path& picture, const Describ
   return facts;
 }
 
-Result<PictureFacts> measure(const RemotePicture& tiff, const DescribedBand& band) {
+Result<PictureFacts> measure(const RemotePicture& tiff, const DescribedBand& band, bool with_values) {
   PictureFacts facts;
   facts.file = tiff.picture;
   facts.is_numbers = band.band > 0 || holds_numbers(*tiff.pyramid);
-  auto raster = describe_raster(*tiff.pyramid, band, static_cast<bool>(check_shows_at_once(tiff)));
+  auto raster = describe_raster(*tiff.pyramid, band, with_values);
   if (!raster) {
     const std::string fault = tiff.file->take_fault();
     return fault.empty() ? raster.error() : Error{fault};
@@ -100,8 +100,8 @@ void locate(PictureFacts& facts, const CrsPlace& at) {
   facts.pixel = PixelSize{of_arc, wide(of_arc), high(of_arc), wide(true) * degree_m, high(true) * degree_m};
 }
 
-/// Adds what is known of the place. `tiff`: null for a file.
-Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words, const RemotePicture* tiff) {
+/// Adds what is known of the place.
+Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words) {
   if (!facts) return facts;
   facts->words = words;
   if (auto said = read_georeference(facts->file, words.crs.empty())) facts->said = *std::move(said);
@@ -118,18 +118,27 @@ Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words, 
     }
     if (placed->projected) locate(*facts, *placed->projected);
   }
-  try_out(*facts, tiff);
+  return facts;
+}
+
+/// Adds how the picture is shown. `tiff`: null for a file.
+Result<PictureFacts> tried(Result<PictureFacts> facts, const RemotePicture* tiff) {
+  if (facts) try_out(*facts, tiff);
   return facts;
 }
 
 }  // namespace
 
 Result<PictureFacts> look_at(const std::filesystem::path& picture, const PlaceWords& words, const DescribedBand& band) {
-  return place(measure(picture, band), words, nullptr);
+  return tried(place(measure(picture, band), words), nullptr);
 }
 
 Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words, const DescribedBand& band) {
-  return place(measure(tiff, band), words, &tiff);
+  return tried(place(measure(tiff, band, static_cast<bool>(check_shows_at_once(tiff))), words), &tiff);
+}
+
+Result<PictureFacts> look_at_place(const RemotePicture& tiff, const PlaceWords& words, const DescribedBand& band) {
+  return place(measure(tiff, band, false), words);
 }
 
 CrsBounds own_bounds(const PictureFacts& facts) {

@@ -47,6 +47,10 @@ struct PictureFacts {
 [[nodiscard]] Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words,
                                            const DescribedBand& band = {});
 
+/// The same without values, and without the command that shows it: from what was read when it was opened.
+[[nodiscard]] Result<PictureFacts> look_at_place(const RemotePicture& tiff, const PlaceWords& words,
+                                                 const DescribedBand& band);
+
 /// Smallest rectangle around the picture in its own system; `transform` is set.
 [[nodiscard]] CrsBounds own_bounds(const PictureFacts& facts);
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "streaming/georeference/crs_text.h"
 
@@ -215,21 +214,5 @@ std::string to_json(const PictureFacts& facts) {
 }  // namespace
 
 std::string picture_report(const PictureFacts& facts, bool json) { return json ? to_json(facts) : to_text(facts); }
-
-std::vector<std::string> raster_facts(const std::filesystem::path& picture, const PlaceWords& words,
-                                      const DescribedBand& band) {
-  std::vector<std::string> lines;
-  const auto facts = look_at(picture, words, band);
-  if (!facts) return lines;
-  std::istringstream text(to_text(*facts));
-  constexpr std::array kShown{"pixels ", "no data ", "values ", "system ", "corners ", "bounds ", "pixel size "};
-  for (std::string line; std::getline(text, line);) {
-    if (std::ranges::none_of(kShown, [&](const char* name) { return line.starts_with(name); })) continue;
-    // Names and values stand in columns of 13 characters.
-    const std::string name = line.substr(0, line.find("  "));
-    lines.push_back(one_line(name + ": " + line.substr(std::min<std::size_t>(13, line.size()))));
-  }
-  return lines;
-}
 
 }  // namespace terrella

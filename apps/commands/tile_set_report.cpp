@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/raster_facts.h"
 #include "apps/setup/console.h"
 #include "streaming/projection_names.h"
 #include "streaming/sets/tileset_json.h"
@@ -130,10 +131,7 @@ std::string to_text(const TileSetReport& report) {
   text += fmt::format("format       {}\n", format_name(report.info.format));
   if (report.info.made_of) text += made_of_text(*report.info.made_of, report.info.square);
   if (report.info.numbers) text += elevation_text(*report.info.numbers);
-  if (const auto& mosaic = report.mosaic) {
-    text += fmt::format("files        {} rasters in {} group{}, {} left out\n", mosaic->files, mosaic->sheets,
-                        mosaic->sheets == 1 ? "" : "s", mosaic->left_out);
-  }
+  if (report.mosaic) text += mosaic_lines(*report.mosaic);
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {
     const std::string tiles = level.tiles ? fmt::format("{} of ", *level.tiles) : "";

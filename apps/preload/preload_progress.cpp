@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/setup/console.h"
+
 namespace terrella {
 
 PreloadProgress::PreloadProgress() : terminal_(isatty(STDERR_FILENO) == 1) {}
@@ -16,6 +18,7 @@ PreloadProgress::~PreloadProgress() {
 }
 
 void PreloadProgress::show(const PreloadCounts& counts) {
+  if (CapturedConsole::active()) return;
   const auto now = Clock::now();
   measure(counts, now);
   if (terminal_) {

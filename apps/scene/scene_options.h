@@ -20,6 +20,7 @@
 namespace terrella {
 
 class GrowingCut;
+struct OpenedRasters;
 
 /// Value of one --overlay.
 struct OverlayOption {
@@ -67,6 +68,7 @@ struct SceneOptions {
   RemoteOptions remote;              ///< options of a remote TILESET
   /// Receives the cuts that go on in the background; null: a picture is cut before it shows.
   std::vector<std::shared_ptr<GrowingCut>>* cuts = nullptr;
+  OpenedRasters* opened = nullptr;  ///< receives rasters that are read in place; may be null
 };
 
 /// Largest side of a picture or window, pixels.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "objects/label_layout.h"
 #include "streaming/url.h"
@@ -10,6 +11,8 @@ namespace terrella {
 namespace {
 
 constexpr char32_t kNotUtf8 = 0xFFFD;
+
+ConsoleSink g_sink;  // empty unless a CapturedConsole exists
 
 bool acts_on_a_terminal(char32_t c) {
   const bool control = c < 0x20 || (c >= 0x7F && c <= 0x9F);
@@ -49,13 +52,21 @@ std::string printable(std::string_view text) { return escaped(text, "\n\t"); }
 
 std::string one_line(std::string_view text) { return escaped(text, ""); }
 
+CapturedConsole::CapturedConsole(ConsoleSink sink) { g_sink = std::move(sink); }
+
+CapturedConsole::~CapturedConsole() { g_sink = {}; }
+
+bool CapturedConsole::active() { return g_sink.message != nullptr; }
+
 void write_result(std::string_view text) {
   const std::string shown = printable(text);
+  if (CapturedConsole::active()) return g_sink.result(shown);
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 void write_message(std::string_view text) {
   std::string shown = printable(redact_addresses(text));
+  if (CapturedConsole::active()) return g_sink.message(shown);
   for (std::size_t end = shown.find('\n'); end < shown.size() - 1; end = shown.find('\n', end + 1)) {
     shown.insert(end + 1, "  ");
   }

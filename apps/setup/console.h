@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,24 @@ namespace terrella {
 [[nodiscard]] std::string printable(std::string_view text);
 /// Like printable(), but also escapes line ends and tabs. Use this for a name within a line of a report or list.
 [[nodiscard]] std::string one_line(std::string_view text);
+
+/// Takes what the program would print: results, and messages with addresses redacted. thread: any that prints
+struct ConsoleSink {
+  std::function<void(const std::string& text)> result;
+  std::function<void(const std::string& text)> message;
+};
+
+/// Sends all text to `sink` instead of the standard streams until this object ends; progress is then not shown. Only
+/// one may exist at a time. thread: one that nothing prints beside
+class CapturedConsole {
+ public:
+  explicit CapturedConsole(ConsoleSink sink);
+  ~CapturedConsole();
+  CapturedConsole(const CapturedConsole&) = delete;
+  CapturedConsole& operator=(const CapturedConsole&) = delete;
+
+  [[nodiscard]] static bool active();  ///< thread: any
+};
 
 /// Writes printable(text) to standard output.
 void write_result(std::string_view text);

@@ -3,15 +3,18 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
-#include <vector>
+#include <utility>
 
 namespace terrella {
 namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<fs::path> g_folders;  // empty: those of the program
+
 std::vector<fs::path> data_folders() {
   if (const char* chosen = std::getenv("TERRELLA_DATA"); chosen != nullptr && *chosen != '\0') return {chosen};
+  if (!g_folders.empty()) return g_folders;
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);
   if (failed) return {};
@@ -20,6 +23,8 @@ std::vector<fs::path> data_folders() {
 }
 
 }  // namespace
+
+void set_data_folders(std::vector<fs::path> folders) { g_folders = std::move(folders); }
 
 fs::path data_file(std::string_view name) {
   std::string tried;

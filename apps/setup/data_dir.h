@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace terrella {
 
@@ -12,9 +13,13 @@ class BrokenInstallation : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Sets the folders that data_file() searches instead of those of the program. Call it before the first search. thread:
+/// main
+void set_data_folders(std::vector<std::filesystem::path> folders);
+
 /// Finds a file included with the program, for example "earth.gpkg". If the environment variable TERRELLA_DATA is set,
-/// only that folder is searched. Otherwise data/ beside the program (a build) and ../share/terrella/ (an installation)
-/// are searched. Throws BrokenInstallation, which names the places. thread: any
+/// only that folder is searched. Otherwise the folders of set_data_folders() are searched, or data/ beside the program
+/// (a build) and ../share/terrella/ (an installation). Throws BrokenInstallation, which names the places. thread: any
 [[nodiscard]] std::filesystem::path data_file(std::string_view name);
 
 }  // namespace terrella

@@ -15,6 +15,7 @@
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_files.h"
 #include "apps/setup/open_imagery.h"
+#include "apps/setup/opened_rasters.h"
 #include "base/hash_mix.h"
 #include "geo/longitudes.h"
 #include "streaming/cut/input/picture_place.h"
@@ -107,7 +108,9 @@ Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SceneOptions& optio
         "[{{\"file\": …, \"crs\": …, \"bounds\": …}}] (streaming/mosaic/README.md)",
         input.string())};
   }
-  return open_mosaic(input, mosaic_options(options, input, pixels));
+  auto tiles = open_mosaic(input, mosaic_options(options, input, pixels));
+  if (tiles && options.opened != nullptr) options.opened->many.insert_or_assign(input.string(), (*tiles)->facts());
+  return tiles;
 }
 
 Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SceneOptions& options) {

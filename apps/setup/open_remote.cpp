@@ -12,6 +12,7 @@
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/open_remote_tiff.h"
+#include "apps/setup/opened_rasters.h"
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/cache_report.h"
@@ -70,6 +71,9 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const
   wish.numbers = options.numbers;
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();
+  if (options.opened != nullptr) {
+    options.opened->remote.insert_or_assign(options.tile_set.with_secrets(), opened->tiff);
+  }
   for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);
   auto tiles = tiles_of(*std::move(opened), wish.direct);
   if (!tiles) return tiles.error();

@@ -4,6 +4,7 @@
 
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
@@ -125,6 +126,23 @@ Status check_shows_at_once(const RemotePicture& tiff) {
   const std::string& where = tiff.file->name();
   if (!tiff.pyramid->whole().has_blocks()) return no_blocks(where, *tiff.pyramid);
   const TiffPicture& coarsest = tiff.pyramid->levels.front().part.picture;
+  std::vector<RasterLevel> levels;
+  for (const TiffLevel& level : tiff.pyramid->levels) {
+    const TiffPicture& picture = level.part.picture;
+    levels.push_back({.width_px = picture.width_px,
+                      .height_px = picture.height_px,
+                      .block_width_px = static_cast<int>(picture.tile_width_px),
+                      .block_height_px = static_cast<int>(picture.tile_height_px),
+                      .to_crs = {}});
+  }
+  if (const auto far = far_levels(levels)) {
+    const auto& [coarse, fine] = *far;
+    return Error{fmt::format(
+        "{0}: the next level over its {1}x{2} pixels has {3}x{4}, and views between the two would need thousands of "
+        "tiles; put one with all overviews in its place (gdal_translate -of COG IN.tif OUT.tif), or cut it: terrella "
+        "cut {0} -o OUT.gpkg",
+        where, fine.width_px, fine.height_px, coarse.width_px, coarse.height_px)};
+  }
   if (coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels) return Done{};
   return Error{fmt::format(
       "{0}: its coarsest picture has {1}x{2} pixels, all of which a view of the whole would need (a file of overviews "

@@ -16,6 +16,7 @@ Progress::~Progress() {
 }
 
 void Progress::show(std::int64_t done, std::int64_t total) {
+  if (CapturedConsole::active()) return;
   const double part = total > 0 ? std::clamp(static_cast<double>(done) / static_cast<double>(total), 0.0, 1.0) : 1.0;
   if (terminal_) {
     draw_bar(part);

@@ -1,12 +1,19 @@
-# cpack -G DEB: terrella, the program with its data, and libterrella-dev, what other programs are built with.
+# cpack -G DEB: terrella, the program with its data; libterrella-dev, what other programs are built with; and
+# python3-terrella, the Python module.
 set(CPACK_PACKAGE_NAME terrella)
 set(CPACK_PACKAGE_VENDOR "Terrella developers")
-set(CPACK_PACKAGE_CONTACT "Terrella developers")
+set(CPACK_PACKAGE_CONTACT "Terrella developers <terrella@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET terrella_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(BUILD_SHARED_LIBS)
+  list(APPEND CPACK_COMPONENTS_ALL library)
+endif()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -27,6 +34,19 @@ string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, libwebp-dev, "
   "nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS terrella)
+get_property(python GLOBAL PROPERTY TERRELLA_PYTHON_VERSIONS)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrella)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python}, python3-numpy, terrella, libegl1, libgl1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl-mesa0")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Globes for notebooks: pictures as numpy arrays, without a display and without a GPU.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libterrella${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The globe as a C++20 library: the shared library.")
+
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The globe as a C++20 library: static libraries, headers, CMake and pkg-config descriptions.")
 
 include(CPack)

@@ -1,5 +1,6 @@
 # What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
 set(TERRELLA_PUBLIC_HEADERS
+  engine/globe/data_files.h
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
@@ -55,21 +56,58 @@ endfunction()
 
 # The name under include/terrella: globe.h for engine/globe/globe.h, codecs/image.h for engine/codecs/image.h.
 function(terrella_installed_header header out)
-  string(REGEX REPLACE "^engine/(globe/)?" "" installed ${header})
+  string(REGEX REPLACE "^engine/(globe/globe.h$)?" "" installed ${header})
+  if(NOT installed)
+    set(installed globe.h)
+  endif()
   set(${out} ${installed} PARENT_SCOPE)
 endfunction()
 
-# Fills `folder` with links to the public headers, as they lie when installed. An edited header may include another one, so
-# that CMake then runs again.
-function(terrella_link_headers source folder)
+# Fills `folder` with the public headers, as they lie when installed. They include each other as <terrella/geo/camera.h>,
+# so that an application may have a geo/camera.h of its own. An edited header makes CMake run again.
+function(terrella_write_headers source folder)
   terrella_public_headers(${source} headers)
-  file(REMOVE_RECURSE ${folder})
+  set(written)
   foreach(header IN LISTS headers)
     terrella_installed_header(${header} installed)
-    cmake_path(GET installed PARENT_PATH parent)
-    file(MAKE_DIRECTORY ${folder}/${parent})
-    file(CREATE_LINK ${source}/${header} ${folder}/${installed} SYMBOLIC)
+    file(READ ${source}/${header} text)
+    file(STRINGS ${source}/${header} includes REGEX "^#include \"")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" include "${line}")
+      terrella_find_header(${source} ${include} inner)
+      if(inner)
+        terrella_installed_header(${inner} inner)
+        string(REPLACE "#include \"${include}\"" "#include <terrella/${inner}>" text "${text}")
+      endif()
+    endforeach()
+    set(before)
+    if(EXISTS ${folder}/${installed})
+      file(READ ${folder}/${installed} before)
+    endif()
+    if(NOT before STREQUAL text)  # what is not touched is not compiled again
+      file(WRITE ${folder}/${installed} "${text}")
+    endif()
+    list(APPEND written ${folder}/${installed})
   endforeach()
+  file(GLOB_RECURSE old ${folder}/*.h)
+  list(REMOVE_ITEM old ${written})
+  if(old)
+    file(REMOVE ${old})
+  endif()
   list(TRANSFORM headers PREPEND ${source}/)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
+endfunction()
+
+# Fills `folder` with headers that give the declarations of the public headers default visibility, as the sources of the
+# project include them: "geo/camera.h". All other symbols of libterrella.so are hidden.
+function(terrella_export_headers source folder)
+  terrella_public_headers(${source} headers)
+  foreach(header IN LISTS headers)
+    string(REGEX REPLACE "^engine/" "" included ${header})
+    file(CONFIGURE OUTPUT ${folder}/${included} CONTENT "#pragma once
+#pragma GCC visibility push(default)
+#include \"@source@/@header@\"
+#pragma GCC visibility pop
+" @ONLY)
+  endforeach()
 endfunction()

@@ -87,17 +87,26 @@ LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
   return sight;
 }
 
-// The ribbon that smooths the limb follows the ellipsoid. It fails if the ground rises above the ellipsoid by more than
-// half a pixel at the limb.
+// The ribbon that smooths the limb follows the ellipsoid. It fails if the ground is above or below the ellipsoid by
+// more than half a pixel at the limb.
 bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
   if (pass.input.relief == nullptr) return false;
   const double eye_m = glm::length(pass.eye.view.eye.xyz_m), a_m = ellipsoid_.a_m();
   const double limb_m = std::sqrt(std::max(1.0, (eye_m - a_m) * (eye_m + a_m)));
-  return pass.input.relief->range_m().max_m * pass.eye.view.pixels_per_radian() > 0.5 * limb_m;
+  const GroundRange range = pass.input.relief->range_m();
+  return std::max(range.max_m, -range.min_m) * pass.eye.view.pixels_per_radian() > 0.5 * limb_m;
+}
+
+// Between mountains and over basins the sky shows below the ellipsoid's limb.
+SkyInput GlobeRenderer::sky_of(const Pass& pass) const {
+  SkyInput sky = *pass.input.sky;
+  if (mountains_on_limb(pass)) sky.below_m = std::max(1.0, -pass.input.relief->range_m().min_m);
+  return sky;
 }
 
 // If nothing covers the limb, the limb is drawn after the picture is copied, which saves a copy.
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
+  if (targets_->samples() > 0) return false;  // the caller's framebuffer gets whole samples
   if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0) || *pass.input.on_draw) return false;
   if (!objects_) return true;
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));

@@ -48,7 +48,8 @@ glm::vec3 stored_part(const glm::vec3& transmitted) { return glm::pow(transmitte
 /// A profile over the limb: colours at the heights of SkyTable's rows, linear between them, and their integral.
 class LimbProfile {
  public:
-  explicit LimbProfile(double top_height) : top_(top_height), colors_(SkyTable::kRows), sums_(SkyTable::kRows) {}
+  LimbProfile(double top_height, double below)
+      : top_(top_height), below_(below), colors_(SkyTable::kRows), sums_(SkyTable::kRows) {}
   glm::vec3& color(int row) { return colors_[static_cast<std::size_t>(row)]; }
   void sum_up() {
     for (std::size_t k = 1; k < colors_.size(); ++k) {
@@ -56,9 +57,9 @@ class LimbProfile {
       sums_[k] = sums_[k - 1] + 0.5F * length * (colors_[k - 1] + colors_[k]);
     }
   }
-  /// Integral from the limb to a height; 0 under the limb. `beyond` is the colour above the air.
+  /// Integral from the limb to a height; 0 under the limb's colour. `beyond` is the colour above the air.
   [[nodiscard]] glm::vec3 integral(double h, const glm::vec3& beyond) const {
-    if (h <= 0.0) return glm::vec3(0.0F);
+    if (h <= 0.0) return colors_.front() * static_cast<float>(std::max(h, -below_));
     if (h >= top_) return sums_.back() + beyond * static_cast<float>(h - top_);
     const double row = std::sqrt(h / top_) * (SkyTable::kRows - 1.0);
     const auto k = std::min(static_cast<std::size_t>(row), colors_.size() - 2);
@@ -73,18 +74,20 @@ class LimbProfile {
 
  private:
   [[nodiscard]] double height(std::size_t row) const { return top_ * squared(double(row) / (SkyTable::kRows - 1.0)); }
-  double top_;
+  double top_, below_;
   std::vector<glm::vec3> colors_, sums_;
 };
 
 /// The ring of air beside the globe, seen from outside.
 class Ring {
  public:
-  Ring(const AirTables& air, const AirEye& eye, double pixel)
+  Ring(const AirTables& air, const AirEye& eye, double pixel, double below)
       : air_(air),
         eye_(eye),
         top_(air.top() - 1.0),
         pixel_(std::max(pixel, 1e-6 * top_)),
+        lowest_(-(below + 0.05 * top_ + pixel_)),
+        below_(below > 0.0 ? pixel_ - lowest_ : 0.0),
         rows_(static_cast<int>(
             std::clamp(3.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
         turn_(2 * static_cast<int>(std::clamp(0.5 * std::numbers::pi / std::sqrt(2.0 * kChord_px * pixel_),
@@ -99,7 +102,7 @@ class Ring {
       c.zenith.emplace_back(sine, -std::sqrt(1.0 - sine * sine));
     }
     const SkyTable table = make_sky_table(air_, eye_);
-    LimbProfile passed(top_);
+    LimbProfile passed(top_, below_);
     for (int row = 0; row < SkyTable::kRows; ++row) {
       passed.color(row) = stored_part(table.transmitted[static_cast<std::size_t>(row)]);
     }
@@ -116,7 +119,7 @@ class Ring {
  private:
   // Rows are closest at the limb, where the air is densest.
   [[nodiscard]] double height(int row) const {
-    if (row == 0) return -(0.05 * top_ + pixel_);
+    if (row == 0) return lowest_;
     const double part = (row - 1) / (rows_ - 2.0), whole = top_ + pixel_;
     const double step =
         std::max(kRowStep_px * pixel_, kRowStep_scales * top_ * air_.air().gas_scale_m / air_.air().top_m);
@@ -127,7 +130,7 @@ class Ring {
 
   void add_column(const SkyTable& table, int column, SkyColors& c) const {
     const double azimuth = column / (kRingColumns - 1.0), azimuth_cos = std::cos(std::numbers::pi * azimuth);
-    LimbProfile profile(top_);
+    LimbProfile profile(top_, below_);
     for (int row = 0; row < SkyTable::kRows; ++row) {
       const double part = row / (SkyTable::kRows - 1.0), sine = (1.0 + top_ * part * part) / eye_.radius;
       const double to_sun = sun_cosine(eye_, sine, -std::sqrt(std::max(0.0, 1.0 - sine * sine)), azimuth_cos);
@@ -148,6 +151,8 @@ class Ring {
   const AirTables& air_;
   AirEye eye_;
   double top_, pixel_;
+  double lowest_;  ///< height of the first row
+  double below_;   ///< depth to which the limb's colour goes on
   int rows_, turn_;
 };
 
@@ -203,8 +208,8 @@ void add_ground_color(const glm::vec3& passed, const glm::vec3& tint, const glm:
 
 }  // namespace
 
-SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel) {
-  return eye.radius > air.top() ? Ring(air, eye, pixel).colors() : dome_colors(air, eye);
+SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel, double below) {
+  return eye.radius > air.top() ? Ring(air, eye, pixel, below).colors() : dome_colors(air, eye);
 }
 
 GroundColors make_ground_colors(const AirTables& air, const AirEye& eye) {

@@ -26,8 +26,9 @@ struct SkyColors {
 };
 
 /// Computes the colours. From outside, `pixel` is the height over the limb that a pixel covers, in radii: the colours
-/// are means over a pixel, and the part of a pixel that is over the globe counts as black. thread: any
-[[nodiscard]] SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel);
+/// are means over a pixel, and the part of a pixel that is over the globe counts as black. Ground that lies `below` the
+/// limb, in radii, leaves more of the sky open: the limb's colour then goes on down there. thread: any
+[[nodiscard]] SkyColors make_sky_colors(const AirTables& air, const AirEye& eye, double pixel, double below = 0.0);
 
 /// The air before the ground, as two factors: squares of stored colours are multiplied by `through`, and `light_sq` is
 /// added. Squares stand for light, as if the screen's gamma were 2. A picture of the ground is what a satellite sees

@@ -70,14 +70,22 @@ vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
 #if defined(GLINT) && !defined(UPPER_LAYER)
 in vec3 glint;
 
-// Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. The sea is where the imagery is clearly more
-// blue than red and no less than green. White ground of a full Sun has the light 1.
-vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
-  float light = glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029;
-  if (light < 1e-4) return color_srgb;
+// The sea is where the imagery is clearly more blue than red, by a factor of 1.2 to 1.7, and no less than green, by 0.85
+// to 1.05. A steep change of the colour is a coast: it takes a pixel at least, or its edge would be jagged.
+float sea_share(vec3 imagery_srgb) {
   vec3 c = imagery_srgb + 0.02;
-  light *= smoothstep(1.2, 1.7, c.b / c.r) * smoothstep(0.85, 1.05, c.b / c.g);
-  return pow(pow(color_srgb, vec3(2.2)) + min(light, 1.5) * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));
+  vec2 over = c.b - vec2(1.45, 0.95) * c.rg;
+  vec2 width = max(vec2(0.25, 0.1) * c.rg, fwidth(over));
+  vec2 share = smoothstep(-width, width, over);
+  return share.x * share.y;
+}
+
+// Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. White ground of a full Sun has the light 1.
+vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
+  // The share counts after the limit: a fiftieth of the sea under a low Sun would shine as brightly as all of it.
+  float light = min(glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029, 1.5) * sea_share(imagery_srgb);
+  if (light < 1e-4) return color_srgb;
+  return pow(pow(color_srgb, vec3(2.2)) + light * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));
 }
 #else
 #define with_glint(color_srgb, imagery_srgb) (color_srgb)

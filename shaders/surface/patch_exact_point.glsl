@@ -45,3 +45,10 @@ WindowPoint exact_window_point() {
   w.dy = vec2(dlon.y, -dlat.y * drow_dlat) * per_radian;
   return w;
 }
+
+// A place of the pixel in the window. At the limb a pixel may reach far over its patch: the taps outside are mirrored
+// into it, for at its edge they would all see one texel. Imagery alone keeps to the edge, which measurements compare.
+vec2 in_window(vec2 p, vec2 high) {
+  if (sun_ecef.w > 0.0) p = high - abs(high - abs(p));
+  return clamp(p, vec2(0.0), high);
+}

@@ -1,6 +1,9 @@
 #include "streaming/direct/direct_tiles.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 #include "geo/body.h"
 #include "streaming/file_bytes.h"
@@ -52,9 +55,23 @@ std::string taken_for_planet(const std::string& name) {
          "it on the server are not read; --bounds W,S,E,N says another place";
 }
 
+std::optional<std::pair<RasterLevel, RasterLevel>> far_levels(const std::vector<RasterLevel>& levels) {
+  constexpr double kTile_px = 256.0;
+  constexpr double kHalf = 2.2;  // an overview of a side that does not divide evenly is a little less than half
+  const auto are_far = [](const RasterLevel& coarse, const RasterLevel& fine) {
+    const double step = std::max(static_cast<double>(fine.width_px) / static_cast<double>(coarse.width_px),
+                                 static_cast<double>(fine.height_px) / static_cast<double>(coarse.height_px));
+    const double block_px = static_cast<double>(fine.block_width_px) * fine.block_height_px;
+    const double blocks = kTile_px * kTile_px * step * step / block_px;
+    return step > kMostLevelStep || (step > kHalf && blocks > kMostBlocksOfStep);
+  };
+  const auto found = std::ranges::adjacent_find(levels, are_far);
+  return found == levels.end() ? std::nullopt : std::optional(std::pair(*found, *std::next(found)));
+}
+
 bool shows_at_once(const RasterInfo& raster) {
   const RasterLevel& coarsest = raster.levels.front();
-  return !raster.by_rows && coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels;
+  return !raster.by_rows && coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels && !far_levels(raster.levels);
 }
 
 Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> raster, const RasterPlace& place,
@@ -68,7 +85,7 @@ Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> r
 
 Result<DirectFile> open_direct(const fs::path& path, const DirectOptions& options) {
   const auto tags = is_tiff(path) ? read_geo_tags(path) : Result<std::optional<GeoTags>>(std::optional<GeoTags>{});
-  if (!tags) return tags.error();
+  if (!tags) return Error{path.string() + ": " + tags.error().message};
   if (!*tags) return DirectFile{};
   const PictureFile picture{path, (*tags)->width_px, (*tags)->height_px};
   auto placed = place_picture(picture, options.place);

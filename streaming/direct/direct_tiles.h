@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -40,11 +41,20 @@ struct RasterPlace {
 /// Most pixels of the coarsest level. The first tile reads all of them, in about 0.2 s on two cores.
 inline constexpr std::int64_t kMostCoarsestPixels = 1LL << 24;
 
+/// Largest factor between the sides of neighbouring levels. A tile between the two reads all pixels of the finer one
+/// under it: about as many as a coarsest level may have.
+inline constexpr double kMostLevelStep = 16.0;
+/// Most blocks of the finer level that such a tile reads.
+inline constexpr double kMostBlocksOfStep = 1024.0;
+/// The first two neighbours among levels, the coarsest first, that are too far apart for tiles between them; none if no
+/// two are. thread: any
+[[nodiscard]] std::optional<std::pair<RasterLevel, RasterLevel>> far_levels(const std::vector<RasterLevel>& levels);
+
 /// Remark for a TIFF on a server that states no place and is therefore taken for a whole planet. thread: any
 [[nodiscard]] std::string taken_for_planet(const std::string& name);
 
-/// True if coarse tiles of the raster are quick to make: it has overviews down to a small one, or is small, and its
-/// blocks can be read by themselves. thread: any
+/// True if coarse tiles of the raster are quick to make: it has overviews down to a small one, none left out, or is
+/// small, and its blocks can be read by themselves. thread: any
 [[nodiscard]] bool shows_at_once(const RasterInfo& raster);
 
 /// Makes tiles from a raster as they are asked for (warp_source()): from its own overviews, in any coordinate system,

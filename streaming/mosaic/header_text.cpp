@@ -1,15 +1,24 @@
 #include "streaming/mosaic/header_text.h"
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace terrella {
 namespace {
 
 /// Increase this number if the meaning of a field changes.
-constexpr int kFactsVersion = 1;
+constexpr int kFactsVersion = 2;
 
+/// JSON has no NaN, which may mean "no data".
 nlohmann::json number_or_null(const std::optional<double>& number) {
+  if (number && std::isnan(*number)) return "nan";
   return number ? nlohmann::json(*number) : nlohmann::json();
+}
+
+std::optional<double> number_of(const nlohmann::json& number) {
+  if (number.is_string()) return std::numeric_limits<double>::quiet_NaN();
+  return number.is_null() ? std::nullopt : std::optional(number.get<double>());
 }
 
 }  // namespace
@@ -25,7 +34,7 @@ std::string header_text(const PlacedFile& placed) {
                                {"kinds", {file.is_numbers, file.one_band, file.by_rows}},
                                {"unit", file.unit},
                                {"coding", {file.scale, file.offset}},
-                               {"nodata", number_or_null(file.nodata)},
+                               {"nodata", {number_or_null(file.nodata), number_or_null(file.own_nodata)}},
                                {"crs", place.at.crs},
                                {"place", {t.x0, t.x_per_column, t.x_per_row, t.y0, t.y_per_column, t.y_per_row}},
                                {"box", {place.box.west, place.box.south, place.box.east, place.box.north}},
@@ -52,7 +61,8 @@ std::optional<PlacedFile> parse_header_text(const std::string& text) {
     facts.at("unit").get_to(file.unit);
     facts.at("coding").at(0).get_to(file.scale);
     facts.at("coding").at(1).get_to(file.offset);
-    if (!facts.at("nodata").is_null()) file.nodata = facts.at("nodata").get<double>();
+    file.nodata = number_of(facts.at("nodata").at(0));
+    file.own_nodata = number_of(facts.at("nodata").at(1));
     facts.at("crs").get_to(place.at.crs);
     double* const numbers[] = {&t.x0, &t.x_per_column, &t.x_per_row, &t.y0, &t.y_per_column, &t.y_per_row};
     for (std::size_t i = 0; i < std::size(numbers); ++i) facts.at("place").at(i).get_to(*numbers[i]);

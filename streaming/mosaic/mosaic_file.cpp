@@ -28,6 +28,7 @@ Status read_tiff_header(MosaicFile& file) {
   file.unit = band.unit;
   file.scale = band.scale;
   file.offset = band.offset;
+  file.own_nodata = pyramid->metadata.nodata;
   return Done{};
 }
 

@@ -38,6 +38,7 @@ struct MosaicFile {
   std::string unit;
   double scale = 1.0, offset = 0.0;   ///< value = stored number · scale + offset
   std::optional<double> nodata = {};  ///< replaces the file's own
+  std::optional<double> own_nodata = {};
 
   [[nodiscard]] std::int64_t width_px() const { return sizes.back().first; }
   [[nodiscard]] std::int64_t height_px() const { return sizes.back().second; }

@@ -117,10 +117,9 @@ class Mosaic : public MosaicTiles {
   }
 
   [[nodiscard]] MosaicFacts facts() const override {
-    return {.files = static_cast<int>(index_.files.size()),
-            .left_out = static_cast<int>(index_.left_out.size()) + rasters_.unreadable(),
-            .headers_read = index_.headers_read,
-            .sheets = static_cast<int>(index_.sheets.size())};
+    MosaicFacts facts = facts_of(index_);
+    facts.left_out += rasters_.unreadable();
+    return facts;
   }
   [[nodiscard]] int times_opened() const override { return rasters_.times_opened(); }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/mosaic/mosaic_facts.h"
 #include "streaming/mosaic/mosaic_index.h"
 #include "tiles/tile_source.h"
 
@@ -26,13 +27,6 @@ struct MosaicOptions {
   /// Receives the reason for each file that is left out, also later, when pixels cannot be read. thread: any, one at a
   /// time
   std::function<void(const std::string& reason)> remark{};
-};
-
-struct MosaicFacts {
-  int files = 0;         ///< that are shown
-  int left_out = 0;      ///< that could not be read, so far
-  int headers_read = 0;  ///< files whose headers were not in the store
-  int sheets = 0;        ///< groups of files with pixels on one lattice
 };
 
 /// Rasters of any coordinate system and resolution as one tile set (streaming/mosaic/README.md).

@@ -10,7 +10,7 @@
 namespace terrella {
 namespace {
 
-constexpr std::size_t kDecodedBytes = 32UL << 20;
+constexpr std::size_t kDecodedBytes = 12UL << 20;
 /// Most memory for open files without tiles, whose pixels stay decoded.
 constexpr std::size_t kOpenBytes = 96UL << 20;
 /// A picture without tiles that is larger than this is decoded into a temporary file (block_store.h).

@@ -60,7 +60,7 @@ class Overview : public RemoteTiles {
   [[nodiscard]] EncodedTile encoded(std::shared_ptr<const Block> block) const;
 
   const Parts parts_;
-  DecodedBlocks made_{24UL << 20};
+  DecodedBlocks made_{8UL << 20};
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable wake_;
   bool closing_ = false;

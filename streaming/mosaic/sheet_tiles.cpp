@@ -12,6 +12,8 @@ namespace terrella {
 namespace {
 
 constexpr std::size_t kMostSheets = 32;
+/// Of all sheets. Their blocks are made of those that OpenRasters keeps.
+constexpr std::size_t kSheetsDecodedBytes = 12UL << 20;
 constexpr std::size_t kLeastDecodedBytes = 2UL << 20;
 
 /// Puts tiles over each other, the topmost first.
@@ -82,7 +84,7 @@ Result<SheetTiles::OpenSheet> SheetTiles::open(int sheet) {
   info.format = ImageFormat::png;
   info.numbers = raster->info().numbers;
   const std::size_t bytes =
-      std::max(kLeastDecodedBytes, kWarpDecodedBytes / std::min(index_.sheets.size(), kMostSheets));
+      std::max(kLeastDecodedBytes, kSheetsDecodedBytes / std::min(index_.sheets.size(), kMostSheets));
   OpenSheet opened{.tiles = make_warp_source(std::move(raster), *planner, std::move(info), {}, bytes),
                    .planner = *planner};
   open_.emplace_front(sheet, std::move(opened));

@@ -52,6 +52,15 @@ bool divides(const RasterLevel& level, int halvings) {
          (level.block_height_px % square == 0 || level.block_height_px >= level.height_px);
 }
 
+/// Adds reduced levels of a stored level: those that are coarser than it and finer than `coarsest_px`, in its pixels.
+void add_reduced(const RasterInfo& raster, int stored, const std::optional<CrsPoint>& turn_px, double coarsest_px,
+                 std::vector<WarpLevel>& levels) {
+  const RasterLevel& from = raster.levels[static_cast<std::size_t>(stored)];
+  int halvings = 0;
+  while (halvings < 29 && divides(from, halvings + 1) && std::ldexp(1.0, halvings + 1) < coarsest_px) ++halvings;
+  for (; halvings > 0; --halvings) levels.push_back(level_of(raster, stored, halvings, turn_px));
+}
+
 }  // namespace
 
 std::int64_t WarpLevel::columns() const {
@@ -62,17 +71,17 @@ std::int64_t WarpLevel::rows() const { return static_cast<std::int64_t>(std::cei
 
 std::vector<WarpLevel> warp_levels(const RasterInfo& raster, const std::optional<CrsPoint>& turn_px, int tile_px,
                                    Overviews overviews) {
+  // An overview of a side that does not divide evenly is a little less than half.
+  constexpr double kLeastStep = 2.0 * 1.1;
   std::vector<WarpLevel> levels;
   const RasterLevel& coarsest = raster.levels.front();
   const double side = static_cast<double>(std::max(coarsest.width_px, coarsest.height_px));
   const bool made = overviews == Overviews::made;
-  for (int halvings = 1;
-       made && halvings < 30 && divides(coarsest, halvings) && std::ldexp(side, 1 - halvings) > 2 * tile_px;
-       ++halvings) {
-    levels.insert(levels.begin(), level_of(raster, 0, halvings, turn_px));
-  }
+  if (made) add_reduced(raster, 0, turn_px, side / tile_px, levels);
   for (int stored = 0; stored < static_cast<int>(raster.levels.size()); ++stored) {
     WarpLevel level = level_of(raster, stored, 0, turn_px);
+    const bool gap = made && stored > 0 && levels.back().pixel_size > kLeastStep * level.pixel_size;
+    if (gap) add_reduced(raster, stored, turn_px, levels.back().pixel_size / level.pixel_size / 1.5, levels);
     level.has_parents = !levels.empty() && is_half(levels.back(), level);
     levels.push_back(level);
   }

@@ -25,7 +25,7 @@ struct WarpLevel {
   [[nodiscard]] std::int64_t rows() const;
 };
 
-/// Levels coarser than those of a raster: none, or reduced ones down to about a tile.
+/// Levels that a raster does not have: none, or reduced ones, between those that it has and down to about a tile.
 enum class Overviews { stored, made };
 /// The levels of a raster, the coarsest first. thread: any
 [[nodiscard]] std::vector<WarpLevel> warp_levels(const RasterInfo& raster, const std::optional<CrsPoint>& turn_px,

@@ -1,5 +1,5 @@
-// The limb of the globe beside the same picture drawn 8 by 8 times as large: 10 sizes, 20 cameras, with and without a
-// sky. Prints the table of apps/bench/RESULTS.md and the worst cases.
+// Strips along the limb of the globe beside the same pictures drawn 8 by 8 times as large: 10 sizes, 20 cameras, with
+// and without a sky. Prints the table of apps/bench/RESULTS.md and the worst cases.
 
 #include <fmt/format.h>
 
@@ -26,45 +26,47 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTimes = 8;
 constexpr int kSizes[] = {200, 256, 320, 400, 512, 700, 1024, 1280, 1600, 2048};
 constexpr int kCameras = 20;
-constexpr double kTruth_px = 1 << 25;  // of a large picture only the rows around the middle are drawn
 constexpr const char* kChannels[] = {"red", "green", "blue"};
 
-/// Straight down or tilted by up to 6 degrees, from 1,000 km to 100,000 km; the globe fills five sixths of the height.
-Camera camera(int k) {
-  constexpr double kShare = 0.84;
-  const double height_m = 1.0e6 * std::pow(100.0, k / (kCameras - 1.0));
-  const double half_rad = std::asin(6378137.0 / (6378137.0 + height_m));
-  Camera c;
-  c.eye = {.lat = Angle::degrees(-85.5 + 9.0 * k),
-           .lon = Angle::degrees(47.0 * k - 180.0 * ((47 * k) / 180)),
-           .height_m = height_m};
-  c.heading = Angle::degrees(61.0 * k);
-  c.pitch = Angle::degrees(-90.0 + (k % 3) * 0.1 * half_rad * 180.0 / std::numbers::pi);
-  c.fov_y = Angle::degrees(2.0 * std::atan(std::tan(half_rad) / kShare) * 180.0 / std::numbers::pi);
-  return c;
-}
-
-/// The rows around the middle of a square picture, at the same scale.
+/// A part of a picture, `size` pixels high, of a globe that fills five sixths of it: a strip along the limb. The camera
+/// looks at the limb, whose pixels are as large as in the whole picture, from 1,000 km to 100,000 km.
 struct Strip {
-  int width, height;
-  double full;
-  explicit Strip(int size)
-      : width(size),
-        height(2 * static_cast<int>(0.5 * std::min(0.6 * size, kTruth_px / (kTimes * kTimes * double(size))))),
-        full(size) {}
-  [[nodiscard]] Camera of(Camera c) const {
-    c.fov_y = Angle::radians(2.0 * std::atan(std::tan(0.5 * c.fov_y.rad()) * height / full));
-    return c;
+  static constexpr double kShare = 0.84, kAlong = 0.3;
+  static constexpr int kMargin_px = 14;
+  Viewport view;  ///< the limb runs along the upper edge
+  Camera camera;
+  Strip(int size, int k) {
+    const double height_m = 1.0e6 * std::pow(100.0, k / (kCameras - 1.0));
+    const double half_rad = std::asin(6378137.0 / (6378137.0 + height_m)), cosine = std::cos(half_rad);
+    const double px_per_rad = 0.5 * kShare * size / (std::tan(half_rad) * cosine * cosine);
+    const double bend_px = kAlong * kAlong / (4.0 * kShare) * size;
+    view = {2 * static_cast<int>(0.5 * kAlong * size), 2 * static_cast<int>(kMargin_px + bend_px + 2.0)};
+    const double lower_rad = (0.5 * view.height_px - kMargin_px) / px_per_rad;
+    camera.eye = {.lat = Angle::degrees(-85.5 + 9.0 * k),
+                  .lon = Angle::degrees(47.0 * k - 180.0 * ((47 * k) / 180)),
+                  .height_m = height_m};
+    camera.heading = Angle::degrees(61.0 * k);
+    camera.pitch = Angle::radians(half_rad - lower_rad - 0.5 * std::numbers::pi);
+    camera.fov_y = Angle::radians(2.0 * std::atan(0.5 * view.height_px / px_per_rad));
   }
 };
 
+/// Turned, so that the limb is on the left.
+test::Levels turned(const test::Levels& p) {
+  test::Levels out{p.height, p.width, {}};
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < 3; ++c) out.values.push_back(p.at(y, x, c));
+  return out;
+}
+
 test::Levels drawn(Globe& globe, const Strip& strip, int times) {
-  const Viewport size{times * strip.width, times * strip.height};
+  const Viewport size{times * strip.view.width_px, times * strip.view.height_px};
   const OffscreenTarget target{size};
   if (!globe.render_until_settled(target.framebuffer(), size, Clock::now() + std::chrono::minutes(5)))
     throw std::runtime_error("the globe has not settled after five minutes");
   globe.render(target.framebuffer(), size);
-  return test::reduced(target.read(), size, times);
+  return turned(test::reduced(target.read(), size, times));
 }
 
 struct Case {
@@ -72,18 +74,18 @@ struct Case {
   bool sky;
   int channel;
   LimbPair limb;
-  [[nodiscard]] double peak_off() const { return std::abs(limb.drawn.peak - limb.truth.peak) / limb.truth.peak; }
+  [[nodiscard]] double peak_off() const { return std::abs(limb.drawn.peak - limb.truth.peak) / std::max(1e-9, limb.truth.peak); }
   [[nodiscard]] double change_off() const {
-    return std::abs(limb.drawn.change - limb.truth.change) / limb.truth.change;
+    return std::abs(limb.drawn.change - limb.truth.change) / std::max(1e-9, limb.truth.change);
   }
 };
 
 void measure(Globe& globe, int size, bool sky, int k, std::vector<Case>& cases) {
-  const Strip strip(size);
+  const Strip strip(size, k);
   globe.set_sky(sky);
-  globe.set_camera(strip.of(camera(k)));
+  globe.set_camera(strip.camera);
   const test::Levels truth = drawn(globe, strip, kTimes), seen = drawn(globe, strip, 1);
-  for (int c = 0; c < 3; ++c) cases.push_back({size, k, sky, c, test::compare_limbs(seen, truth, 0, strip.height, c)});
+  for (int c = 0; c < 3; ++c) cases.push_back({size, k, sky, c, test::compare_limbs(seen, truth, 0, seen.height, c)});
 }
 
 double quantile(std::vector<double> values, double part) {

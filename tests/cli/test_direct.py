@@ -73,6 +73,18 @@ class DirectTest(ProgramTest):
         self.shot("striped.tif", GLOBAL[0], "a.png")
         self.assertEqual(len(self.stored()), 1)
 
+    def test_overviews_that_leave_out_levels_are_not_drawn_from_afar(self):
+        # Overview 32 alone: views between the two would show it enlarged.
+        self.planet("gap.tif", *TILED)
+        gdal("gdaladdo", "-q", "-r", "average", self.folder / "gap.tif", 32)
+        self.shot("gap.tif", GLOBAL[2], "a.png")
+        self.assertEqual(len(self.stored()), 1, "it is cut")
+        # Overview 16 alone: views between the two are made of the finest pixels.
+        self.planet("step.tif", *TILED)
+        gdal("gdaladdo", "-q", "-r", "average", self.folder / "step.tif", 16)
+        self.assert_like_its_cut("step.tif", GLOBAL[:3])
+        self.assertEqual(len(self.stored()), 1)
+
     def test_words_about_the_place_and_the_body_hold(self):
         gdal("gdal_translate", "-q", "-outsize", 512, 256, *TILED, BLUE_MARBLE, self.folder / "from_0.tif")
         west, east = (self.shot("from_0.tif", "10,15,9000000", f"{lon}.png", "--west", lon) for lon in (-180, 0))

@@ -144,6 +144,22 @@ class ManyFiles(ProgramTest):
         (self.cells / "broken.tif").unlink()
         self.assert_done("cut", "cells", "-o", "numbers.gpkg", "--force")
 
+    def test_a_cut_of_heights_in_floats_leaves_out_a_damaged_file(self):
+        gdal("gdal_translate", "-q", "-b", 1, "-ot", "Float32", "-scale", 0, 255, -100.25, 3000.5, "-a_srs", "EPSG:4326",
+             "-a_ullr", 10, 50, 12, 48, self.folder / "base.ppm", self.folder / "numbers.tif")
+        for part in range(4):
+            gdal("gdal_translate", "-q", "-srcwin", part % 2 * 128, part // 2 * 128, 128, 128, self.folder / "numbers.tif",
+                 self.cells / f"cell-{part}.tif")
+        whole = (self.cells / "cell-1.tif").read_bytes()
+        (self.cells / "cell-1.tif").write_bytes(whole[:len(whole) // 2])
+        done = self.run_program("cut", "cells", "-o", "heights.gpkg", "--elevation")
+        self.assertEqual(done.returncode, DONE_IN_PART, done.stderr)
+        self.assertIn("cell-1.tif", done.stderr)
+        ask = ["gdallocationinfo", "-valonly", "-wgs84"]
+        told = [subprocess.run([*ask, self.folder / name, "10.2", "49.9"], capture_output=True, text=True, check=True).stdout
+                for name in ("numbers.tif", "heights.gpkg")]
+        self.assertAlmostEqual(float(told[0]), float(told[1]), delta=0.05)  # 3100 m in 65534 numbers
+
     def test_files_of_two_projections_join(self):
         gdal("gdal_translate", "-q", "-srcwin", 0, 0, 128, 256, self.folder / "whole.tif", self.cells / "west.tif")
         gdal("gdal_translate", "-q", "-srcwin", 120, 0, 136, 256, self.folder / "whole.tif", self.folder / "east.tif")

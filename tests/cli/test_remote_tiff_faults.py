@@ -42,7 +42,8 @@ class RefusedTest(RemoteTiffTest):
 
     @staticmethod
     def two_to_the_31_tiles():
-        """A BigTIFF of 2^20 x 2^19 pixels in tiles of 16, whose table would have 16 GiB, and a whole overview."""
+        """A BigTIFF of 2^20 x 2^19 pixels in tiles of 16, whose table would have 16 GiB, three empty overviews, and a
+        whole one."""
         def directory(at, following, kind, width, height, side, offsets, sizes):
             entries = [(254, 4, 1, kind), (256, 4, 1, width), (257, 4, 1, height), (258, 3, 1, 8), (259, 3, 1, 1),
                        (262, 3, 1, 1), (277, 3, 1, 1), (322, 4, 1, side), (323, 4, 1, side), (324, 16, *offsets),
@@ -50,13 +51,17 @@ class RefusedTest(RemoteTiffTest):
             body = b"".join(struct.pack("<HHQQ", *entry) for entry in entries)
             return struct.pack("<Q", len(entries)) + body + struct.pack("<Q", following)
 
-        tiles, tables = 1 << 31, 4096
-        first = directory(16, 1024, 0, 1 << 20, 1 << 19, 16, (tiles, 1 << 24), (tiles, 1 << 35))
-        second = directory(1024, 0, 1, 512, 256, 256, (2, tables), (2, tables + 16))
+        tiles, tables, nothing = 1 << 31, 4096, 1 << 18
+        first = directory(16, 512, 0, 1 << 20, 1 << 19, 16, (tiles, 1 << 24), (tiles, 1 << 35))
+        overviews = (directory(512, 1024, 1, 1 << 19, 1 << 18, 4096, (8192, nothing), (8192, nothing)),
+                     directory(1024, 1536, 1, 1 << 15, 1 << 14, 1024, (512, nothing), (512, nothing)),
+                     directory(1536, 2048, 1, 1 << 11, 1 << 10, 1024, (2, nothing), (2, nothing)),
+                     directory(2048, 0, 1, 512, 256, 256, (2, tables), (2, tables + 16)))
         data = struct.pack("<2sHHHQ", b"II", 43, 8, 0, 16) + first
-        data = data.ljust(1024, b"\0") + second
+        for overview in overviews:
+            data = data.ljust((len(data) + 511) // 512 * 512, b"\0") + overview
         data = data.ljust(tables, b"\0") + struct.pack("<QQQQ", 8192, 8192 + 65536, 65536, 65536)
-        return data.ljust(8192, b"\0") + bytes(range(256)) * 512
+        return (data.ljust(8192, b"\0") + bytes(range(256)) * 512).ljust(nothing + 8192 * 8, b"\0")
 
     def test_hostile_files_are_named(self):
         good = self.planet(width=512)
@@ -89,12 +94,19 @@ class RefusedTest(RemoteTiffTest):
         }
         for name, (data, says) in cases.items():
             with self.subTest(name), range_server(data, name="a.tif") as (url, _):
-                done = self.run_program("render", url, "-o", "x.png", *VIEW, "--cache", "off", "--camera", CLOSE)
-                self.assertIn(done.returncode, (FAILED, DONE_IN_PART), f"{name}\n{done.stdout}{done.stderr}")
-                self.assertIn("a.tif", done.stderr)
-                self.assertIn(says, done.stderr)
-                for internal in "terminate called", "Sanitizer", "std::":
-                    self.assertNotIn(internal, done.stderr)
+                self.assert_named(url, says)
+            with self.subTest(name + ", local"):
+                (self.folder / "a.tif").write_bytes(data)
+                self.assert_named("a.tif", "")
+                self.assert_named("a.tif", "", "--bounds=-180,-90,180,90")
+
+    def assert_named(self, source, says, *options):
+        done = self.run_program("render", source, *options, "-o", "x.png", *VIEW, "--cache", "off", "--camera", CLOSE)
+        self.assertIn(done.returncode, (FAILED, DONE_IN_PART), f"{options}\n{done.stdout}{done.stderr}")
+        self.assertIn("a.tif", done.stderr)
+        self.assertIn(says, done.stderr)
+        for internal in "terminate called", "Sanitizer", "std::":
+            self.assertNotIn(internal, done.stderr)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "render/gl/shader_library.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -21,12 +22,12 @@ class BrokenShader {
   explicit BrokenShader(const std::string& name) : folder_(testing::TempDir() + "broken_" + name) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / name) << "this is no shader\n";
-    setenv("TERRELLA_SHADER_DIR", folder_.c_str(), 1);
+    read_shaders_from(folder_);
     glDisable(GL_DEBUG_OUTPUT);  // the fixture fails a test whose driver complains
   }
   ~BrokenShader() {
     glEnable(GL_DEBUG_OUTPUT);
-    unsetenv("TERRELLA_SHADER_DIR");
+    read_shaders_from({});
     std::filesystem::remove_all(folder_);
   }
   BrokenShader(const BrokenShader&) = delete;
@@ -89,6 +90,18 @@ TEST_F(BrokenPrograms, ASecondLayerIsAnError) {
   ASSERT_TRUE(globe->add_imagery(one_colour(kGrid, {0, 120, 40}), {.opacity = 0.5}));
   expect_error_then_picture(*globe, "patch_flat.frag");
 }
+
+#ifdef NDEBUG
+TEST(ShaderFolder, TheEnvironmentHasNoSayInARelease) {
+  const std::filesystem::path folder = testing::TempDir() + "other_shaders";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "frame.glsl") << "this is no shader\n";
+  setenv("TERRELLA_SHADER_DIR", folder.c_str(), 1);
+  EXPECT_GT(shader_text("frame.glsl").value_or("").size(), 100U);
+  unsetenv("TERRELLA_SHADER_DIR");
+  std::filesystem::remove_all(folder);
+}
+#endif
 
 }  // namespace
 }  // namespace terrella::test

@@ -49,10 +49,13 @@ TEST_F(LimbPictures, HasNoCombWithASky) {
   check(camera_at(20.9, 0.1, 15202000), 200, true);
   // Floes are narrow there, and a pixel of the limb is longer than the taps reach, so its tile is coarser than the
   // pixel.
-  check(camera_at(75.0, 10.0, 40000000, 30), 160, true, 0.75);
+  check(camera_at(75.0, 10.0, 40000000, 30), 160, true, 0.82);
 }
 
 TEST_F(LimbPictures, HasNoDashesWithoutASky) { check(camera_at(-40.0, 130.0, 12000000, 30), 160, false); }
+
+// Pixels at the limb are many times as long as wide, and their texels must still be about as narrow as they are.
+TEST_F(LimbPictures, IsNotBlurred) { check(camera_at(58.5, 32.0, 48329000, 256, -90, 15.9), 192, false, 0.87); }
 
 // A ball whose centre lies under the ground, and which stands out over the limb. The Sun is over the eye's shoulder.
 TEST_F(LimbPictures, HaveNoAirOverAnObject) {

@@ -45,6 +45,31 @@ def write_project(folder, number):
     return folder
 
 
+# A project whose own header has the name of one of Terrella's, and that uses GLM as GLM is by default.
+STRICT_CMAKE = """
+include_directories(BEFORE own)
+target_compile_options(application PRIVATE -fno-exceptions -fno-rtti)
+"""
+OWN_HEADER = """#pragma once
+#include <glm/vec3.hpp>
+inline glm::vec3 narrow(const glm::dvec3& wide) { return wide; }  // GLM's implicit conversion
+#define OWN_COORDINATES 1
+"""
+
+
+def write_strict_project(folder):
+    """The document's first project with a geo/coordinates.h of its own, without exceptions and without RTTI."""
+    write_project(folder, 0)
+    (folder / "own/geo").mkdir(parents=True)
+    (folder / "own/geo/coordinates.h").write_text(OWN_HEADER)
+    source = (folder / "main.cpp").read_text()
+    (folder / "main.cpp").write_text('#include "geo/coordinates.h"\n' + source
+                                     + "\nstatic_assert(OWN_COORDINATES == 1);\nglm::vec3 (*used)(const glm::dvec3&) = narrow;\n")
+    with open(folder / "CMakeLists.txt", "a") as cmake:
+        cmake.write(STRICT_CMAKE)
+    return folder
+
+
 def cut_square(terrella, folder):
     """A tile set of the yellow square."""
     picture, tiles = folder / "square.png", folder / "square.gpkg"

@@ -1,6 +1,7 @@
 """Installs the build to an empty prefix, moves the prefix, and uses it without access to the source tree."""
 
 import concurrent.futures
+import gzip
 import os
 import pathlib
 import re
@@ -10,8 +11,9 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.dom.minidom
 
-from projects import BUILD, CAMERA, CMAKE, COMPILER, QUAKES, SOURCE, YELLOW, assert_picture, cut_square, run, write_project
+from projects import BUILD, CAMERA, CMAKE, COMPILER, QUAKES, SOURCE, YELLOW, assert_picture, cut_square, run, write_project, write_strict_project
 
 CUTTER_CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(Cutter LANGUAGES CXX)
@@ -114,6 +116,14 @@ class PackageTest(unittest.TestCase):
     def test_find_package_with_another_compiler(self):
         self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
 
+    def test_strict_project(self):
+        """A geo/coordinates.h of the application's own, GLM's defaults, no exceptions, no RTTI."""
+        folder = write_strict_project(self.scratch / "strict")
+        self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+        self.run_outside(CMAKE, "--build", folder / "build")
+        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
+        assert_picture(self, folder / "earth.png")
+
     def test_plug_in(self):
         """The archives fit into a shared object; a process that knows nothing of C++ opens it and draws."""
         folder = write_project(self.scratch / "plug-in", 0)
@@ -152,7 +162,7 @@ class PackageTest(unittest.TestCase):
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(run("pkg-config", "--cflags", "terrella", env=environment))
         named = re.search(r"TERRELLA_PUBLIC_HEADERS\n(.*?)\)", (SOURCE / "engine/package/public_headers.cmake").read_text(), re.DOTALL)
-        names = {re.sub("^(engine/)?(globe/)?", "terrella/", header) for header in named[1].split()} | set(BY_NAME)
+        names = {"terrella/" + re.sub("^(engine/)?(globe/(?=globe.h$))?", "", header) for header in named[1].split()} | set(BY_NAME)
         self.assertGreater(len(names), 15)
 
         def check(name):
@@ -161,6 +171,28 @@ class PackageTest(unittest.TestCase):
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             list(pool.map(check, sorted(names)))
+
+    def test_no_path_of_the_build(self):
+        """No binary that is installed names the folders that it was built in or from."""
+        binaries = [p for p in self.prefix.rglob("*") if p.suffix in (".a", ".so") or p.parent.name == "bin"]
+        self.assertGreater(len(binaries), 10)
+        for path in binaries:
+            content = path.read_bytes()
+            for folder in (SOURCE, BUILD):
+                self.assertNotIn(str(folder).encode() + b"/", content, path)
+
+    def test_uninstall(self):
+        """What an installation wrote is removed, and what lay beside it stays."""
+        prefix = self.scratch / "gone"
+        (prefix / "share/terrella").mkdir(parents=True)
+        (prefix / "share/terrella/own.txt").touch()
+        manifest = self.scratch / "manifest.txt"
+        written = run(CMAKE, "--install", BUILD, "--prefix", prefix)
+        files = [name for name in re.findall(r"^-- Installing: (.*)$", written, re.MULTILINE) if pathlib.Path(name).is_file()]
+        manifest.write_text("\n".join(files))
+        run(CMAKE, f"-DMANIFEST={manifest}", "-P", SOURCE / "engine/package/uninstall.cmake")
+        self.assertEqual([str(p.relative_to(prefix)) for p in prefix.rglob("*") if not p.is_dir()], ["share/terrella/own.txt"])
+        self.assertFalse((prefix / "include/terrella").exists())
 
     def test_no_path_of_the_source(self):
         """What is installed as text names nothing of the machine that it was built on."""
@@ -181,18 +213,45 @@ class PackageTest(unittest.TestCase):
             self.assertIn(says, str(refused.exception))
 
     def test_debian_packages(self):
-        """The program runs from where its package is unpacked, and finds the Earth; both packages say what they need."""
+        """The program runs from where its package is unpacked, and finds the Earth; each package says what it needs."""
         run("cpack", "-G", "DEB", "-B", self.scratch / "deb", cwd=BUILD)
-        program, development = (next((self.scratch / "deb").glob(f"{name}_*.deb")) for name in ("terrella", "libterrella-dev"))
+        names = ["terrella", "libterrella-dev"] + ["python3-terrella"] * (BUILD / "python").exists()
+        packages = {name: next((self.scratch / "deb").glob(f"{name}_*.deb")) for name in names}
+        program, development = packages["terrella"], packages["libterrella-dev"]
         self.assertRegex(run("dpkg-deb", "--field", program, "Depends"), r"libegl1.*libcurl4.*libsqlite3-0")
         self.assertRegex(run("dpkg-deb", "--field", development, "Depends"), r"libglm-dev")
-        self.assertEqual(run("dpkg-deb", "--field", program, "Maintainer"), "Terrella developers\n")
-        self.assertIn("usr/include/terrella/globe.h", run("dpkg-deb", "--contents", development))
-        run("dpkg-deb", "--extract", program, self.scratch / "root")
+        self.assertEqual(run("dpkg-deb", "--field", program, "Maintainer"), "Terrella developers <terrella@localhost>\n")
+        held = {name: run("dpkg-deb", "--contents", package) for name, package in packages.items()}
+        self.assertIn("usr/include/terrella/globe.h", held["libterrella-dev"])
+        self.assertRegex(held["libterrella-dev"], r"usr/lib/[a-z0-9_]+-linux-gnu/libterrella_globe\.a")
+        for name in names:
+            self.assertIn(f"usr/share/doc/{name}/copyright", held[name])
+            self.assertIn(f"usr/share/doc/{name}/changelog.gz", held[name])
+        for file in ("applications/terrella.desktop", "icons/hicolor/scalable/apps/terrella.svg", "mime/packages/terrella.xml",
+                     "man/man1/terrella.1.gz"):
+            self.assertIn(f"usr/share/{file}", held["terrella"])
+        for package in packages.values():
+            run("dpkg-deb", "--extract", package, self.scratch / "root")
         picture = self.scratch / "earth.png"
+        environment = {**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache")}
         self.run_outside(self.scratch / "root/usr/bin/terrella", "render", "--unlit", "--size", "256x256", f"--camera={CAMERA}",
-                         "--objects", self.quakes, "-o", picture, env={**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache")})
+                         "--objects", self.quakes, "-o", picture, env=environment)
         assert_picture(self, picture, square=False)
+        if "python3-terrella" in names:
+            environment["PYTHONPATH"] = str(self.scratch / "root/usr/lib/python3/dist-packages")
+            says = self.run_outside("/usr/bin/python3", "-c", "import terrella; print(terrella.render(size=(64, 64)).shape)",
+                                    env=environment)
+            self.assertEqual(says, "(64, 64, 3)\n")
+        self.check_desktop(self.scratch / "root/usr/share")
+
+    def check_desktop(self, share):
+        """Menu entry, MIME types and manual page are accepted by the tools that read them."""
+        run("desktop-file-validate", share / "applications/terrella.desktop")
+        for path in (share / "mime/packages/terrella.xml", share / "icons/hicolor/scalable/apps/terrella.svg"):
+            xml.dom.minidom.parse(str(path))
+        manual = gzip.decompress((share / "man/man1/terrella.1.gz").read_bytes()).decode()
+        for section in (".SH NAME", ".SH SYNOPSIS", "EXIT STATUS", "render"):
+            self.assertIn(section, manual)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
-"""Applications that build the library within their own build: FetchContent and add_subdirectory."""
+"""Applications that build the library within their own build: FetchContent and add_subdirectory. The shared library."""
 
 import json
+import os
 import pathlib
+import shlex
 import shutil
 import tempfile
 import unittest
 
-from projects import BUILD, CMAKE, COMPILER, QUAKES, SOURCE, assert_picture, cut_square, run, write_project
+from projects import BUILD, CMAKE, COMPILER, QUAKES, SOURCE, assert_picture, cut_square, run, write_project, write_strict_project
 
 # Kept between runs, so that the library is compiled again only where it has changed.
 KEPT = BUILD / "package_tests"
@@ -19,7 +21,7 @@ project(Application LANGUAGES CXX)
 add_subdirectory("{source}" terrella)
 add_executable(application main.cpp)
 target_link_libraries(application PRIVATE Terrella::terrella)
-foreach(leak CMAKE_BUILD_TYPE BUILD_TESTING CMAKE_RUNTIME_OUTPUT_DIRECTORY CMAKE_CXX_STANDARD CMAKE_CXX_EXTENSIONS CPACK_PACKAGE_NAME)
+foreach(leak CMAKE_BUILD_TYPE BUILD_TESTING CMAKE_RUNTIME_OUTPUT_DIRECTORY CMAKE_CXX_STANDARD CMAKE_CXX_EXTENSIONS CPACK_PACKAGE_NAME BUILD_SHARED_LIBS)
   if(DEFINED ${{leak}} AND NOT "${{${{leak}}}}" STREQUAL "")
     message(FATAL_ERROR "Terrella has set ${{leak}} to '${{${{leak}}}}'")
   endif()
@@ -36,16 +38,54 @@ class SourceTest(unittest.TestCase):
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="terrella-source-"))
         self.addCleanup(shutil.rmtree, self.scratch)
 
-    def test_fetch_content(self):
-        """The document's second project, with this folder in place of the archive that it fetches, draws a picture."""
-        folder = write_project(KEPT / "fetch-content", 1)
-        configure(folder, f"-DFETCHCONTENT_SOURCE_DIR_TERRELLA={SOURCE}")
-        run(CMAKE, "--build", folder / "build", "--parallel", "2")
-        quakes, picture = self.scratch / "quakes.geojson", self.scratch / "earth.png"
+    def write_data(self):
+        """The files that outside/main.cpp draws."""
+        quakes = self.scratch / "quakes.geojson"
         quakes.write_text(QUAKES)
-        square = cut_square(BUILD / "terrella", self.scratch)
-        run(folder / "build/application", BUILD / "data/earth.gpkg", square, quakes, picture)
+        self.data = [BUILD / "data/earth.gpkg", cut_square(BUILD / "terrella", self.scratch), quakes]
+
+    def test_fetch_content_and_shared_library(self):
+        """The document's second project, with this folder in place of the archive that it fetches, draws a picture. It
+        asks for the shared library, so that one build serves the applications that find that library installed."""
+        folder = write_project(KEPT / "fetch-content", 1)
+        configure(folder, f"-DFETCHCONTENT_SOURCE_DIR_TERRELLA={SOURCE}", "-DBUILD_SHARED_LIBS=ON", "-DTERRELLA_INSTALL=ON")
+        run(CMAKE, "--build", folder / "build", "--parallel", "2")
+        picture = self.scratch / "earth.png"
+        self.write_data()
+        run(folder / "build/application", *self.data, picture)
         assert_picture(self, picture)
+        prefix = self.scratch / "prefix"
+        run(CMAKE, "--install", folder / "build", "--prefix", prefix)
+        self.check_symbols(next(prefix.rglob("libterrella.so")))
+        self.use_by_find_package(prefix)
+        self.use_by_pkg_config(prefix)
+
+    def check_symbols(self, library):
+        """Public headers declare what the library shows; nothing else is to be seen."""
+        self.assertRegex(run("readelf", "--dynamic", library), r"SONAME.*\[libterrella\.so\.0\.1\]")
+        symbols = run("nm", "--dynamic", "--demangle", "--defined-only", library)
+        for public in ("terrella::Globe::render(", "terrella::cut(", "terrella::open_tile_set(", "terrella::TileCache::"):
+            self.assertIn(public, symbols)
+        for hidden in ("terrella::GlobeRenderer::", "terrella::PatchTree", "terrella::plan_frame", "sqlite3_"):
+            self.assertNotIn(hidden, symbols)
+
+    def use_by_find_package(self, prefix):
+        folder = write_strict_project(self.scratch / "strict")
+        run(CMAKE, "-S", folder, "-B", folder / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}",
+            f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+        run(CMAKE, "--build", folder / "build")
+        run(folder / "build/application", *self.data, folder / "earth.png")
+        assert_picture(self, folder / "earth.png")
+
+    def use_by_pkg_config(self, prefix):
+        folder = write_project(self.scratch / "with-pkg-config", 0)
+        environment = {**os.environ, "PKG_CONFIG_PATH": str(next(prefix.rglob("terrella.pc")).parent)}
+        flags = shlex.split(run("pkg-config", "--cflags", "--libs", "terrella", env=environment))
+        self.assertIn("-lterrella", flags)
+        run(COMPILER, "-std=c++20", "-Wall", "-Wextra", "-Werror", "main.cpp", "-o", "application", *flags, cwd=folder)
+        libraries = {**os.environ, "LD_LIBRARY_PATH": str(next(prefix.rglob("libterrella.so")).parent)}
+        run(folder / "application", *self.data, folder / "earth.png", env=libraries)
+        assert_picture(self, folder / "earth.png")
 
     def test_add_subdirectory(self):
         """The libraries come alone, change none of the application's settings, and bring their headers and the language."""

@@ -239,6 +239,30 @@ TEST(Warp, WithoutOverviewsCoarseTilesShowTheMean) {
   for (const auto& [block, times] : stored.reads()) EXPECT_EQ(times, 1) << block.x << "," << block.y;
 }
 
+TEST(Warp, BetweenOverviewsThatAreFarApartTilesKeepTheirDetail) {
+  PaintedOptions options = degrees(-180.0, 90.0, 0.25, 1440, 720);
+  options.crs = "+proj=eqc +R=6378137";
+  options.to_crs = {-180 * kDeg_m, 0.25 * kDeg_m, 0.0, 90 * kDeg_m, 0.0, -0.25 * kDeg_m};
+  options.overviews = 4;
+  // Waves of 32 columns: four pixels of the tile. The overview's pixels of 16 columns are all means of half a wave.
+  const auto wave = [](double, double lon) { return 100.0 + 100.0 * std::cos((lon + 180.0) * M_PI / 4.0); };
+  auto raster = std::make_unique<PaintedRaster>(options, wave, by_latitude);
+  auto& levels = raster->change().levels;
+  levels.erase(levels.begin() + 1, levels.end() - 1);
+  const auto tiles = warped(std::move(raster));
+  const double step = tile_span_deg(tiles->info().grid, 1) / 64;
+  ASSERT_NEAR(step, 2.0, 1e-9);
+  const auto made = drawn_tile(*tiles, {1, 0, 0});
+  ASSERT_TRUE(made);
+  double squares = 0.0;
+  for (int x = 1; x + 1 < 64; ++x) {
+    const double miss = made->rgba[static_cast<std::size_t>(20 * 64 + x) * 4] - wave(0.0, -180.0 + (x + 0.5) * step);
+    squares += miss * miss / 62.0;
+  }
+  // A mean over a quarter of a wave takes a tenth of its height, the filter as much again. Without waves it is 71.
+  EXPECT_LT(std::sqrt(squares), 25.0);
+}
+
 TEST(Warp, NumbersWithoutDataTakeNoPart) {
   PaintedOptions options{.crs = "+proj=sinu +R=6378137",
                          .to_crs = {-2e6, 2e4, 0.0, 2e6, 0.0, -2e4},

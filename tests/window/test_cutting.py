@@ -98,7 +98,22 @@ class Cutting(WindowTest):
         wait_until("the bar", lambda: self.has_bar(png.read(self.screenshot(viewer, "dropped"))))
         self.assertIsNotNone(self.work(), "the cut goes on")
         self.assert_coarse_picture_and_bar(viewer)
+        self.remove_highest_layer(viewer)
+        wait_until("the bar's end", lambda: not self.has_bar(png.read(self.screenshot(viewer, "removed"))))
+        sizes = [{name: log.st_size for name, log in self.logs().items()} for _ in range(2) if time.sleep(2.0) is None]
+        self.assertEqual(sizes[0], sizes[1], "the cut of a removed layer has stopped")
+        self.assertIsNotNone(self.work(), "what was done is kept")
         self.assertEqual(viewer.quit(), 0)
+
+    def remove_highest_layer(self, viewer):
+        viewer.key("l")
+        self.screenshot(viewer, "panel")
+        viewer.click(SIZE[0] - 180, 128)  # opens the row, under the bar
+        time.sleep(1.0)
+        self.screenshot(viewer, "row")
+        viewer.click(SIZE[0] - 173, 256)
+        time.sleep(1.0)
+        viewer.key("l")
 
     def assert_coarse_picture_and_bar(self, viewer):
         shot = png.read(self.screenshot(viewer, "coarse"))

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/commands/picture_report.h"
 #include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_items.h"
 
@@ -53,10 +52,8 @@ void draw_look(LayerRow& row) {
 
 /// Draws the facts of the raster itself, instead of those of the tiles' grid.
 void draw_facts(LayerRow& row) {
-  if (row.raster.empty()) return;
-  if (!row.facts.valid()) {
-    row.facts = std::async(std::launch::async, raster_facts, row.raster, row.words, row.band).share();
-  }
+  if (!row.read_facts) return;
+  if (!row.facts.valid()) row.facts = std::async(std::launch::async, row.read_facts).share();
   if (!row.has_facts() || row.facts.get().empty()) return;
   ImGui::PushTextWrapPos(0.0F);
   for (const std::string& line : row.facts.get()) ImGui::TextDisabled("%s", line.c_str());
@@ -95,7 +92,7 @@ LayerAsk draw_row(LayerRow& row) {
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
-  if (row.numbers && !row.raster.empty()) row.numbers->lines.clear();
+  if (row.numbers && row.read_facts) row.numbers->lines.clear();
   if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
   if (row.kind == LayerKind::imagery) draw_look(row);
   draw_attribution(row);

@@ -1,17 +1,15 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
 #include <future>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/commands/raster_facts.h"
 #include "apps/scene/scene_numbers.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
-#include "streaming/georeference/place_words.h"
-#include "streaming/raster/open_raster.h"
 #include "surface/layers.h"
 
 namespace terrella {
@@ -28,10 +26,8 @@ struct LayerRow {
   std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
   std::string attribution = {};                             ///< may be empty
   ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
-  std::filesystem::path raster = {};                        ///< the file, if it may be a picture
-  PlaceWords words = {};                                    ///< of the user, about its place
-  DescribedBand band = {};                                  ///< of the raster that is shown
-  std::shared_future<std::vector<std::string>> facts = {};  ///< raster_facts(); begun when the row is first open
+  FactsReader read_facts = {};                              ///< of a raster; empty for other layers
+  std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
   bool facts_drawn = false;                                 ///< the panel was drawn since they came
 
   [[nodiscard]] bool has_facts() const {

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "apps/viewer/panels/panel_items.h"
 
@@ -17,24 +16,28 @@ int percent_of(const GrowingCut::State& state) { return static_cast<int>(100.0 *
 
 }  // namespace
 
-Cutting::Cutting(const ViewerContext& context, std::vector<std::shared_ptr<GrowingCut>> cuts) : Part(context) {
-  add(std::move(cuts));
+Cutting::Cutting(const ViewerContext& context, const std::vector<std::weak_ptr<GrowingCut>>& cuts) : Part(context) {
+  for (const auto& cut : cuts) rows_.push_back({.cut = cut});
 }
 
-void Cutting::add(std::vector<std::shared_ptr<GrowingCut>> cuts) {
-  for (std::shared_ptr<GrowingCut>& cut : cuts) rows_.push_back({.cut = std::move(cut)});
+void Cutting::add(const std::vector<std::shared_ptr<GrowingCut>>& cuts) {
+  for (const auto& cut : cuts) rows_.push_back({.cut = cut});
 }
 
 bool Cutting::changed() const {
   return std::ranges::any_of(rows_, [](const Row& row) {
-    const GrowingCut::State state = row.cut->state();
+    const auto cut = row.cut.lock();
+    if (!cut) return true;
+    const GrowingCut::State state = cut->state();
     return state.ended || percent_of(state) != row.percent;
   });
 }
 
 void Cutting::draw(float) {
   std::erase_if(rows_, [this](const Row& row) {
-    const GrowingCut::State state = row.cut->state();
+    const auto cut = row.cut.lock();
+    if (!cut) return true;
+    const GrowingCut::State state = cut->state();
     if (state.error) context_.messages.report(state.error->message);
     return state.ended;
   });
@@ -46,8 +49,10 @@ void Cutting::draw(float) {
               {middle, static_cast<float>(Ui::panel_room(middle - half - unit, middle + half + unit, 0.0F).top)},
               {0.5F, 0.0F}, {2.0F * half, static_cast<float>(rows_.size()) * line});
   for (Row& row : rows_) {
-    row.percent = percent_of(row.cut->state());
-    const std::string name = row.cut->picture().filename().string();
+    const auto cut = row.cut.lock();
+    if (!cut) continue;
+    row.percent = percent_of(cut->state());
+    const std::string name = cut->picture().filename().string();
     const std::string text = fmt::format("Cutting {}: {} %", name, row.percent);
     ImGui::ProgressBar(static_cast<float>(row.percent) / 100.0F, {-1.0F, 0.0F}, text.c_str());
   }

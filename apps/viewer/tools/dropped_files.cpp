@@ -85,17 +85,20 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   tiles_options.remote = {};
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   tiles_options.cuts = &cuts;
+  OpenedRasters rasters;
+  tiles_options.opened = &rasters;
   if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
+  FactsReader read_facts = facts_reader(tiles_options.tile_set, {}, {}, rasters);
   if (!is_of_heights((*tiles)->info())) {
     auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
     if (!layer) return layer.error();
-    return OpenedFile{path, *std::move(layer), std::move(cuts)};
+    return OpenedFile{path, *std::move(layer), std::move(cuts), std::move(read_facts)};
   }
   auto heights = ElevationSource::open(*std::move(tiles), path.string());
   if (!heights) return heights.error();
-  return OpenedFile{path, *std::move(heights)};
+  return OpenedFile{path, *std::move(heights), {}, std::move(read_facts)};
 }
 
 DroppedFiles::~DroppedFiles() {

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/commands/raster_facts.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/setup/open_imagery.h"
 #include "streaming/cut/growing/growing_cut.h"
@@ -22,6 +23,7 @@ struct OpenedFile {
   std::filesystem::path path;
   std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< of a picture that is cut in the background
+  FactsReader read_facts = {};                         ///< of a raster
 };
 
 /// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of

@@ -3,11 +3,16 @@
 #include <epoxy/egl.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace terrella {
 namespace {
 
-EGLDisplay open_display() {
+/// Contexts of a display share it, and eglTerminate() ends it for all of them: the last one calls it.
+std::mutex g_displays;
+int g_contexts = 0;
+
+EGLDisplay find_display() {
   EGLDisplay display = EGL_NO_DISPLAY;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -23,6 +28,18 @@ EGLDisplay open_display() {
     }
   }
   return EGL_NO_DISPLAY;
+}
+
+EGLDisplay open_display() {
+  const std::lock_guard lock(g_displays);
+  EGLDisplay display = find_display();
+  if (display != EGL_NO_DISPLAY) ++g_contexts;
+  return display;
+}
+
+void close_display(EGLDisplay display) {
+  const std::lock_guard lock(g_displays);
+  if (--g_contexts == 0) eglTerminate(display);
 }
 
 }  // namespace
@@ -53,10 +70,10 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create() {
 }
 
 HeadlessContext::~HeadlessContext() {
-  if (display_ == nullptr) return;
+  if (display_ == EGL_NO_DISPLAY) return;
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   if (context_ != nullptr) eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  close_display(display_);
 }
 
 OffscreenTarget::OffscreenTarget(Viewport size)

@@ -6,19 +6,33 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "shaders/embedded_shaders.h"
 
 namespace terrella {
+namespace {
+
+std::filesystem::path g_folder;  // of read_shaders_from()
+
+std::filesystem::path shader_folder() {
+#ifndef NDEBUG
+  const char* named = std::getenv("TERRELLA_SHADER_DIR");
+  if (g_folder.empty() && named != nullptr) return named;
+#endif
+  return g_folder;
+}
+
+}  // namespace
+
+void read_shaders_from(std::filesystem::path folder) { g_folder = std::move(folder); }
 
 std::optional<std::string> shader_text(std::string_view name) {
-  if (const char* folder = std::getenv("TERRELLA_SHADER_DIR")) {
-    std::error_code error;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
-      if (entry.path().filename() != name) continue;
-      if (std::ifstream file(entry.path()); file) return (std::ostringstream() << file.rdbuf()).str();
-    }
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(shader_folder(), error)) {
+    if (entry.path().filename() != name) continue;
+    if (std::ifstream file(entry.path()); file) return (std::ostringstream() << file.rdbuf()).str();
   }
   for (const EmbeddedShader& shader : embedded_shaders()) {
     if (shader.name == name) return std::string(shader.text);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -17,11 +18,15 @@ struct ShaderStage {
   std::initializer_list<std::string_view> files;
 };
 
+/// Reads shaders from a folder, and those in it, instead of the embedded ones; empty: the embedded ones. Programs that
+/// are built already stay. In builds with assertions, the environment variable TERRELLA_SHADER_DIR names the folder
+/// while none is set. thread: main
+void read_shaders_from(std::filesystem::path folder);
+
 /// Returns the text of a file of shaders/; nothing if there is none of that name. thread: any
 [[nodiscard]] std::optional<std::string> shader_text(std::string_view name);
 
-/// Compiles and links a program from the embedded files. If the environment variable TERRELLA_SHADER_DIR names a
-/// folder, reads the files from that folder and those in it at each call. `defines` become #defines before the text.
+/// Compiles and links a program from the files of shader_text(). `defines` become #defines before the text.
 /// `feedback` lists the outputs of the vertex stage that transform feedback records, in order. For debuggers, the
 /// program is labelled with the last file of its last stage. The error names the file and contains the compiler's
 /// message. thread: main

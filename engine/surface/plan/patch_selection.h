@@ -25,7 +25,9 @@ struct PatchSelectionOptions {
   double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
   double texels_per_pixel = 1.0;  ///< detail asked of the imagery: 1, a texel a pixel along the meridian
   double max_footprint_texels = kPlainFootprint_texels;  ///< longest pixel outside pole bands
-  int max_window = 8;                                    ///< a patch whose window has more cells a side is split
+  /// A pixel that the slant makes n times as long as wide asks for texels of its width times n to this power.
+  double slant_power = 0.5;
+  int max_window = 8;          ///< a patch whose window has more cells a side is split
   int max_polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
   double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing

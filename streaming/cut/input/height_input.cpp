@@ -100,21 +100,24 @@ HeightPlan keep_floats(HeightPlan plan, const Probe& probe) {
   return plan;
 }
 
-Result<HeightPlan> plan_floats(const std::vector<fs::path>& images, const CutElevation& options, int jobs,
-                               HeightPlan plan) {
+Result<HeightPlan> plan_floats(const HeightPictures& pictures, const CutElevation& options, int jobs,
+                               const Probe& probe, HeightPlan plan) {
   if (options.scale || options.offset) {
     plan.numbers.scale = options.scale.value_or(1.0);
     plan.numbers.offset = options.offset.value_or(0.0);
   } else {
     Range range;
-    for (const fs::path& image : images) {
-      if (Status widened = widen(image, plan.coding, jobs, range); !widened) return widened.error();
+    for (const fs::path& image : pictures.images) {
+      const Status widened = widen(image, plan.coding, jobs, range);
+      // The others are shown with what can be read of this one, whose range nobody knows.
+      if (!widened && pictures.many) return keep_floats(std::move(plan), probe);
+      if (!widened) return widened.error();
     }
     if (range.least > range.most) {
       return Error{
           fmt::format("{}: holds no height: each pixel is no data or not a number; say with --nodata which value "
                       "means no data, or name another file",
-                      images.front().string())};
+                      pictures.images.front().string())};
     }
     const double span = static_cast<double>(range.most) - static_cast<double>(range.least);
     plan.numbers.scale = span > 0.0 ? span / kFloatNumbers : 1.0;
@@ -231,7 +234,7 @@ Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevati
     if (pictures.remote != nullptr && !options.scale && !options.offset) return keep_floats(std::move(plan), *first);
     plan.coding.sample_scale = first->scale;
     plan.coding.sample_offset = first->offset;
-    return plan_floats(pictures.images, options, jobs, plan);
+    return plan_floats(pictures, options, jobs, *first, plan);
   }
   const int shift = first->kind == HeightKind::int16 ? kInt16Shift : 0;
   plan.numbers.scale = options.scale.value_or(first->scale);

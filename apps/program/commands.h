@@ -3,6 +3,9 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "apps/program/scene_picture.h"
+#include "codecs/image.h"
+
 namespace terrella {
 
 /// Exit codes of every subcommand.
@@ -17,6 +20,12 @@ void add_merge_command(CLI::App& app, int& exit_code);
 void add_preload_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
+
+/// The subcommand `render` without a callback; `command` must outlive the parse. Returns the subcommand. thread: main
+CLI::App& add_render_options(CLI::App& app, RenderCommand& command);
+/// Draws the picture, writes it if the command names a file, reports as the program does and returns the exit code. Not
+/// null, `image` gets the picture. thread: main
+int run_render(const RenderCommand& command, Image* image);
 
 /// Prints to standard error why a subcommand failed. Returns kFailed.
 int fail(const char* command, const std::string& why);

@@ -1,0 +1,229 @@
+#include "apps/program/scene_picture.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Error.hpp>
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "apps/scene/scene_layers.h"
+#include "apps/scene/scene_numbers.h"
+#include "apps/scene/scene_objects.h"
+#include "apps/scene/scene_overlays.h"
+#include "apps/setup/console.h"
+#include "apps/setup/eye_place.h"
+#include "apps/setup/open_imagery.h"
+#include "apps/setup/process.h"
+#include "apps/setup/stop_signals.h"
+#include "apps/viewer/panels/legend.h"
+#include "apps/viewer/tools/map_painter.h"
+#include "apps/viewer/tools/picture_ui.h"
+#include "render/gl/offscreen.h"
+
+namespace terrella {
+namespace {
+
+constexpr std::size_t kMostReasons = 4;
+
+/// Refuses a picture without any tile, which would look like the planet.
+Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing) {
+  if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
+  std::string message =
+      fmt::format("none of the {} tiles of this picture came, nothing was written", stats.tiles_wanted);
+  if (stats.tiles_pending > 0) message += "; --timeout gives them longer";
+  for (std::size_t k = 0; k < std::min(missing.size(), kMostReasons); ++k)
+    message += "\n  missing: " + name_of(missing[k]);
+  return Error{message};
+}
+
+/// Renders until settled or until the deadline, and checks for signals a few times a second.
+void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline) {
+  constexpr std::chrono::milliseconds kBetweenLooks{200};
+  while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
+    const auto until = std::min(deadline, std::chrono::steady_clock::now() + kBetweenLooks);
+    if (globe.render_until_settled(framebuffer, size, until) || !globe.status()) return;
+  }
+}
+
+/// Renders until all tiles are loaded or time is up. The eye rises with the ground as heights arrive.
+void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
+  constexpr int kMostMoves = 4;  // finer heights move the ground less and less
+  const auto limit =
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  const bool may_be_under = may_be_underground(command.scene);
+  Camera camera = out_of_ground(wanted, 0.0, may_be_under);
+  for (int move = 0; move < kMostMoves; ++move) {
+    globe.set_camera(camera);
+    wait_for_tiles(globe, framebuffer, command.scene.size, deadline);
+    camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
+    if (camera.eye.height_m == globe.camera().eye.height_m) break;
+  }
+  tell_of_move("render", wanted, globe.camera());
+}
+
+/// Checks memory with a bound found by trials. Mesa's software driver and its compiler end the program when memory runs
+/// out; limits up to 900 MB did so occasionally.
+Status check_drawing_memory(Viewport size) {
+  constexpr std::size_t kDriver_bytes = 1'200'000'000;
+  constexpr std::size_t kBytesAPixel = 32;
+  const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  return check_memory(kDriver_bytes + kBytesAPixel * pixels,
+                      fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
+}
+
+/// The layers of numbers, the highest first. Imagery has the order of add_overlays().
+std::vector<LegendItem> legend_of(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
+                                  const std::vector<std::optional<NumberFacts>>& overlays) {
+  std::vector<LegendItem> items;
+  const std::vector<LayerId> ids = globe.imagery();
+  for (std::size_t i = std::min(ids.size(), overlays.size() + 1); i-- > 0;) {
+    const auto& facts = i == 0 ? base.numbers : overlays[i - 1];
+    const auto look = globe.look(ids[i]);
+    if (!facts || !look || !look->numbers) continue;
+    const Url& named = i == 0 ? scene.tile_set : scene.overlays[i - 1].tile_set;
+    const std::string name = std::filesystem::path(named.without_query()).stem().string();
+    items.push_back({.title = legend_title(name, *facts), .unit = facts->unit, .look = *look->numbers});
+  }
+  return items;
+}
+
+/// Reads the map, if the picture gets one; else null.
+Result<std::unique_ptr<MapPainter>> open_map(const SceneOptions& scene, const Body& body) {
+  check_map(scene, body);
+  if (!scene.map.value_or(!scene.places.empty())) return std::unique_ptr<MapPainter>();
+  auto data = load_map(body, scene.places);
+  if (!data) return data.error();
+  return std::make_unique<MapPainter>(*std::move(data), body.ellipsoid);
+}
+
+GlobeOptions picture_options(const RenderCommand& command, const Body& body) {
+  GlobeOptions options = globe_options(command.scene, body);
+  // Intermediate frames are invisible, so all arrived tiles are uploaded at once.
+  options.upload_bytes_per_frame = options.gpu_bytes;
+  options.upload_time_per_frame = std::chrono::seconds(1);
+  options.relief_meshes_per_frame = std::numeric_limits<int>::max();
+  add_sky_data(options, options.time.has_value());
+  if (command.more_objects || !command.scene.objects.empty()) add_label_font(options);
+  return options;
+}
+
+}  // namespace
+
+/// The globe is destroyed before the context.
+struct ScenePicture::Parts {
+  RenderCommand command;
+  Body body = earth();
+  ImageryLayer base{};
+  std::vector<std::optional<NumberFacts>> overlays{};
+  bool all_objects = true;
+  std::unique_ptr<HeadlessContext> context{};
+  std::unique_ptr<MapPainter> map{};
+  std::unique_ptr<Globe> globe{};
+  std::unique_ptr<OffscreenTarget> target{};
+
+  Status open_globe();
+  Status add_layers();
+};
+
+Status ScenePicture::Parts::open_globe() {
+  Result<ImageryLayer> imagery = open_base(command.scene);
+  if (!imagery) return imagery.error();
+  base = *std::move(imagery);
+  const Result<Body> found = scene_body(command.scene, base.tiles->info());
+  if (!found) return found.error();
+  body = *found;
+  SceneOptions layers = command.scene;
+  layers.body = body;
+  Result<std::optional<ElevationSource>> elevation = open_elevation(layers);
+  if (!elevation) return elevation.error();
+  if (const Status eye = check_eye(command.scene, body, command.scene.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
+  if (Status room = check_drawing_memory(command.scene.size); !room) return room;
+  Result<std::unique_ptr<HeadlessContext>> made = HeadlessContext::create();
+  if (!made) return made.error();
+  context = *std::move(made);
+  Result<std::unique_ptr<Globe>> created = create_globe(picture_options(command, body), base, *std::move(elevation));
+  if (!created) return created.error();
+  globe = *std::move(created);
+  set_paper_texturing(*globe, command.scene);
+  return Done{};
+}
+
+Status ScenePicture::Parts::add_layers() {
+  SceneOptions layers = command.scene;
+  layers.body = body;
+  auto added = add_overlays(*globe, layers);
+  if (!added) return added.error();
+  overlays = *std::move(added);
+  if (Status images = add_image_layers(*globe, layers); !images) return images;
+  const Result<bool> objects = add_objects(*globe, command.scene);
+  if (!objects) return objects.error();
+  all_objects = *objects;
+  auto opened = open_map(command.scene, body);
+  if (!opened) return opened.error();
+  map = *std::move(opened);
+  return Done{};
+}
+
+std::string name_of(const MissingTile& tile) {
+  return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
+}
+
+int heights_without(const FrameStats& stats) { return stats.heights_missing + stats.heights_pending; }
+
+ScenePicture::ScenePicture(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+ScenePicture::~ScenePicture() = default;
+
+Result<std::unique_ptr<ScenePicture>> ScenePicture::open(const RenderCommand& command) {
+  auto parts = std::make_unique<Parts>(Parts{.command = command});
+  if (const Status opened = parts->open_globe(); !opened) return opened.error();
+  if (const Status added = parts->add_layers(); !added) return added.error();
+  parts->target = std::make_unique<OffscreenTarget>(command.scene.size);
+  return std::unique_ptr<ScenePicture>(new ScenePicture(std::move(parts)));
+}
+
+Globe& ScenePicture::globe() { return *parts_->globe; }
+
+Camera ScenePicture::first_camera() const {
+  const SceneOptions& scene = parts_->command.scene;
+  return terrella::first_camera(scene, parts_->body, scene.size);
+}
+
+bool ScenePicture::has_all_objects() const { return parts_->all_objects; }
+
+Result<Rendered> ScenePicture::draw(const Camera& camera) {
+  Parts& own = *parts_;
+  const Viewport size = own.command.scene.size;
+  const unsigned framebuffer = own.target->framebuffer();
+  render_all(*own.globe, own.command, camera, framebuffer);
+  const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
+  if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
+  if (own.globe->needs_frame(framebuffer, size)) own.globe->render(framebuffer, size);
+  const FrameStats stats = own.globe->last_frame();
+  if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
+  const auto& missing = own.globe->missing_tiles();
+  if (const Status some = check_some_came(stats, missing); !some) return some.error();
+  std::vector<std::string> thanks = own.globe->attributions();
+  if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
+  PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
+  if (own.command.legend) overlay.legend = legend_of(*own.globe, own.command.scene, own.base, own.overlays);
+  if (own.command.credits) overlay.credits = thanks;
+  if (const Status drawn = draw_over_picture(*own.globe, framebuffer, size, overlay); !drawn) {
+    return Error{where + drawn.error().message};
+  }
+  const auto& heights = own.globe->missing_heights();
+  return Rendered{{size.width_px, size.height_px, own.target->read()},
+                  stats,
+                  {missing.begin(), missing.end()},
+                  {heights.begin(), heights.end()},
+                  std::move(thanks)};
+}
+
+}  // namespace terrella

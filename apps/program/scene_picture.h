@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene_options.h"
+#include "base/result.h"
+#include "codecs/image.h"
+#include "globe/globe.h"
+
+namespace terrella {
+
+/// Options of `terrella render`.
+struct RenderCommand {
+  SceneOptions scene;
+  std::string output;  ///< empty: no file is written
+  double timeout_s = 600.0;
+  bool json = false;
+  bool legend = false;
+  bool graticule = false;
+  bool credits = false;
+  bool more_objects = false;  ///< objects with labels may be added to the globe later
+};
+
+/// A picture and the facts of its making.
+struct Rendered {
+  Image image;
+  FrameStats stats;
+  std::vector<MissingTile> missing, missing_heights;
+  std::vector<std::string> attributions;
+};
+
+/// "LEVEL/X/Y: why the tile is missing", safe for a terminal. thread: any
+[[nodiscard]] std::string name_of(const MissingTile& tile);
+/// Height tiles that failed or had not arrived at the deadline. thread: any
+[[nodiscard]] int heights_without(const FrameStats& stats);
+
+/// A globe as the options describe it, in an OpenGL context of its own, without display or GPU. thread: main, for every
+/// call and the destructor: the thread that opened it
+class ScenePicture {
+ public:
+  /// The error names the input. Throws CLI::ValidationError if the eye is out of range, and BrokenInstallation.
+  [[nodiscard]] static Result<std::unique_ptr<ScenePicture>> open(const RenderCommand& command);
+  ~ScenePicture();
+  ScenePicture(const ScenePicture&) = delete;
+  ScenePicture& operator=(const ScenePicture&) = delete;
+
+  [[nodiscard]] Globe& globe();
+  [[nodiscard]] Camera first_camera() const;   ///< the view of --camera, or the whole globe
+  [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
+  /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
+  /// Fails if no tile came, and after a signal (StopSignals).
+  [[nodiscard]] Result<Rendered> draw(const Camera& camera);
+
+ private:
+  struct Parts;
+  explicit ScenePicture(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace terrella

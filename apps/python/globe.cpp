@@ -1,0 +1,358 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "apps/program/command_line.h"
+#include "apps/program/commands.h"
+#include "apps/program/scene_picture.h"
+#include "apps/python/arguments.h"
+#include "apps/python/bindings.h"
+#include "apps/python/gl_thread.h"
+#include "apps/python/long_call.h"
+#include "apps/scene/scene_overlays.h"
+#include "apps/setup/console.h"
+#include "apps/setup/stop_signals.h"
+#include "streaming/objects/geojson_objects.h"
+
+namespace terrella {
+namespace {
+
+namespace py = pybind11;
+
+using Place = std::tuple<double, double, double>;  // latitude, longitude in degrees, height in metres
+
+Geodetic geodetic(double lat, double lon, double height_m) {
+  return {.lat = Angle::degrees(lat), .lon = Angle::degrees(lon), .height_m = height_m};
+}
+
+Place place_of(const Geodetic& place) { return {place.lat.deg(), place.lon.deg(), place.height_m}; }
+
+template <class T>
+T value_or_raise(Result<T> result) {
+  if (!result) raise_error(result.error().message);
+  return std::move(result).value();
+}
+
+/// A path, or anything that json.dumps() writes, or that has __geo_interface__ (shapely, geopandas).
+ObjectScene objects_of(const py::object& geojson) {
+  Result<ObjectFile> file = Error{};
+  if (py::isinstance<py::str>(geojson) || py::hasattr(geojson, "__fspath__")) {
+    file = read_geojson_objects(py::str(geojson).cast<std::string>());
+  } else {
+    const py::object plain =
+        py::hasattr(geojson, "__geo_interface__") ? py::object(geojson.attr("__geo_interface__")) : geojson;
+    std::istringstream text(py::module_::import("json").attr("dumps")(plain).cast<std::string>());
+    file = parse_geojson_objects(text, "objects");
+  }
+  ObjectFile read = value_or_raise(std::move(file));
+  if (!read.complaints.empty()) conclude({.exit_code = kDoneInPart, .result = {}, .messages = read.complaints});
+  return std::move(read.scene);
+}
+
+const char* kind_name(ObjectKind kind) {
+  constexpr const char* kNames[] = {"point", "line", "polygon", "mesh", "label"};
+  return kNames[static_cast<int>(kind)];
+}
+
+/// The globe of terrella.render() that stays, with the thread of its context.
+class PythonGlobe {
+ public:
+  PythonGlobe(const py::args& positional, const py::kwargs& keywords) {
+    CLI::App app("", "terrella");
+    int exit_code = kDone;
+    CLI::App& sub = add_render_options(app, command_);
+    sub.callback([&] { exit_code = open(); });
+    command_.more_objects = true;
+    const Said said = run_long(
+        [&, words = command_arguments(sub, positional, keywords)] { return run_command_line(app, words, exit_code); });
+    try {
+      conclude(said);
+    } catch (...) {
+      close();  // on its thread: no destructor follows
+      throw;
+    }
+  }
+  ~PythonGlobe() { close(); }
+  PythonGlobe(const PythonGlobe&) = delete;
+  PythonGlobe& operator=(const PythonGlobe&) = delete;
+
+  void close() {
+    const py::gil_scoped_release others_run;
+    thread_.run([this] { picture_.reset(); });
+  }
+
+  py::object render() {
+    std::optional<Result<Rendered>> rendered;
+    const Said said = run_long([&] {
+      const StopSignals signals;
+      thread_.run([&] { rendered = picture_ ? picture_->draw(camera_) : Result<Rendered>(Error{kClosed}); });
+      return kDone;
+    });
+    conclude(said);
+    const Rendered drawn = value_or_raise(*std::move(rendered));
+    const int without = drawn.stats.tiles_missing + drawn.stats.tiles_pending + heights_without(drawn.stats);
+    if (without > 0) {
+      std::vector<std::string> messages = {fmt::format("{} tiles are missing", without)};
+      for (const MissingTile& tile : drawn.missing) messages.push_back("missing: " + name_of(tile));
+      conclude({.exit_code = kDoneInPart, .result = {}, .messages = std::move(messages)});
+    }
+    return to_array(drawn.image);
+  }
+
+  /// Calls a function with the globe on its thread, without Python's lock.
+  template <class Work>
+  auto with_globe(Work work) {
+    std::optional<decltype(work(std::declval<Globe&>()))> result;
+    {
+      const py::gil_scoped_release others_run;
+      thread_.run([&] {
+        if (picture_) result.emplace(work(picture_->globe()));
+      });
+    }
+    if (!result) raise_error(kClosed);
+    return *std::move(result);
+  }
+
+  [[nodiscard]] py::tuple camera() const {
+    const Camera& c = camera_;
+    return py::make_tuple(c.eye.lat.deg(), c.eye.lon.deg(), c.eye.height_m, c.heading.deg(), c.pitch.deg(),
+                          c.fov_y.deg());
+  }
+  void set_camera(const py::object& value) {
+    std::string text;
+    if (py::isinstance<py::str>(value)) {
+      text = value.cast<std::string>();
+    } else {
+      for (const py::handle part : value) text += (text.empty() ? "" : ",") + std::string(py::str(part));
+    }
+    const Result<Camera> parsed = parse_camera(text);
+    if (!parsed) throw py::value_error("camera: " + parsed.error().message);
+    camera_ = *parsed;
+  }
+  [[nodiscard]] Viewport size() const { return command_.scene.size; }
+
+  std::uint64_t add_imagery(const std::filesystem::path& tileset, double opacity) {
+    SceneOptions scene = command_.scene;
+    scene.overlays = {{.tile_set = tileset.string(), .opacity = opacity}};
+    std::uint64_t added = 0;
+    const Said said = run_long([&] {
+      return thread_.run([&] {
+        if (!picture_) return fail("imagery", kClosed);
+        const auto overlays = add_overlays(picture_->globe(), scene);
+        if (!overlays) return fail("imagery", overlays.error().message);
+        added = static_cast<std::uint64_t>(picture_->globe().imagery().back());
+        return static_cast<int>(kDone);
+      });
+    });
+    conclude(said);
+    return added;
+  }
+
+ private:
+  static constexpr const char* kClosed = "the globe is closed";
+
+  int open() {
+    return thread_.run([this] {
+      auto opened = ScenePicture::open(command_);
+      if (!opened) return fail("render", opened.error().message);
+      picture_ = *std::move(opened);
+      camera_ = picture_->first_camera();
+      return static_cast<int>(picture_->has_all_objects() ? kDone : kDoneInPart);
+    });
+  }
+
+  RenderCommand command_;
+  Camera camera_;
+  GlThread thread_;
+  std::unique_ptr<ScenePicture> picture_;  // lives on the thread
+};
+
+py::dict pick(PythonGlobe& self, double x, double y) {
+  const GlobePick found = self.with_globe([&](Globe& globe) { return globe.pick({x, y}, self.size()); });
+  const auto id_or_none = [](LayerId id) {
+    return id == LayerId::none ? py::object(py::none()) : py::object(py::int_(static_cast<std::uint64_t>(id)));
+  };
+  py::dict answer;
+  answer["place"] = found.place ? py::cast(place_of(*found.place)) : py::none();
+  answer["imagery"] = id_or_none(found.imagery);
+  answer["layer"] = id_or_none(found.objects);
+  const bool is_feature = found.object && found.object->of.feature && !found.object->of.feature->properties.empty();
+  answer["id"] = found.object && found.object->of.id != ObjectId::none
+                     ? py::object(py::int_(static_cast<std::uint64_t>(found.object->of.id)))
+                     : py::none();
+  answer["properties"] =
+      is_feature ? py::module_::import("json").attr("loads")(found.object->of.feature->properties) : py::none();
+  answer["kind"] = found.object ? py::object(py::str(kind_name(found.object->kind))) : py::none();
+  answer["index"] = found.object ? py::object(py::int_(found.object->index)) : py::none();
+  return answer;
+}
+
+std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson) {
+  ObjectScene scene = objects_of(geojson);
+  return static_cast<std::uint64_t>(
+      value_or_raise(self.with_globe([&](Globe& globe) { return globe.add_objects(std::move(scene)); })));
+}
+
+void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson) {
+  ObjectScene scene = objects_of(geojson);
+  value_or_raise(self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(scene)); }));
+}
+
+void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m) {
+  ObjectEdits edits;
+  edits.moves = {{.id = ObjectId{id}, .place = geodetic(lat, lon, height_m)}};
+  value_or_raise(self.with_globe([&](Globe& globe) { return globe.edit_objects(LayerId{layer}, std::move(edits)); }));
+}
+
+/// Shows or hides a layer of either kind.
+void show(PythonGlobe& self, std::uint64_t layer, bool shown) {
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    const auto look = globe.look(LayerId{layer});
+    if (!look) return globe.show_objects(LayerId{layer}, shown);
+    ImageLook changed = *look;
+    changed.shown = shown;
+    return globe.set_look(LayerId{layer}, changed);
+  }));
+}
+
+void set_opacity(PythonGlobe& self, std::uint64_t layer, double opacity) {
+  if (!(opacity >= 0.0 && opacity <= 1.0)) throw py::value_error("the opacity must be from 0 to 1");
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    const auto look = globe.look(LayerId{layer});
+    if (!look) return globe.fade_objects(LayerId{layer}, opacity);
+    ImageLook changed = *look;
+    changed.opacity = opacity;
+    return globe.set_look(LayerId{layer}, changed);
+  }));
+}
+
+std::vector<std::uint64_t> numbers_of(const std::vector<LayerId>& ids) {
+  std::vector<std::uint64_t> numbers;
+  for (const LayerId id : ids) numbers.push_back(static_cast<std::uint64_t>(id));
+  return numbers;
+}
+
+using GlobeClass = py::class_<PythonGlobe>;
+
+void add_layer_methods(GlobeClass& globe) {
+  globe
+      .def("add_imagery", &PythonGlobe::add_imagery, py::arg("tileset"), py::arg("opacity") = 1.0,
+           "add_imagery(self, tileset, opacity=1.0)\n--\n\n"
+           "Add a layer of imagery on top: all that render() takes as TILESET. Returns the layer's number.")
+      .def("add_objects", &add_objects, py::arg("geojson"),
+           "add_objects(self, geojson)\n--\n\n"
+           "Add a layer of objects: the path of a GeoJSON file, a dict, or an object with __geo_interface__. Returns "
+           "the layer's number.")
+      .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"),
+           "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer.")
+      .def("move", &move, py::arg("layer"), py::arg("id"), py::arg("lat"), py::arg("lon"), py::arg("height") = 0.0,
+           "move(self, layer, id, lat, lon, height=0.0)\n--\n\n"
+           "Move a feature of a layer: its points, labels and models. The first feature of a GeoJSON has id 1.")
+      .def("show", &show, py::arg("layer"), py::arg("shown") = true,
+           "show(self, layer, shown=True)\n--\n\nShow or hide a layer.")
+      .def("set_opacity", &set_opacity, py::arg("layer"), py::arg("opacity"),
+           "set_opacity(self, layer, opacity)\n--\n\nSet the opacity of a layer, 0 to 1.")
+      .def(
+          "remove",
+          [](PythonGlobe& self, std::uint64_t layer) {
+            value_or_raise(self.with_globe([&](Globe& g) { return g.remove(LayerId{layer}); }));
+          },
+          py::arg("layer"), "remove(self, layer)\n--\n\nRemove a layer.")
+      .def_property_readonly(
+          "imagery",
+          [](PythonGlobe& self) { return numbers_of(self.with_globe([](Globe& g) { return g.imagery(); })); },
+          "Numbers of the image layers, lowest first.")
+      .def_property_readonly(
+          "objects",
+          [](PythonGlobe& self) { return numbers_of(self.with_globe([](Globe& g) { return g.objects(); })); },
+          "Numbers of the object layers, lowest first.");
+}
+
+void add_questions(GlobeClass& globe) {
+  globe
+      .def("pick", &pick, py::arg("x"), py::arg("y"),
+           "pick(self, x, y)\n--\n\n"
+           "What the last view shows at a pixel, x to the right and y down from the top left corner: a dict with "
+           "'place' (latitude, longitude, height), 'imagery' (layer), and for an object 'layer', 'id' and 'properties' "
+           "of its feature, 'kind' and 'index' in the layer's list of that kind. None is nothing.")
+      .def(
+          "project",
+          [](PythonGlobe& self, double lat, double lon, double height_m) -> std::optional<std::pair<double, double>> {
+            const auto at =
+                self.with_globe([&](Globe& g) { return g.project(geodetic(lat, lon, height_m), self.size()); });
+            if (!at) return std::nullopt;
+            return std::pair(at->x, at->y);
+          },
+          py::arg("lat"), py::arg("lon"), py::arg("height") = 0.0,
+          "project(self, lat, lon, height=0.0)\n--\n\n"
+          "The pixel (x, y) of a place in the last view; None if the place is hidden or outside the picture.")
+      .def(
+          "ground_height",
+          [](PythonGlobe& self, double lat, double lon) {
+            return self.with_globe(
+                [&](Globe& g) { return g.ground_height_m(Angle::degrees(lat), Angle::degrees(lon)); });
+          },
+          py::arg("lat"), py::arg("lon"),
+          "ground_height(self, lat, lon)\n--\n\n"
+          "Height of the drawn ground over the ellipsoid, in metres, from the heights loaded so far.")
+      .def(
+          "value_at",
+          [](PythonGlobe& self, std::uint64_t layer, double lat, double lon) -> std::optional<double> {
+            const auto value = value_or_raise(
+                self.with_globe([&](Globe& g) { return g.value_at(LayerId{layer}, geodetic(lat, lon, 0.0)); }));
+            if (!value) return std::nullopt;
+            return value->value;
+          },
+          py::arg("layer"), py::arg("lat"), py::arg("lon"),
+          "value_at(self, layer, lat, lon)\n--\n\n"
+          "The number that a layer of numbers shows at a place; NaN without data, None if no tile is loaded there.")
+      .def_property_readonly(
+          "attributions", [](PythonGlobe& self) { return self.with_globe([](Globe& g) { return g.attributions(); }); },
+          "Attribution texts of the last view.");
+}
+
+}  // namespace
+
+void add_globe(py::module_& module) {
+  RenderCommand command;
+  CLI::App app;
+  const std::vector<std::string> left_out = {"json", "output"};
+  const CLI::App& sub = add_render_options(app, command);
+  const std::string doc = command_doc("Globe", sub, left_out);
+  std::string init = command_doc("__init__", sub, left_out);
+  init.insert(init.find('(') + 1, "self, ");
+  GlobeClass globe(module, "Globe", doc.c_str());
+  globe.def(py::init<py::args, py::kwargs>(), init.c_str())
+      .def("render", &PythonGlobe::render,
+           "render(self)\n--\n\n"
+           "Draw the view until all its tiles have come, as terrella.render() does. Returns the picture, height x "
+           "width x 3 bytes.")
+      .def("close", &PythonGlobe::close, "close(self)\n--\n\nFree the globe now; every later call fails.")
+      .def(
+          "__enter__", [](py::object self) { return self; }, "__enter__(self)\n--\n\n")
+      .def(
+          "__exit__", [](PythonGlobe& self, const py::args&) { self.close(); }, "__exit__(self, *args)\n--\n\n")
+      .def_property("camera", &PythonGlobe::camera, &PythonGlobe::set_camera,
+                    "Latitude, longitude, altitude, heading, pitch and field of view, in degrees and metres. Set it "
+                    "with a tuple of three to six numbers, or with a text as --camera takes it.")
+      .def_property_readonly(
+          "size", [](const PythonGlobe& self) { return std::pair(self.size().width_px, self.size().height_px); },
+          "Width and height of the picture in pixels.");
+  add_layer_methods(globe);
+  add_questions(globe);
+}
+
+}  // namespace terrella

@@ -1,0 +1,241 @@
+"""The module terrella, as a notebook on a machine without a display uses it."""
+
+import inspect
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import warnings
+
+for _display in ("DISPLAY", "WAYLAND_DISPLAY"):
+    os.environ.pop(_display, None)
+
+import terrella  # noqa: E402
+
+PROGRAM = os.environ["TERRELLA"]
+SOURCE = pathlib.Path(os.environ["TERRELLA_SOURCE"])
+NATURAL_EARTH = SOURCE / "tests/fixtures/natural_earth_ii"
+PICTURE = SOURCE / "data/earth/blue_marble_4096x2048.jpg"
+
+sys.path.insert(0, str(SOURCE / "tests/window"))
+import png  # noqa: E402
+
+SIZE = (160, 120)
+MAGENTA = (255, 0, 255)
+
+
+def mark(lon, lat):
+    """A magenta marker as a GeoJSON feature."""
+    return {"type": "Feature", "geometry": {"type": "Point", "coordinates": [lon, lat]},
+            "properties": {"marker-color": "#ff00ff", "marker-size": "large"}}
+
+
+def middle_of(picture, colour):
+    """The mean column and row of the pixels of a colour."""
+    rows, columns = (picture == colour).all(axis=2).nonzero()
+    return (columns.mean() + 0.5, rows.mean() + 0.5) if len(rows) else None
+
+
+class ModuleTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrella-python-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        os.environ["XDG_CACHE_HOME"] = str(self.folder / "cache")
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder)
+
+    def assert_same_words(self, error, call, *arguments):
+        """A call raises an exception whose words are the program's."""
+        done = self.run_program(*arguments)
+        self.assertNotEqual(done.returncode, 0)
+        with self.assertRaises(error) as raised:
+            call()
+        self.assertEqual(str(raised.exception), done.stderr.splitlines()[0])
+
+
+class Commands(ModuleTest):
+    def test_render_is_the_picture_of_the_command(self):
+        file = self.folder / "shot.png"
+        camera = (-20, 170, 1e7, 30)
+        done = self.run_program("render", "-o", file, "--camera=-20,170,1e7,30", "--size", "160x120", "--sky", "off",
+                                "--surface-alpha", "0.5", "--map", "on")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = terrella.render(camera=camera, size=SIZE, sky=False, surface_alpha=0.5, map=True)
+        width, height, rows = png.read(file)
+        self.assertEqual(picture.shape, (height, width, 3))
+        self.assertEqual(picture.tobytes(), b"".join(map(bytes, rows)))
+        again = self.folder / "again.png"
+        terrella.render(NATURAL_EARTH, size=SIZE, overlay=[f"{NATURAL_EARTH}:0.5"], output=again)
+        self.assertEqual(png.read(again)[:2], SIZE)
+
+    def test_cut_and_info(self):
+        tiles = self.folder / "earth.gpkg"
+        cut = terrella.cut(PICTURE, output=tiles, tile_size=512, name="A planet")
+        self.assertEqual(cut["tiles"], 42)
+        info = terrella.info(tiles, verify=True)
+        self.assertEqual(info["name"], "A planet")
+        self.assertEqual(info, terrella.info(str(tiles), verify=True))
+
+    def test_preload_and_merge(self):
+        address = serve(self, NATURAL_EARTH)
+        done = terrella.preload(address + "/{z}/{x}/{-y}.jpg", output=self.folder / "a.gpkg", levels=(0, 1), header=["X-A: 1"])
+        self.assertEqual(done["stored"], 10)
+        merged = terrella.merge([self.folder / "a.gpkg", self.folder / "a.gpkg"], output=self.folder / "b.gpkg")
+        self.assertEqual(merged["tiles"], 10)
+
+    def test_errors_have_the_words_of_the_command(self):
+        out = self.folder / "o.png"
+        self.assert_same_words(terrella.Error, lambda: terrella.render("nowhere.gpkg"), "render", "nowhere.gpkg", "-o", out)
+        self.assert_same_words(terrella.Error, lambda: terrella.info("nowhere.gpkg"), "info", "nowhere.gpkg")
+        self.assert_same_words(ValueError, lambda: terrella.render(camera=(95, 0, 1e6)), "render", "--camera=95,0,1000000.0", "-o", out)
+        self.assert_same_words(ValueError, lambda: terrella.render(surface_alfa=1), "render", "--surface-alfa", "-o", out)
+        self.assert_same_words(ValueError, lambda: terrella.cut("a.jpg"), "cut", "a.jpg")
+        with self.assertRaises(TypeError):
+            terrella.render(camera=object())
+
+    def test_what_is_missing_is_a_warning(self):
+        tiles = self.folder / "tiles"
+        shutil.copytree(NATURAL_EARTH, tiles)
+        (tiles / "2/5/2.jpg").write_bytes(b"no picture")
+        with self.assertWarnsRegex(terrella.IncompleteWarning, "missing: 2/5/1"):
+            picture = terrella.render(tiles, camera=(20, 70, 2e6), size=SIZE)
+        self.assertEqual(picture.shape, (120, 160, 3))
+
+    def test_other_threads_run_meanwhile(self):
+        """A long call holds no lock of Python's: another thread sees the output grow before the call is over."""
+        over, seen = threading.Event(), []
+
+        def watch():
+            while not over.is_set() and not seen:
+                seen.extend(self.folder.glob("earth*"))
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        terrella.cut(PICTURE, output=self.folder / "earth.gpkg")
+        over.set()
+        watcher.join()
+        self.assertTrue(seen)
+
+    def test_example(self):
+        picture = self.folder / "quakes.png"
+        done = subprocess.run([sys.executable, SOURCE / "apps/examples/earthquakes.py",
+                               SOURCE / "data/points/earthquakes.geojson", picture], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("85 earthquakes, 900 x 600 pixels", done.stdout)
+        self.assertEqual(png.read(picture)[:2], (900, 600))
+
+    def test_signature_and_help(self):
+        parameters = inspect.signature(terrella.render).parameters
+        self.assertIn("surface_alpha", parameters)
+        self.assertNotIn("json", parameters)
+        self.assertIs(inspect.signature(terrella.cut).parameters["output"].default, inspect.Parameter.empty)
+        self.assertIn("WxH", terrella.render.__doc__)
+
+
+class Globes(ModuleTest):
+    def test_an_object_moves_and_is_picked(self):
+        with terrella.Globe(NATURAL_EARTH, camera=(0, 0, 8e6), size=SIZE, unlit=True) as globe:
+            layer = globe.add_objects(mark(0, 0))
+            first = globe.render()
+            x, y = middle_of(first, MAGENTA)
+            self.assertAlmostEqual(x, 80, delta=1)
+            self.assertAlmostEqual(y, 60, delta=1)
+            self.assertEqual((globe.pick(x, y)["layer"], globe.pick(x, y)["kind"], globe.pick(x, y)["index"]), (layer, "point", 0))
+            self.assertEqual((globe.pick(x, y)["id"], globe.pick(x, y)["properties"]["marker-size"]), (1, "large"))
+            globe.move(layer, 1, 10, 20)
+            second = globe.render()
+            moved = middle_of(second, MAGENTA)
+            where = globe.project(10, 20)
+            self.assertAlmostEqual(moved[0], where[0], delta=1)
+            self.assertAlmostEqual(moved[1], where[1], delta=1)
+            self.assertIsNone(globe.pick(x, y)["layer"])
+            under = globe.pick(*where)
+            self.assertEqual(under["layer"], layer)
+            self.assertAlmostEqual(under["place"][0], 10, places=1)
+            self.assertAlmostEqual(under["place"][1], 20, places=1)
+            globe.set_objects(layer, {"type": "FeatureCollection", "features": [mark(0, 0)]})
+            self.assertTrue((globe.render() == first).all())
+            with self.assertRaises(terrella.Error):
+                globe.move(layer, 2, 10, 20)
+
+    def test_globe_draws_what_render_draws(self):
+        options = {"camera": (46, 7, 3e6, 0, -60), "size": SIZE, "surface_alpha": 0.7}
+        globe = terrella.Globe(NATURAL_EARTH, **options)
+        alone = terrella.render(NATURAL_EARTH, **options)  # a second context of the process, gone before the next line
+        self.assertTrue((globe.render() == alone).all())
+        globe.camera = (0, 0, 1e7)
+        self.assertEqual(globe.camera[:3], (0, 0, 1e7))
+        self.assertFalse((globe.render() == alone).all())
+        globe.camera = "46,7,3000000,0,-60"
+        self.assertTrue((globe.render() == alone).all())
+
+    def test_layers(self):
+        globe = terrella.Globe(NATURAL_EARTH, size=SIZE, unlit=True)
+        base = globe.render()
+        layer = globe.add_imagery(PICTURE, opacity=0.5)
+        self.assertEqual(globe.imagery[1], layer)
+        self.assertFalse((globe.render() == base).all())
+        globe.show(layer, False)
+        self.assertTrue((globe.render() == base).all())
+        globe.show(layer)
+        globe.set_opacity(layer, 0)
+        self.assertTrue((globe.render() == base).all())
+        globe.remove(layer)
+        self.assertEqual(len(globe.imagery), 1)
+        with self.assertRaises(terrella.Error):
+            globe.remove(layer)
+        with self.assertRaisesRegex(terrella.Error, "nowhere.gpkg"):
+            globe.add_imagery("nowhere.gpkg")
+
+    def test_threads_and_two_globes(self):
+        globes = [terrella.Globe(NATURAL_EARTH, camera=(0, lon, 8e6), size=SIZE) for lon in (0, 90)]
+        pictures = [None, None]
+
+        def draw(k):
+            pictures[k] = globes[k].render()
+
+        threads = [threading.Thread(target=draw, args=(k,)) for k in (0, 1)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        globes[0].close()
+        self.assertTrue((globes[1].render() == pictures[1]).all())
+        self.assertFalse((pictures[0] == pictures[1]).all())
+        with self.assertRaisesRegex(terrella.Error, "closed"):
+            globes[0].render()
+
+    def test_faulty_objects_are_told(self):
+        with terrella.Globe(NATURAL_EARTH, size=SIZE) as globe:
+            faulty = {"type": "Feature", "geometry": {"type": "Point", "coordinates": [0, 95]}, "properties": {}}
+            with self.assertWarns(terrella.IncompleteWarning):
+                globe.add_objects({"type": "FeatureCollection", "features": [mark(0, 0), faulty]})
+            with self.assertRaises(terrella.Error):
+                globe.add_objects(self.folder / "nowhere.geojson")
+        file = self.folder / "objects.geojson"
+        file.write_text(json.dumps({"type": "FeatureCollection", "features": [mark(0, 0), faulty]}))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(terrella.IncompleteWarning):  # the globe that was made already goes away
+                terrella.Globe(NATURAL_EARTH, size=SIZE, objects=file)
+
+
+def serve(test, folder):
+    """The address of a server on loopback that serves a folder until the test ends."""
+    server = subprocess.Popen([sys.executable, "-m", "http.server", "--bind", "127.0.0.1", "--directory", str(folder), "0"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    test.addCleanup(server.wait)
+    test.addCleanup(server.stdout.close)
+    test.addCleanup(server.terminate)
+    return server.stdout.readline().split("(")[1].split(")")[0].rstrip("/")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("error")
+    unittest.main()
