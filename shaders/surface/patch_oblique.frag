@@ -3,7 +3,7 @@
 void main() {
   vec2 p = window_point, a = dFdx(p), b = dFdy(p);
   Cell cell = cell_at(p);
-  Lattice lattice = lattice_of(a, b, cell);
+  Lattice lattice = lattice_of(length_texels(a, b, cell));
   Texels sum = Texels(0.0);
   for (int i = 0; i < lattice.n; ++i) {
     vec2 at = place(lattice, i);

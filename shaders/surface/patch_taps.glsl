@@ -76,15 +76,19 @@ struct Lattice {
   float stride;                  // over n
 };
 
-// Strides by n. 4 and 6 have no good one and take one place more.
+// Strides by n: of 3, and of 7 to 16.
 const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
 
-// Enough places for a pixel with the sides `a` and `b`, in cells: about one a texel.
-Lattice lattice_of(vec2 a, vec2 b, Cell cell) {
+float length_texels(vec2 a, vec2 b, Cell cell) {
   vec2 a_slot = a * cell.scale, b_slot = b * cell.scale;
-  float length_texels = sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
-  int n = int(clamp(ceil(0.9 * length_texels), 3.0, 16.0));
-  n += int(n == 4 || n == 6);
+  return sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
+}
+
+// Enough places for a pixel of that length: about one a texel. A pixel may be long along its diagonal, where four to six
+// places leave gaps.
+Lattice lattice_of(float pixel_texels) {
+  int n = int(min(ceil(0.9 * pixel_texels), 16.0));
+  n = n <= 3 ? 3 : max(n, 7);
   float step = 1.0 / float(n);
   return Lattice(n, step, strides[n] * step);
 }

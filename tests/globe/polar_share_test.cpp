@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
+#include "render/gl/shader_library.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -26,10 +26,10 @@ class MaskShaders {
       std::ofstream(folder_ / "surface" / ("patch_" + std::string(program) + ".frag"))
           << "void main() { color_srgb = vec4(vec3(" << (program == "polar" ? 1.0 : 0.0) << "), 1.0); }\n";
     }
-    setenv("TERRELLA_SHADER_DIR", folder_.c_str(), 1);
+    read_shaders_from(folder_);
   }
   ~MaskShaders() {
-    unsetenv("TERRELLA_SHADER_DIR");
+    read_shaders_from({});
     std::filesystem::remove_all(folder_);
   }
   MaskShaders(const MaskShaders&) = delete;

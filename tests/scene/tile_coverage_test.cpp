@@ -369,8 +369,9 @@ TEST(TileCoverage, AsksForFewTilesOfAFullGridOverAPole) {
 TEST(ReducedGrid, LookingDownOnAPoleAsksForLittleMoreThanAtTheEquator) {
   constexpr double kMostOverEquator = 1.5;
   const Ellipsoid& earth_ellipsoid = earth().ellipsoid;
-  PatchTree reduced(earth_ellipsoid, {.max_level = 22, .reduced = true}, kSegments);
-  PatchTree full(earth_ellipsoid, {.max_level = 22}, kSegments);
+  constexpr int kDefaultSegments = 24;
+  PatchTree reduced(earth_ellipsoid, {.max_level = 22, .reduced = true}, kDefaultSegments);
+  PatchTree full(earth_ellipsoid, {.max_level = 22}, kDefaultSegments);
   for (int level = 3; level <= 20; ++level) {
     const double texel_m = earth_ellipsoid.a_m() * std::numbers::pi / 256.0 * std::ldexp(1.0, -level);
     double at_equator = 0.0, at_pole = 0.0, in_full_grid = 0.0;

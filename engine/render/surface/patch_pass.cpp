@@ -29,7 +29,7 @@ constexpr double kMagnifiedFootprint_texels = 0.7;
 // In the pole bands (PatchSelectionOptions::band) pixels are long without a slant. Three taps would leave more error
 // there than elsewhere.
 constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
-constexpr double kBesidePole_texels = 5.0;
+constexpr double kBesidePole_texels = 3.5;
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 

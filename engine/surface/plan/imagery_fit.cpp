@@ -15,7 +15,7 @@ namespace {
 constexpr double kPixelsATriangle = 12.0;
 // Beside a pole texels are narrow, but imagery has no finer detail there than elsewhere. A pixel that is short along
 // the meridian needs taps for at most this many times its length there.
-constexpr double kMostOverMeridian = 4.0;
+constexpr double kMostOverMeridian = 5.0;
 // Texels this many times as large as a pixel show the loss of detail by squeezing.
 constexpr double kMagnified = 2.0;
 // A patch whose axis is further than this, in nearest distances, asks for one level less in its middle than near the
@@ -114,8 +114,8 @@ bool ImageryFit::is_worth_a_split(const PatchNode& body, const PatchSight& sight
   const double outer_texels =
       longest_texels(node, footprint(node, sight), patch, 0.5 * (node.min_colatitude_rad + node.max_colatitude_rad));
   if (outer_texels > options_.max_footprint_texels) return false;
-  const double across_px = 2.0 * body.sphere.radius_m / (sight.distance_m * meter_.radians_per_pixel());
-  const double pixels = across_px * across_px * std::abs(glm::dot(sight.to_eye, body.normal)) / sight.distance_m;
+  const double radius_px = body.sphere.radius_m / (sight.distance_m * meter_.radians_per_pixel());
+  const double pixels = 2.0 * radius_px * radius_px * std::abs(glm::dot(sight.to_eye, body.normal)) / sight.distance_m;
   const double segments = imagery_.tree->segments();
   return pixels > kPixelsATriangle * 2.0 * segments * segments;
 }
