@@ -35,6 +35,8 @@ struct BenchOptions {
 [[nodiscard]] Result<Report> bench_accuracy(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stream(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_objects(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stability(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_growth(const BenchOptions& options);
 
 }  // namespace terrella::bench

@@ -17,12 +17,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int kRoundsToWarmUp = 2;
 
-double processor_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
 std::string gl_text(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text == nullptr ? std::string() : text;
@@ -37,6 +31,12 @@ bool is_software_gl() {
 }
 
 }  // namespace
+
+double processor_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
 
 FrameTime time_frame(const std::function<void()>& draw) {
   GLuint query = 0;

@@ -17,6 +17,9 @@ struct Subject {
   std::vector<double> cpu_ms = {};  ///< processor time of the whole process, unaffected by other programs
 };
 
+/// Processor time of the whole process so far.
+[[nodiscard]] double processor_ms();
+
 struct FrameTime {
   double ms = 0.0;      ///< as Subject::ms
   double cpu_ms = 0.0;  ///< as Subject::cpu_ms

@@ -132,9 +132,10 @@ std::string gnuplot_script(const Report& report, const std::string& picture) {
   }
   const auto plots = static_cast<int>(report.plots.size());
   const int across = std::min(plots, 2), down = (plots + 1) / 2;
+  const char* terminal = picture.ends_with(".svg") ? "svg noenhanced" : "pngcairo";
   return data +
-         fmt::format("set terminal pngcairo size {},{} font \"DejaVu Sans,9\"\nset output {}\n", across * kPlotWidth_px,
-                     down * kPlotHeight_px, quoted(picture)) +
+         fmt::format("set terminal {} size {},{} font \"DejaVu Sans,9\"\nset output {}\n", terminal,
+                     across * kPlotWidth_px, down * kPlotHeight_px, quoted(picture)) +
          fmt::format(
              "set multiplot layout {},{}\nset grid\nset key outside bottom center horizontal\nset bmargin 8\nset "
              "offsets graph "

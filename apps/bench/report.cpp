@@ -12,14 +12,6 @@ namespace {
 
 bool is_number(const Cell& cell) { return !std::holds_alternative<std::string>(cell); }
 
-std::string printed(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
-  const double number = std::get<double>(cell);
-  if (std::isnan(number)) return "";
-  return column.decimals < 0 ? fmt::format("{:.3g}", number) : fmt::format("{:.{}f}", number, column.decimals);
-}
-
 std::string csv_field(const Cell& cell) {
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&cell)) return std::isnan(*number) ? "" : fmt::format("{}", *number);
@@ -92,6 +84,14 @@ std::string verdict_of(const std::vector<Finding>& findings) {
 }
 
 }  // namespace
+
+std::string printed(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
+  const double number = std::get<double>(cell);
+  if (std::isnan(number)) return "";
+  return column.decimals < 0 ? fmt::format("{:.3g}", number) : fmt::format("{:.{}f}", number, column.decimals);
+}
 
 std::size_t Report::column(const std::string& column_name) const {
   const auto found = std::ranges::find(columns, column_name, &Column::name);

@@ -60,6 +60,8 @@ struct Report {
       const std::string& column_name) const;  ///< the column's index; misuse if no column has the name
 };
 
+/// Formats a figure for people, with the column's decimals; a missing one is empty.
+[[nodiscard]] std::string printed(const Cell& cell, const Column& column);
 /// Formats a table for people: facts, columns with units under their names, rows, findings.
 [[nodiscard]] std::string as_text(const Report& report);
 /// Formats RFC 4180 CSV: a header line of column names, then the rows. Numbers have the shortest form that reads back

@@ -7,6 +7,7 @@
 
 #include "apps/bench/gnuplot.h"
 #include "apps/setup/write_file.h"
+#include "streaming/file_bytes.h"
 
 namespace terrella::bench {
 namespace {
@@ -51,6 +52,19 @@ Result<ReportFiles> write_report(const Report& report, const fs::path& folder) {
       break;
   }
   return files;
+}
+
+std::string draw_svg(const Report& report, const fs::path& folder) {
+  const fs::path picture = folder / (report.name + ".svg"), script = folder / (report.name + ".svg.gnuplot");
+  ReportFiles files;
+  const Status written = write_text(script, gnuplot_script(report, picture.filename().string()), files);
+  const bool drawn = written && run_gnuplot(script) == Drawn::yes;
+  std::error_code ignored;
+  fs::remove(script, ignored);
+  constexpr std::size_t kMostBytes = 64UL << 20;
+  if (!drawn) return {};
+  const auto bytes = read_file(picture, kMostBytes);
+  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
 }
 
 }  // namespace terrella::bench

@@ -22,4 +22,7 @@ struct ReportFiles {
 /// NAME.png.
 [[nodiscard]] Result<ReportFiles> write_report(const Report& report, const std::filesystem::path& folder);
 
+/// Draws NAME.svg into a folder with gnuplot, and returns its text; empty if it could not be drawn.
+[[nodiscard]] std::string draw_svg(const Report& report, const std::filesystem::path& folder);
+
 }  // namespace terrella::bench

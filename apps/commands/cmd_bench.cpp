@@ -5,15 +5,19 @@
 #include <CLI/Formatter.hpp>
 #include <array>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "apps/bench/benches.h"
 #include "apps/bench/report_files.h"
+#include "apps/bench/report_page.h"
 #include "apps/commands/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
+#include "apps/setup/write_file.h"
 
 namespace terrella {
 namespace {
@@ -24,9 +28,11 @@ struct NamedBench {
   const char* name;
   Result<bench::Report> (*run)(const bench::BenchOptions&);
 };
-constexpr std::array kBenches{NamedBench{"polar", bench::bench_polar}, NamedBench{"accuracy", bench::bench_accuracy},
-                              NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
-                              NamedBench{"stability", bench::bench_stability}};
+constexpr std::array kBenches{
+    NamedBench{"polar", bench::bench_polar},       NamedBench{"accuracy", bench::bench_accuracy},
+    NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
+    NamedBench{"objects", bench::bench_objects},   NamedBench{"stability", bench::bench_stability},
+    NamedBench{"growth", bench::bench_growth}};
 
 constexpr const char* kBenchExamples =
     "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
@@ -35,7 +41,10 @@ constexpr const char* kBenchExamples =
     "accuracy   cost and remaining error of tessellation, error threshold, and tile columns at a pole\n"
     "traverse   selection, draws, uploads and wasted drawing on flights\n"
     "stream     time, requests, bytes and screen error from an empty cache to a settled view\n"
+    "objects    time of edits of single objects, beside scenes set anew, and of picks\n"
     "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
+    "growth     cost against size: depth of a set, pixels, layers, tiles in a cache (--full: up to 10^7)\n"
+    "all        every one of these; one page, index.html, with all tables and plots, to attach to a report\n"
     "Examples:\n"
     "  terrella bench polar --out results        results/polar.csv, .json, .gnuplot and .png\n"
     "  terrella bench polar --quick --json       a trial run of a few seconds\n"
@@ -48,17 +57,18 @@ struct BenchCommand {
   bool quick = false, full = false, json = false;
 };
 
-const NamedBench& bench_named(const std::string& name) {
+/// The benchmarks that a name stands for: one, or all.
+std::span<const NamedBench> benches_named(const std::string& name) {
+  if (name == "all") return kBenches;
   std::string names;
   for (const NamedBench& bench : kBenches) {
-    if (name == bench.name) return bench;
-    names += (names.empty() ? "" : "|") + std::string(bench.name);
+    if (name == bench.name) return {&bench, 1};
+    names += std::string(bench.name) + '|';
   }
-  throw CLI::ValidationError("NAME", "'" + name + "' is none of " + names);
+  throw CLI::ValidationError("NAME", "'" + name + "' is none of " + names + "all");
 }
 
-int run(const BenchCommand& command) {
-  const NamedBench& chosen = bench_named(command.name);
+Result<bench::BenchOptions> bench_options(const BenchCommand& command) {
   bench::BenchOptions options;
   if (command.quick) options.effort = bench::Effort::quick;
   options.only = command.only;
@@ -66,26 +76,74 @@ int run(const BenchCommand& command) {
   if (command.functions == "own") options.functions = ShaderFunctions::own;
   if (command.full) options.effort = bench::Effort::full;
   const Result<fs::path> cache = picture_cache_folder(command.work);
-  if (!cache) return fail("bench", cache.error().message);
+  if (!cache) return cache.error();
   options.work = command.work.empty() ? *cache / "bench" : *cache;
-  const StopSignals signals;
   options.goes_on = [] { return !StopSignals::came(); };
+  return options;
+}
+
+/// Runs a benchmark, prints its table, and writes its files.
+Result<bench::Report> run_one(const NamedBench& chosen, bench::BenchOptions options, const BenchCommand& command) {
   options.progress = [&](const std::string& doing) {
     if (StopSignals::came()) throw std::runtime_error("stopped; nothing was written");
     print_message("bench {}: {}\n", chosen.name, doing);
   };
-  // Fail before minutes of measuring, not after.
-  if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
-  const Result<bench::Report> report = chosen.run(options);
-  if (!report) return fail("bench", report.error().message);
-  if (report->rows.empty())
-    return fail("bench", fmt::format("no view of {} has '{}' in its name", command.name, command.only));
+  Result<bench::Report> report = chosen.run(options);
+  if (!report) return report;
+  if (report->rows.empty()) {
+    return Error{fmt::format("no view of {} has '{}' in its name", chosen.name, command.only)};
+  }
   const Result<bench::ReportFiles> files = bench::write_report(*report, command.out);
-  if (!files) return fail("bench", files.error().message);
-  print_result("{}", command.json ? as_json(*report) : as_text(*report));
+  if (!files) return files.error();
+  if (!command.json) print_result("{}", as_text(*report));
   for (const fs::path& file : files->written) print_message("bench {}: wrote {}\n", chosen.name, file.string());
   if (!files->remark.empty()) print_message("bench {}: {}\n", chosen.name, files->remark);
-  return report->failed ? kFailed : kDone;
+  return report;
+}
+
+/// One JSON object, or an array of those of all benchmarks.
+void print_json(const std::vector<bench::PageEntry>& entries, bool all) {
+  std::string text;
+  for (const bench::PageEntry& entry : entries) text += (text.empty() ? "" : ",\n") + as_json(entry.report);
+  print_result("{}", all ? "[" + text + "]\n" : text);
+}
+
+Status write_page(const std::vector<bench::PageEntry>& entries, const std::string& folder) {
+  const fs::path file = fs::path(folder) / "index.html";
+  const std::string page = bench::as_page(bench::machine_facts(), entries);
+  if (const Status written = write_file(file, std::as_bytes(std::span(page))); !written) return written;
+  print_message("bench: wrote {}\n", file.string());
+  return Done{};
+}
+
+int run(const BenchCommand& command) {
+  const std::span<const NamedBench> chosen = benches_named(command.name);
+  const bool all = chosen.size() > 1;
+  if (all && !command.only.empty()) throw CLI::ValidationError("--only", "name one benchmark with it");
+  const Result<bench::BenchOptions> options = bench_options(command);
+  if (!options) return fail("bench", options.error().message);
+  const StopSignals signals;
+  // Fail before minutes of measuring, not after.
+  if (const Status made = bench::make_folder(command.out); !made) return fail("bench", made.error().message);
+  std::vector<bench::PageEntry> entries;
+  bool failed = false;
+  for (const NamedBench& bench : chosen) {
+    Result<bench::Report> report = run_one(bench, *options, command);
+    if (!report && (!all || StopSignals::came())) return fail("bench", report.error().message);
+    failed = failed || !report || report->failed;
+    if (report) {
+      entries.push_back({.report = *report, .svg = all ? bench::draw_svg(*report, command.out) : ""});
+    } else {
+      print_message("terrella bench: {}: {}\n", bench.name, report.error().message);
+      entries.push_back(
+          {.report = {.name = bench.name, .title = {}, .facts = {}, .columns = {}}, .failure = report.error().message});
+    }
+  }
+  if (command.json) print_json(entries, all);
+  if (all) {
+    if (const Status page = write_page(entries, command.out); !page) return fail("bench", page.error().message);
+  }
+  return failed ? kFailed : kDone;
 }
 
 }  // namespace
@@ -96,7 +154,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<BenchCommand>();
   sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
-      ->type_name("polar|accuracy|traverse|stream|stability");
+      ->type_name("polar|accuracy|traverse|stream|objects|stability|growth|all");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
   sub.add_option("--work", command->work,

@@ -37,6 +37,8 @@ struct RenderCommand {
   double timeout_s = 600.0;
   bool json = false;
   bool legend = false;
+  bool graticule = false;
+  bool credits = false;
 };
 
 struct Rendered {
@@ -167,19 +169,6 @@ Result<std::unique_ptr<MapPainter>> open_map(const SceneOptions& scene, const Bo
   return std::make_unique<MapPainter>(*std::move(data), body.ellipsoid);
 }
 
-/// Draws map and legend over the picture of the globe.
-Status draw_over(const Globe& globe, unsigned framebuffer, Viewport size, const std::vector<LegendItem>& legend,
-                 MapPainter* map) {
-  if (legend.empty() && map == nullptr) return Done{};
-  return draw_over_picture(framebuffer, size, [&] {
-    const View view = globe.view(size);
-    if (map != nullptr) map->draw_lines(globe, view, 1.0, MapDetail::full);
-    const double gap = 0.8 * Ui::text_height();
-    draw_legend(legend, gap, size.height_px - gap);
-    if (map != nullptr) map->draw_names(globe, view, 1.0, MapDetail::full, Ui::panel_boxes());
-  });
-}
-
 Result<Rendered> render_picture(const RenderCommand& command) {
   const std::vector<std::string> inputs = inputs_of(command.scene);
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
@@ -202,7 +191,7 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   options.upload_bytes_per_frame = options.gpu_bytes;
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
-  add_sky_data(options);
+  add_sky_data(options, options.time.has_value());
   if (!command.scene.objects.empty()) add_label_font(options);
   Result<std::unique_ptr<Globe>> globe = create_globe(options, *imagery, *std::move(elevation));
   if (!globe) return globe.error();
@@ -217,13 +206,19 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   const OffscreenTarget target(command.scene.size);
   render_all(**globe, command, first_camera(command.scene, *body, command.scene.size), target.framebuffer());
   if (StopSignals::came()) return Error{command.output + ": stopped; no picture was written"};
-  const FrameStats stats = (*globe)->render(target.framebuffer(), command.scene.size);
+  if ((*globe)->needs_frame(target.framebuffer(), command.scene.size)) {
+    (*globe)->render(target.framebuffer(), command.scene.size);
+  }
+  const FrameStats stats = (*globe)->last_frame();
   if (const Status& drawn = (*globe)->status(); !drawn) return drawn.error();
   if (const Status some = check_some_came(stats, (*globe)->missing_tiles()); !some) return some.error();
-  std::vector<LegendItem> legend;
-  if (command.legend) legend = legend_of(**globe, command.scene, *imagery, *overlays);
-  if (const Status drawn = draw_over(**globe, target.framebuffer(), command.scene.size, legend, map->get()); !drawn)
-    return drawn.error();
+  std::vector<std::string> thanks = (*globe)->attributions();
+  if (*map) thanks.insert(thanks.end(), (*map)->attributions().begin(), (*map)->attributions().end());
+  PictureOverlay overlay{.graticule = command.graticule, .map = map->get()};
+  if (command.legend) overlay.legend = legend_of(**globe, command.scene, *imagery, *overlays);
+  if (command.credits) overlay.credits = thanks;
+  if (const Status drawn = draw_over_picture(**globe, target.framebuffer(), command.scene.size, overlay); !drawn)
+    return Error{command.output + ": " + drawn.error().message};
   // Rendering takes time; another file may have taken the name meanwhile.
   if (const Status may = may_write_picture(command.output, inputs); !may) return may.error();
   const Viewport size = command.scene.size;
@@ -231,8 +226,6 @@ Result<Rendered> render_picture(const RenderCommand& command) {
   if (!written) return written.error();
   const auto& missing = (*globe)->missing_tiles();
   const auto& heights = (*globe)->missing_heights();
-  std::vector<std::string> thanks = (*globe)->attributions();
-  if (*map) thanks.insert(thanks.end(), (*map)->attributions().begin(), (*map)->attributions().end());
   return Rendered{stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, thanks, *objects};
 }
 
@@ -273,6 +266,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->check(number_in(0.0, 1e6))
       ->capture_default_str();
   sub.add_flag("--legend", command->legend, "Draw a colour bar with units for each raster of numbers");
+  sub.add_flag("--graticule", command->graticule, "Draw lines of latitude and longitude with labels");
+  sub.add_flag("--credits", command->credits, "Write the sources of imagery and map into the upper right corner");
   sub.add_flag("--json", command->json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
   sub.callback([command, &exit_code] {

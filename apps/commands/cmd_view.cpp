@@ -21,6 +21,7 @@
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/tools/map_data.h"
+#include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
 
@@ -50,6 +51,7 @@ constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
 struct ViewOptions {
   SceneOptions scene;
   bool print_camera = false;
+  bool print_panels = false;
   bool full_screen = false;
   KeptSettings kept;
   bool first_run = false;
@@ -108,8 +110,22 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
                     .kind = LayerKind::objects,
                     .name = std::filesystem::path(scene.objects).filename().string(),
                     .bounds = {}});
+    if (const auto attribution = globe.attribution(id)) rows.back().attribution = *attribution;
   }
   return rows;
+}
+
+/// Puts the files of the command line into the list of recent files; the complaint if this fails.
+std::string remember(const SceneOptions& scene) {
+  std::vector<std::string> opened;
+  std::vector<Url> urls = {scene.tile_set};
+  for (const OverlayOption& overlay : scene.overlays) urls.push_back(overlay.tile_set);
+  urls.push_back(scene.elevation);
+  for (const Url& url : urls) opened.push_back(url.with_secrets());
+  opened.push_back(scene.objects);
+  std::erase(opened, std::string());
+  const Status kept = remember_opened(opened);
+  return kept ? std::string() : kept.error().message;
 }
 
 int view(const ViewOptions& options) {
@@ -136,7 +152,7 @@ int view(const ViewOptions& options) {
   }
   check_map(options.scene, *body);
   GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
-  add_sky_data(globe_options_with_sky);
+  add_sky_data(globe_options_with_sky, true);  // the user may choose a time
   add_label_font(globe_options_with_sky);
   auto globe = create_globe(globe_options_with_sky, *imagery, *elevation);
   if (!globe) return fail("view", globe.error().message);
@@ -164,6 +180,7 @@ int view(const ViewOptions& options) {
   cuts.clear();
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
+                                     .print_panels = options.print_panels,
                                      .cuts = growing,
                                      .layers = std::move(rows),
                                      .heights = *elevation,
@@ -172,7 +189,7 @@ int view(const ViewOptions& options) {
                                      .map = options.scene.map.value_or(options.kept.map && !options.scene.unlit),
                                      .kept = options.kept,
                                      .first_run = options.first_run,
-                                     .message = options.message};
+                                     .message = options.message.empty() ? remember(options.scene) : options.message};
   Viewer(**window, **globe, viewer_options).run();
   return kDone;
 }
@@ -187,6 +204,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->get_option("--size")->default_str(fmt::format("{}x{}", kWindow.width_px, kWindow.height_px));
   command->add_flag("--print-camera", options->print_camera,
                     "Print the camera in the form of --camera to standard output each time the camera comes to rest");
+  command->add_flag("--print-panels", options->print_panels,
+                    "Print where panels and labels are, as JSON, to standard output each time this changes");
   command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
   command->footer(kHelpFooter);

@@ -12,9 +12,9 @@
 
 namespace terrella {
 
-void add_sky_data(GlobeOptions& options) {
+void add_sky_data(GlobeOptions& options, bool night_lights) {
   if (!options.sky) return;
-  SkyData data = load_sky_data();
+  SkyData data = load_sky_data(night_lights);
   for (const std::string& problem : data.problems) print_message("{}\n", problem);
   options.stars = std::move(data.stars);
   options.night_lights = std::move(data.night_lights);
@@ -40,7 +40,9 @@ Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
-  if (const auto added = globe.add_objects(file->scene); !added) return added.error();
+  const auto added = globe.add_objects(file->scene);
+  if (!added) return added.error();
+  if (const Status credited = globe.set_attribution(*added, file->attribution); !credited) return credited.error();
   return file->complaints.empty();
 }
 

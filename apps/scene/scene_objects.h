@@ -5,9 +5,9 @@
 
 namespace terrella {
 
-/// Adds the included stars and lights to the globe's options if the options enable the sky. Missing or damaged files
-/// are reported on standard error and skipped. thread: main
-void add_sky_data(GlobeOptions& options);
+/// Adds the included stars to the globe's options if the options enable the sky, and the city lights if a night may be
+/// drawn. Missing or damaged files are reported on standard error and skipped. thread: main
+void add_sky_data(GlobeOptions& options, bool night_lights);
 
 /// Adds the included label font to the globe's options. thread: main
 void add_label_font(GlobeOptions& options);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/setup/write_file.h"
+#include "codecs/png_codec.h"
 
 namespace terrella {
 namespace {
@@ -31,7 +32,7 @@ Status check_picture_name(const std::filesystem::path& path) {
 Status write_picture(const std::filesystem::path& path, const Image& image) {
   const std::string extension = lower_extension(path);
   const bool jpeg = extension == ".jpg" || extension == ".jpeg";
-  const auto bytes = jpeg ? encode_jpeg(image, kWrittenJpegQuality) : encode_png(image);
+  const auto bytes = jpeg ? encode_jpeg(image, kWrittenJpegQuality) : encode_png_quickly(image);
   if (!bytes) return Error{path.string() + ": " + bytes.error().message};
   return write_file(path, *bytes);
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "apps/setup/console.h"
@@ -91,7 +92,7 @@ void Viewer::run() {
     history_.follow(navigator_.camera(), navigator_.at_rest(), Input::now());
     draw_frame(framebuffer);
     follow_panels();
-    print_camera_at_rest();
+    print_at_rest();
   }
   keep_settings();
 }
@@ -123,7 +124,6 @@ void Viewer::handle_events() {
 
 // The open panel that takes mouse and keyboard first; null if there is none.
 Part* Viewer::front_panel() const {
-  if (help_.is_open()) return nullptr;
   const auto front = std::ranges::find_if(parts_, [](const Part* part) { return part->panel() != nullptr; });
   return front == parts_.end() ? nullptr : *front;
 }
@@ -186,7 +186,8 @@ void Viewer::draw_panels(Viewport framebuffer) {
   const View view = globe_.view(framebuffer);
   messages_.drop_due();
   job_text_ = job();
-  map_.update();
+  labels_.clear();
+  map_.update(frame_graph_.last_ms());
   ui_.begin_frame();
   if (help_.is_open()) {
     help_.draw(0.0F);
@@ -199,6 +200,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
     if (!pictures_.is_drawing()) draw_over_panels(view, foot);
     cover_panels(framebuffer);
   }
+  if (options_.print_panels) panels_text_ = Ui::boxes_text(labels_);
   ui_.end_frame();
 }
 
@@ -210,10 +212,10 @@ void Viewer::draw_over_panels(const View& view, float foot) {
   if (column.clicked != nullptr) column.clicked->run(*this);
   // Lines first. Names keep off panels and the graticule's labels.
   map_.draw_lines(view);
-  std::vector<UiBox> taken = graticule_.draw_over(view, double(foot));
-  const std::vector<UiBox> panels = Ui::panel_boxes();
-  taken.insert(taken.end(), panels.begin(), panels.end());
-  map_.draw_names(view, taken);
+  labels_ = graticule_.draw_over(view, double(foot));
+  std::vector<UiBox> taken = Ui::panel_boxes();
+  taken.insert(taken.end(), labels_.begin(), labels_.end());
+  std::ranges::move(map_.draw_names(view, taken), std::back_inserter(labels_));
 }
 
 // Draws the texts that the panels leave room. Returns the height of those at the lower edge.
@@ -259,21 +261,33 @@ PanelStatus Viewer::status(const View& view) {
   if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
   status.job = job_text_;
-  std::vector<std::string> thanks = globe_.attributions();
-  for (std::string& text : map_.attributions()) thanks.push_back(std::move(text));
-  status.attribution = fmt::format("{}", fmt::join(thanks, "   "));
+  status.attribution = fmt::format("{}", fmt::join(credits(), "   "));
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);
   return status;
 }
 
-void Viewer::print_camera_at_rest() {
-  if (!options_.print_camera || !navigator_.at_rest()) return;
-  std::string text = camera_text(navigator_.camera());
-  if (text == printed_camera_) return;
-  printed_camera_ = std::move(text);
-  print_result("{}\n", printed_camera_);
-  std::fflush(stdout);
+// Sources of the last frame.
+std::vector<std::string> Viewer::credits() const {
+  std::vector<std::string> credits = globe_.attributions();
+  std::ranges::move(map_.attributions(), std::back_inserter(credits));
+  return credits;
+}
+
+PictureOverlay Viewer::overlay() {
+  return {.graticule = graticule_.is_on(), .map = map_.painter(), .legend = layers_.legend(), .credits = credits()};
+}
+
+void Viewer::print_at_rest() {
+  const auto print = [](std::string text, std::string& printed) {
+    if (text == printed) return;
+    printed = std::move(text);
+    print_result("{}\n", printed);
+    std::fflush(stdout);
+  };
+  if (!navigator_.at_rest()) return;
+  if (options_.print_camera) print(camera_text(navigator_.camera()), printed_camera_);
+  if (options_.print_panels && panel_frames_ == 0) print(panels_text_, printed_panels_);
 }
 
 }  // namespace terrella

@@ -36,6 +36,7 @@ namespace terrella {
 struct ViewerOptions {
   Camera camera;
   bool print_camera = false;  ///< prints a line on standard output each time the camera comes to rest
+  bool print_panels = false;  ///< prints the places of panels and labels on standard output each time they change
   std::vector<std::weak_ptr<GrowingCut>> cuts = {};  ///< in the background; the layers own them
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
@@ -86,11 +87,13 @@ class Viewer {
   void draw_over_panels(const View& view, float foot);
   [[nodiscard]] float draw_texts(const PanelStatus& status);
   void cover_panels(Viewport framebuffer);
+  [[nodiscard]] PictureOverlay overlay();
+  [[nodiscard]] std::vector<std::string> credits() const;
   [[nodiscard]] std::vector<LayerSwitch> switches();
   [[nodiscard]] PanelStatus status(const View& view);
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
-  void print_camera_at_rest();
+  void print_at_rest();
 
   Window& window_;
   Globe& globe_;
@@ -105,7 +108,7 @@ class Viewer {
   MapLayer map_{context_, options_.places};
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
-  Pictures pictures_{context_};
+  Pictures pictures_{context_, [this] { return overlay(); }};
   Search search_{context_, options_.places};
   FrameGraph frame_graph_{context_};
   Layers layers_;
@@ -129,10 +132,12 @@ class Viewer {
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< of the last frame with panels
   bool was_at_texels_ = false;
-  std::string job_text_;  ///< job() in the last frame
-  KeptSettings started_;  ///< settings at the start of the run
-  KeptSettings saved_;    ///< settings in the file
-  std::string printed_camera_;
+  std::vector<UiBox> labels_;  ///< of graticule and map, in the last frame
+  std::string panels_text_;    ///< Ui::boxes_text() of the last frame
+  std::string job_text_;       ///< job() in the last frame
+  KeptSettings started_;       ///< settings at the start of the run
+  KeptSettings saved_;         ///< settings in the file
+  std::string printed_camera_, printed_panels_;
 };
 
 }  // namespace terrella

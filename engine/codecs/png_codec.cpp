@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <bit>
 #include <cassert>
 #include <cstring>
-#include <memory>
+#include <new>
+#include <utility>
 
 #include "codecs/image_limits.h"
 
@@ -15,10 +17,14 @@ namespace {
 
 constexpr png_alloc_size_t kMaxChunkBytes = 8UL << 20;
 
-/// State of libpng's callbacks. longjmp skips their C frames, so no object in them may need a destructor.
-struct Decoder {
-  std::span<const std::byte> rest;
+/// The reason of a failure, for libpng's callbacks. longjmp skips their C frames, so no object in them may need a
+/// destructor.
+struct Failure {
   char message[128] = "unknown failure";
+};
+
+struct Decoder : Failure {
+  std::span<const std::byte> rest;
   png_structp png = nullptr;
   png_infop info = nullptr;
 
@@ -29,8 +35,8 @@ struct Decoder {
 };
 
 [[noreturn]] void on_png_error(png_structp png, png_const_charp message) {
-  auto* decoder = static_cast<Decoder*>(png_get_error_ptr(png));
-  std::strncpy(decoder->message, message, sizeof(decoder->message) - 1);
+  auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+  std::strncpy(failure->message, message, sizeof(failure->message) - 1);
   png_longjmp(png, 1);
 }
 
@@ -44,7 +50,8 @@ void on_read(png_structp png, png_bytep target, std::size_t size) {
 }
 
 bool set_up(Decoder& decoder) {
-  decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_png_error, ignore_png_warning);
+  decoder.png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, static_cast<Failure*>(&decoder), on_png_error, ignore_png_warning);
   if (decoder.png == nullptr) return false;
   decoder.info = png_create_info_struct(decoder.png);
   if (decoder.info == nullptr) return false;
@@ -129,12 +136,60 @@ bool has_no_alpha(const Image& image) {
   return true;
 }
 
-std::vector<std::uint8_t> without_alpha(const Image& image) {
-  std::vector<std::uint8_t> rgb(image.rgba.size() / 4 * 3);
-  for (std::size_t from = 0, to = 0; to < rgb.size(); from += 4, to += 3) {
-    std::memcpy(&rgb[to], &image.rgba[from], 3);
+struct Encoder : Failure {
+  std::vector<std::byte> bytes;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+
+  Encoder() = default;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() { png_destroy_write_struct(&png, &info); }
+};
+
+bool append(std::vector<std::byte>& bytes, const png_byte* from, std::size_t size) {
+  try {
+    const auto* first = reinterpret_cast<const std::byte*>(from);
+    bytes.insert(bytes.end(), first, first + size);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
   }
-  return rgb;
+}
+
+void on_write(png_structp png, png_bytep from, std::size_t size) {
+  auto* encoder = static_cast<Encoder*>(png_get_io_ptr(png));
+  if (!append(encoder->bytes, from, size)) png_error(png, "out of memory");
+}
+
+void no_flush(png_structp) {}
+
+bool write_png(Encoder& encoder, const Image& image, bool opaque, int strategy) {
+  png_structp png = encoder.png;
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_write_fn(png, &encoder, on_write, no_flush);
+  png_set_IHDR(png, encoder.info, static_cast<png_uint_32>(image.width_px), static_cast<png_uint_32>(image.height_px),
+               8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, encoder.info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_set_compression_strategy(png, strategy);
+  png_write_info(png, encoder.info);
+  if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  const std::size_t row_bytes = static_cast<std::size_t>(image.width_px) * 4;
+  for (std::size_t at = 0; at < image.rgba.size(); at += row_bytes) png_write_row(png, &image.rgba[at]);
+  png_write_end(png, encoder.info);
+  return true;
+}
+
+Result<std::vector<std::byte>> encode(const Image& image, int strategy) {
+  assert(image.rgba.size() == static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * 4);
+  Encoder encoder;
+  encoder.png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, static_cast<Failure*>(&encoder), on_png_error, ignore_png_warning);
+  if (encoder.png != nullptr) encoder.info = png_create_info_struct(encoder.png);
+  if (encoder.info == nullptr) return png_failure("out of memory");
+  if (!write_png(encoder, image, has_no_alpha(image), strategy)) return png_failure(encoder.message);
+  return std::move(encoder.bytes);
 }
 
 }  // namespace
@@ -176,23 +231,7 @@ Result<PictureSize> png_size(std::span<const std::byte> bytes) {
                      static_cast<int>(png_get_image_height(decoder.png, decoder.info))};
 }
 
-Result<std::vector<std::byte>> encode_png(const Image& image) {
-  assert(image.rgba.size() == static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * 4);
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width_px);
-  header.height = static_cast<png_uint_32>(image.height_px);
-  const bool opaque = has_no_alpha(image);
-  header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-  const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>{};
-  const void* pixels = opaque ? rgb.data() : image.rgba.data();
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-  std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr) == 0) {
-    return png_failure(header.message);
-  }
-  bytes.resize(size);
-  return bytes;
-}
+Result<std::vector<std::byte>> encode_png(const Image& image) { return encode(image, Z_FILTERED); }
+Result<std::vector<std::byte>> encode_png_quickly(const Image& image) { return encode(image, Z_RLE); }
 
 }  // namespace terrella

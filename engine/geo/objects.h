@@ -22,6 +22,22 @@ struct ObjectColor {
   bool operator==(const ObjectColor&) const = default;
 };
 
+/// The name of a feature within its object layer, chosen by the application. Objects with the same id are parts of one
+/// feature, such as a marker and its label: an edit of the id (geo/object_edits.h) changes them together.
+enum class ObjectId : std::uint64_t { none = 0 };
+
+/// Data of a feature that the globe keeps and does not draw. A pick returns it.
+struct ObjectFeature {
+  std::string properties = {};  ///< JSON text, such as the properties of a GeoJSON feature
+  std::uint64_t user = 0;       ///< a value of the application
+};
+
+/// The feature that an object is a part of. Every object has one.
+struct ObjectIdentity {
+  ObjectId id = ObjectId::none;  ///< none: the object cannot be edited by itself
+  std::shared_ptr<const ObjectFeature> feature = {};
+};
+
 /// A point, drawn as a sphere with a radius in metres or as a disc of constant size on the screen.
 struct PointObject {
   Geodetic place = {};
@@ -29,6 +45,7 @@ struct PointObject {
   float size_px = 10.0F;  ///< diameter of a marker
   ObjectColor color{230, 60, 50};
   bool through_surface = false;  ///< visible from below through a surface that is translucent for selected objects
+  ObjectIdentity of = {};
 };
 
 /// A line through places, along geodesics of the ellipsoid. The height changes evenly between two places.
@@ -37,6 +54,7 @@ struct LineObject {
   float width_px = 2.0F;
   ObjectColor color{230, 60, 50};
   bool through_surface = false;
+  ObjectIdentity of = {};
 };
 
 /// An area with holes: all that an odd number of rings encloses. geo/great_circle.h defines edges, ±180° and poles. The
@@ -47,6 +65,7 @@ struct PolygonObject {
   ObjectColor stroke{230, 60, 50};                ///< alpha 0: no stroke
   float stroke_width_px = 2.0F;
   bool through_surface = false;
+  ObjectIdentity of = {};
 };
 
 /// A text, UTF-8, to the right of the marker or sphere at a place.
@@ -59,6 +78,7 @@ struct LabelObject {
   /// If two labels would overlap, only the label with the higher priority is shown; on a tie, the first.
   double priority = 0.0;
   bool through_surface = false;
+  ObjectIdentity of = {};
 };
 
 /// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0).
@@ -97,6 +117,7 @@ struct MeshObject {
   Angle heading = {};  ///< direction of the model's forward axis, clockwise from north
   double scale = 1.0;  ///< > 0
   bool through_surface = false;
+  ObjectIdentity of = {};
 };
 
 /// All objects of a scene: over, on and under the ground. A plain value. thread: any

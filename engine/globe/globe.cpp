@@ -15,12 +15,12 @@
 namespace terrella {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Sky for stars without a time: any instant will do; this one is noon of an equinox.
 constexpr UtcTime kQuietSky{std::chrono::sys_days{std::chrono::year{2026} / 3 / 20} + std::chrono::hours{12}};
-// Longest wait for a tile before checking for due retries.
-constexpr std::chrono::milliseconds kLook{100};
+constexpr const char* kOtherContext =
+    "another OpenGL context is current than the one that the globe was made in; contexts do not share vertex arrays "
+    "and "
+    "framebuffers, so draw into a texture in the globe's context, and show the texture in the other one";
 
 // Bodies of dust without air or ice.
 bool is_dusty(const Body& body) {
@@ -59,15 +59,6 @@ Status check_ranges(const GlobeOptions& o) {
   return Done{};
 }
 
-// Misuse: an assertion, and an error where assertions are off.
-Error misuse(const char* call, const char* why) {
-#ifndef NDEBUG
-  std::fprintf(stderr, "terrella: %s: %s\n", call, why);
-  std::abort();
-#endif
-  return Error{std::string(call) + ": " + why};
-}
-
 // Sets the GL state that drawing depends on.
 GlScope enter(GlContract contract) {
   if (contract == GlContract::restore) return std::make_unique<GlState>();
@@ -77,6 +68,14 @@ GlScope enter(GlContract contract) {
 
 }  // namespace
 
+Error misuse(const char* call, const char* why) {
+#ifndef NDEBUG
+  std::fprintf(stderr, "terrella: %s: %s\n", call, why);
+  std::abort();
+#endif
+  return Error{std::string(call) + ": " + why};
+}
+
 Status Globe::Impl::may_call(const char* call) const {
   if (std::this_thread::get_id() == thread) return Done{};
   return misuse(call, "called from another thread than the one that the globe was made on");
@@ -85,7 +84,7 @@ Status Globe::Impl::may_call(const char* call) const {
 Result<GlScope> Globe::Impl::may_draw(const char* call) const {
   if (Status allowed = may_call(call); !allowed) return allowed.error();
   if (!has_context()) return misuse(call, "no OpenGL context is current");
-  if (!renderer->is_of_current_context()) return misuse(call, "another OpenGL context is current");
+  if (!renderer->is_of_current_context()) return misuse(call, kOtherContext);
   return enter(options.gl_contract);
 }
 
@@ -109,6 +108,9 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   const GlScope scope = enter(options.gl_contract);
   gl::find_deletes();
   auto impl = std::make_unique<Impl>(options);
+  impl->main.reset(new GlobeView(std::make_unique<GlobeView::Impl>(*impl, impl->next_view())));
+  impl->views.push_back(&impl->first());
+  impl->first().stereo = options.stereo;
   SkyAssets sky{.body = options.body, .stars = options.stars, .night_lights = {}};
   if (options.sky || options.time) {
     const Result<Almanac> almanac = almanac_at(options.time.value_or(kQuietSky));
@@ -125,19 +127,18 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
   if (!renderer) return renderer.error();
   impl->renderer = std::move(*renderer);
   if (elevation) impl->heights = std::make_unique<HeightLayer>(*elevation, impl->options, impl->bell);
-  if (Status made = impl->renderer->set_relief(elevation.has_value()); !made) return made.error();
+  impl->renderer->set_relief(elevation.has_value());
   impl->renderer->set_label_font(std::move(impl->options.label_font));
   return std::unique_ptr<Globe>(new Globe(std::move(impl)));
 }
 
+GlobeView& Globe::main_view() { return *impl_->main; }
+
 void Globe::set_camera(const Camera& camera) {
-  if (!impl_->may_call("Globe::set_camera")) return;
-  if (camera == impl_->camera) return;  // callers set the camera every frame; this keeps the reduced detail
-  impl_->camera = camera;
-  impl_->restore_detail();
+  if (impl_->may_call("Globe::set_camera")) impl_->first().set_camera(camera);
 }
 
-const Camera& Globe::camera() const { return impl_->camera; }
+const Camera& Globe::camera() const { return impl_->first().camera; }
 const GlobeOptions& Globe::options() const { return impl_->options; }
 
 void Globe::set_unlit(bool unlit) {
@@ -155,7 +156,7 @@ void Globe::set_surface(const SurfaceLook& surface) {
 void Globe::set_stereo(const StereoLook& stereo) {
   if (!impl_->may_call("Globe::set_stereo")) return;
   impl_->options.stereo = stereo;
-  impl_->restore_detail();
+  impl_->first().set_stereo(stereo);
 }
 
 void Globe::set_sky(bool on) {
@@ -209,56 +210,56 @@ Experiments& Experiments::of(Globe& globe) {
   return globe.impl_->experiments;
 }
 
+// The calls of the main view.
+
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
-  FrameStats stats;
-  {
-    const auto call = impl_->may_draw("Globe::render");
-    if (!call) return stats;
-    stats = impl_->draw(framebuffer, viewport, corner_px);
-  }
-  const bool settled_before = std::exchange(impl_->was_settled, impl_->settled());
-  if (impl_->was_settled && !settled_before && impl_->on_settled) impl_->on_settled();
-  return stats;
+  return impl_->first().render("Globe::render", framebuffer, viewport, corner_px);
 }
 
-const Status& Globe::status() const { return impl_->status; }
-bool Globe::settled() const { return impl_->settled(); }
-void Globe::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
+bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport,
+                                 std::chrono::steady_clock::time_point deadline) {
+  return impl_->first().render_until_settled("Globe::render_until_settled", framebuffer, viewport, deadline);
+}
+
+const FrameStats& Globe::last_frame() const { return impl_->first().stats; }
+const Status& Globe::status() const { return impl_->first().status; }
+bool Globe::settled() const { return impl_->first().settled(); }
+void Globe::on_settled(std::function<void()> told) { impl_->first().on_settled = std::move(told); }
 
 void Globe::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {
-  if (!impl_->may_call("Globe::on_draw")) return;
-  impl_->on_draw = std::move(draw);
-  impl_->changed = true;
+  if (impl_->may_call("Globe::on_draw")) impl_->first().set_on_draw(std::move(draw));
 }
 
-unsigned Globe::depth_texture() const { return impl_->renderer->depth_texture(); }
+unsigned Globe::depth_texture() const { return impl_->first().memory.targets.depth(); }
 
 Status Globe::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
-  const auto call = impl_->may_draw("Globe::copy_depth");
-  return call ? impl_->renderer->copy_depth(framebuffer, corner_px) : call.error();
+  return impl_->first().copy_depth("Globe::copy_depth", framebuffer, corner_px);
 }
 
-bool Globe::needs_frame() const {
-  const FrameStats& last = impl_->stats;
-  if (impl_->changed || impl_->frame == 0 || last.heights_arrived || last.relief_put_off > 0) return true;
-  if (impl_->heights && impl_->heights->has_news()) return true;
-  return std::ranges::any_of(impl_->images, [](const auto& layer) { return layer->has_news(); });
-}
-
+bool Globe::needs_frame() const { return impl_->first().needs_frame(); }
 bool Globe::needs_frame(unsigned framebuffer, Viewport viewport) const {
-  return impl_->drawn != viewport || impl_->drawn_into != framebuffer || needs_frame();
+  return impl_->first().needs_frame(framebuffer, viewport);
 }
 
-bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
-  if (!impl_->may_draw("Globe::render_until_settled")) return false;
-  for (;;) {
-    render(framebuffer, viewport);
-    if (settled()) return true;
-    if (!status()) return false;
-    while (!needs_frame() && Clock::now() < deadline) impl_->bell->wait_until(std::min(deadline, Clock::now() + kLook));
-    if (Clock::now() >= deadline) return false;
-  }
+std::vector<std::string> Globe::attributions() const {
+  return impl_->may_call("Globe::attributions") ? impl_->first().attributions() : std::vector<std::string>{};
 }
+
+std::optional<double> Globe::finest_texel_m() const {
+  return impl_->may_call("Globe::finest_texel_m") ? impl_->first().finest_texel_m() : std::nullopt;
+}
+
+View Globe::view(Viewport viewport) const { return impl_->first().eye_view(viewport); }
+
+GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
+  return impl_->may_call("Globe::pick") ? impl_->first().pick(pixel_px, viewport) : GlobePick{};
+}
+
+std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
+  return impl_->may_call("Globe::project") ? impl_->first().project(place, viewport) : std::nullopt;
+}
+
+// What all views share.
 
 const std::deque<MissingTile>& Globe::missing_tiles() const { return impl_->missing; }
 const std::deque<MissingTile>& Globe::missing_heights() const { return impl_->missing_heights; }

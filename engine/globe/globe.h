@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "base/result.h"
-#include "geo/body.h"
 #include "geo/camera.h"
+#include "geo/object_edits.h"
 #include "geo/objects.h"
-#include "objects/object_pick.h"
-#include "sky/cube_picture.h"
-#include "sky/star_catalogue.h"
-#include "sky/utc_time.h"
+#include "globe/frame_stats.h"
+#include "globe/globe_options.h"
+#include "globe/globe_view.h"
 #include "surface/layers.h"
 #include "tiles/elevation_source.h"
 #include "tiles/tile_loader.h"
@@ -29,116 +28,12 @@
 
 namespace terrella {
 
-/// A globe's treatment of the OpenGL state that it finds at a call.
-enum class GlContract {
-  restore,  ///< every call leaves the state as it found it: about 250 queries in a call of render()
-  leave,    ///< a call asks for no state and restores none; the caller sets what it needs itself afterwards
-};
-
-struct GlobeOptions {
-  Body body = earth();
-  Texturing texturing = Texturing::automatic;
-  /// Draws squeezed tiles near the poles if the set has them and `texturing` is exact or automatic. False: draws the
-  /// full grid.
-  bool squeezed_rows = true;
-  /// A patch that touches a pole takes a coarser level if it spans more than this many tile columns, [1, 4096].
-  int polar_columns = 32;
-  /// Detail of the imagery, [0.125, 8]: along the meridian a texel is at most 1 / texels_per_pixel of a pixel, if the
-  /// set has that detail. Tiles, bytes and memory grow with the square of this number. `bench accuracy` has the curve.
-  double texels_per_pixel = 1.0;
-  /// Largest error on the screen, in pixels, [0.01, 16], of the drawn ellipsoid and of values interpolated over it. A
-  /// patch with a larger error is split.
-  double max_error_px = 0.2;
-  int segments = 24;  ///< edges of triangles along a patch's side: even, [2, 128]
-  /// Border of neighbouring texels around a tile in its slot, [0, 64]; mip k has 2^-k times as many. Filtering reaches
-  /// at most 8 texels. Without a gutter, tile borders show.
-  int gutter_px = 8;
-  DepthMode depth = DepthMode::reversed;
-  bool unlit = false;  ///< draws imagery only: no light, no sky, black background
-  SurfaceLook surface{};
-  double exaggeration = 1.0;  ///< factor of the heights, [0, 100]
-  StereoLook stereo{};
-  bool sky = false;  ///< draws stars, Sun, Moon and atmosphere; not with `unlit`
-  /// Time for Sun and sky. None: the Sun shines from over the viewer's shoulder and is not drawn, and it is day
-  /// everywhere (ImageLook::daylight).
-  std::optional<UtcTime> time{};
-  std::vector<Star> stars{};  ///< stars of the sky
-  /// City lights on the Earth's night side, drawn only with a sky and a time (Globe::set_night_lights()); may be empty.
-  GreyPicture night_lights{};
-  std::vector<std::byte> label_font{};     ///< bytes of a font file for the labels of objects; empty: no labels
-  std::size_t gpu_bytes = 512UL << 20;     ///< texture slots for tiles, all image layers together
-  std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; at least 64 tiles always fit
-  std::size_t upload_bytes_per_frame = 8UL << 20;
-  std::chrono::microseconds upload_time_per_frame{4000};
-  /// Patches whose relief may be rebuilt per frame, about 0.3 ms each. Patches without which the frame cannot be drawn
-  /// do not count. The other height tiles wait, and mountains become finer frame by frame.
-  int relief_meshes_per_frame = 24;
-  int workers = 2;                               ///< decoder threads
-  GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
-  /// A tile of imagery or heights that failed for now (MissingKind::failed) is requested again after this time, if it
-  /// is still wanted. Positive.
-  std::chrono::milliseconds retry_after{30'000};
-};
-
-/// Statistics of one frame.
-struct FrameStats {
-  int patches = 0;
-  int band_patches = 0;  ///< of those, patches drawn by a per-fragment program
-  int draw_calls = 0;
-  long triangles = 0;
-  int tiles_wanted = 0;        ///< tiles that the view needs at full quality
-  int tiles_pending = 0;       ///< of those, tiles neither on the GPU nor finally failed
-  int tiles_missing = 0;       ///< of those, tiles that finally failed
-  int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are loaded
-  bool imagery_shown = false;  ///< a tile of imagery is in view, even if only a coarser fallback
-  std::size_t uploaded_bytes = 0;
-  std::size_t objects_cut = 0;  ///< lines and areas tessellated since the previous frame
-  int heights_pending = 0;      ///< elevation tiles that the view needs and that have neither arrived nor failed
-  int heights_missing = 0;      ///< failed elevation tiles among those that recent views needed
-  /// Heights arrived after this frame was drawn: another frame will show the newer ground.
-  bool heights_arrived = false;
-  int relief_meshes = 0;   ///< patches whose relief was rebuilt
-  int relief_put_off = 0;  ///< patches drawn coarser than their relief needs, for now
-  double selection_ms = 0.0;
-  // Totals over all layers that were drawn.
-  std::size_t gpu_bytes = 0;     ///< texture slots, used or free
-  std::size_t height_bytes = 0;  ///< elevation tiles
-  std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
-  std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state
-};
-
-/// A missing tile, and the reason.
-struct MissingTile {
-  TileId id;
-  TileFailure failure;
-  LayerId layer = LayerId::none;  ///< the image layer of the tile
-};
-
-/// The objects and layers under a pixel.
-struct GlobePick {
-  std::optional<Geodetic> place{};       ///< place on the ground (view/ground.h); none beside the globe
-  LayerId imagery = LayerId::none;       ///< the top image layer drawn there, according to its bounds
-  LayerId objects = LayerId::none;       ///< layer of the object; none: no object
-  std::optional<PickedObject> object{};  ///< kind and index in the layer's lists
-};
-
-/// A value of a number layer at a place.
-struct LayerValue {
-  double value = 0.0;  ///< in the unit of the layer's numbers, after scale and offset; NaN: no data
-  int level = 0;       ///< of the tile that it was read from
-};
-
-/// Budget of a globe; the fields are those of GlobeOptions.
-struct GlobeBudget {
-  std::size_t gpu_bytes;
-  std::size_t upload_bytes_per_frame;
-  std::chrono::microseconds upload_time_per_frame;
-  int relief_meshes_per_frame;
-};
-
 /// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
 /// sees them into a framebuffer. Every call leaves the GL state as it found it, unless GlobeOptions::gl_contract says
 /// otherwise.
+///
+/// A globe has a main view. Calls about the camera, frames and pixels are calls of the main view. Further views
+/// (globe/globe_view.h) share the globe's layers, tiles, textures and objects.
 ///
 /// thread: main for every call and the destructor: the thread on which the globe was made, with its context current. A
 /// call that breaks this rule is reported by an assertion that names the call. Without assertions, calls that return a
@@ -146,9 +41,9 @@ struct GlobeBudget {
 /// in the destructor. If no context is current, the GL objects are taken to be gone with their context.
 class Globe {
  public:
-  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current, the context is older than
-  /// 4.5, or a shader does not compile. Also fails if the time is outside the almanac's years, or if detail, error,
-  /// segments or gutter are out of range.
+  /// Makes a globe without layers, a body in a plain colour. Fails if no context is current or the context is older
+  /// than 4.5. Also fails if the time is outside the almanac's years, or if detail, error, segments or gutter are out
+  /// of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
   /// The same with a base layer and, optionally, heights.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
@@ -170,8 +65,12 @@ class Globe {
   [[nodiscard]] std::vector<LayerId> imagery() const;  ///< lowest first
   /// Adds an object layer over the existing ones. Fails if its shader programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
-  /// Replaces the objects of a layer.
+  /// Replaces the objects of a layer. Many lines and areas are cut by a worker; until then the layer shows the earlier
+  /// objects, and settled() is false.
   Status set_objects(LayerId layer, ObjectScene objects);
+  /// Adds, moves, changes and removes single objects of a layer by their ids. Costs what the edits name. Fails if the
+  /// layer has none of an id, or if a size is not positive; all other edits are made.
+  Status edit_objects(LayerId layer, ObjectEdits edits);
   Status show_objects(LayerId layer, bool shown);
   /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
   /// Opaque objects cost slightly less than translucent ones.
@@ -188,7 +87,8 @@ class Globe {
   /// Returns the attribution text of a layer. Fails if the globe does not have the layer.
   [[nodiscard]] Result<std::string> attribution(LayerId layer) const;
   /// Returns the attribution texts of the last frame, each text once. They belong to the image layers with a tile in
-  /// view, lowest first, to the elevation, and to the visible object layers. Layers under an opaque layer count too.
+  /// view, lowest first, to the elevation, and to the visible object layers. A layer that opaque tiles of the layers
+  /// over it hide everywhere does not count.
   [[nodiscard]] std::vector<std::string> attributions() const;
   /// Returns the side of the finest texels of the image layers that the last frame showed, in metres along the
   /// equator; none if it showed no imagery.
@@ -197,6 +97,8 @@ class Globe {
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< true if the globe has elevation
 
+  /// The view that the calls of Globe about camera, frames and pixels act on. It lives as long as the globe.
+  [[nodiscard]] GlobeView& main_view();
   void set_camera(const Camera& camera);
   [[nodiscard]] const Camera& camera() const;
   [[nodiscard]] const GlobeOptions& options() const;
@@ -220,6 +122,7 @@ class Globe {
   /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
   /// if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
+  [[nodiscard]] const FrameStats& last_frame() const;  ///< what the last frame did
   /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
   /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
@@ -246,7 +149,8 @@ class Globe {
   [[nodiscard]] bool needs_frame() const;
   /// The same for a frame in this framebuffer with this viewport: also true if the last one had others.
   [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
-  /// Renders until settled or the deadline; false at the deadline, and at once if status() is an error.
+  /// Waits until a frame would be settled, and draws that one; at the deadline draws what there is and returns false.
+  /// Returns false at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
   /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now
@@ -279,6 +183,7 @@ class Globe {
 
  private:
   friend struct Experiments;  // settings for tests and benchmarks, in a header that is not installed
+  friend class GlobeView;
   struct Impl;
   [[nodiscard]] static Result<std::unique_ptr<Globe>> make(const GlobeOptions& options,
                                                            const std::optional<ElevationSource>& elevation);

@@ -19,41 +19,42 @@ glm::dvec3 sun_over_the_shoulder(const View& view) {
 }  // namespace
 
 // The lowest drawn layer must be opaque. If it is not, a plain colour lies under it.
-void Globe::Impl::stack_layers() {
+void GlobeView::Impl::stack_layers() {
   stack.clear();
-  for (const auto& layer : images) {
-    if (layer->is_drawn(has_night())) {
-      stack.push_back(layer.get());
+  for (const auto& layer : globe->images) {
+    if (layer->is_drawn(globe->has_night())) {
+      stack.push_back(&layer->seen_by(id));
     } else {
       layer->stop_asking();
     }
   }
-  if (stack.empty() || !stack.front()->is_opaque(has_night())) {
-    if (!plain) plain = ImageLayer::make_plain(setup());
-    stack.insert(stack.begin(), plain.get());
+  if (stack.empty() || !stack.front()->layer().is_opaque(globe->has_night())) {
+    if (!globe->plain) globe->plain = ImageLayer::make_plain(globe->setup());
+    stack.insert(stack.begin(), &globe->plain->seen_by(id));
   }
 }
 
 // In side-by-side stereo each eye gets half the width.
-Viewport Globe::Impl::eye_picture(Viewport viewport) const {
-  if (options.stereo.mode == Stereo::side_by_side) viewport.width_px = std::max(1, viewport.width_px / 2);
+Viewport GlobeView::Impl::eye_picture(Viewport viewport) const {
+  if (stereo.mode == Stereo::side_by_side) viewport.width_px = std::max(1, viewport.width_px / 2);
   return viewport;
 }
 
-void Globe::Impl::look(Viewport viewport) {
-  view = make_view(camera, options.body.ellipsoid, eye_picture(viewport));
+void GlobeView::Impl::look(Viewport viewport) {
+  view = make_view(camera, globe->options.body.ellipsoid, eye_picture(viewport));
   eyes.reset();
-  if (options.stereo.mode == Stereo::off) return;
-  eyes = stereo_eyes(view, ground(), options.stereo);
+  if (stereo.mode == Stereo::off) return;
+  eyes = stereo_eyes(view, globe->ground(), stereo);
   view = eyes->both;
 }
 
-PatchSelectionOptions Globe::Impl::selection_options() const {
+PatchSelectionOptions GlobeView::Impl::selection_options() const {
+  const GlobeOptions& options = globe->options;
   PatchSelectionOptions selection;
   selection.max_error_px = options.max_error_px;
   selection.max_polar_columns = options.polar_columns;
   selection.horizon_culling = options.surface.horizon_culling;
-  selection.relief = relief();
+  selection.relief = globe->relief();
   selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
     const Ellipsoid& e = options.body.ellipsoid;
@@ -62,17 +63,18 @@ PatchSelectionOptions Globe::Impl::selection_options() const {
   return selection;
 }
 
-FrameSnapshot Globe::Impl::snapshot() {
-  if (heights) relief()->refresh_bounds(stack.front()->tree());
-  FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = experiments.patch_shuffle};
-  if (has_night()) snapshot.sun = sun();
-  for (ImageLayer* layer : stack) snapshot.layers.push_back(layer->snapshot());
+FrameSnapshot GlobeView::Impl::snapshot() {
+  if (globe->heights) globe->relief()->refresh_bounds(stack.front()->tree());
+  FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = globe->experiments.patch_shuffle};
+  if (globe->has_night()) snapshot.sun = sun();
+  for (LayerView* layer : stack) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }
 
-void Globe::Impl::execute(FramePlan& plan) {
+void GlobeView::Impl::execute(FramePlan& plan) {
   for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(plan.layers[k], frame);
-  if (heights) stats.relief_meshes = relief()->make_meshes(stack.front()->tree(), plan.meshes);
+  const bool heights = globe->heights != nullptr;
+  if (heights) stats.relief_meshes = globe->relief()->make_meshes(stack.front()->tree(), plan.meshes);
   for (std::size_t k = 1; heights && k < stack.size(); ++k) stack[k]->copy_relief();
   stats.relief_put_off = plan.put_off;
 }
@@ -88,26 +90,29 @@ std::size_t Globe::Impl::take_finished() {
 }
 
 // Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
-std::optional<SkyInput> Globe::Impl::sky() const {
-  if (!almanac || !sky_on || options.unlit) return std::nullopt;
-  SkyInput input{.almanac = *almanac};
-  if (!options.time) {
+std::optional<SkyInput> GlobeView::Impl::sky() const {
+  if (!globe->almanac || !globe->sky_on || globe->options.unlit) return std::nullopt;
+  SkyInput input{.almanac = *globe->almanac};
+  if (!globe->options.time) {
     input.almanac.sun = EcefDir{sun()};
     input.sun = input.moon = false;
   }
   return input;
 }
 
-glm::dvec3 Globe::Impl::sun() const { return almanac && options.time ? almanac->sun.xyz : sun_over_the_shoulder(view); }
+glm::dvec3 GlobeView::Impl::sun() const {
+  return globe->almanac && globe->options.time ? globe->almanac->sun.xyz : sun_over_the_shoulder(view);
+}
 
-FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
+FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
+  const GlobeOptions& options = globe->options;
   FrameInput input{.size = viewport,
                    .corner_px = corner_px,
                    .view = view,
                    .eyes = eyes,
-                   .stereo = options.stereo.mode,
+                   .stereo = stereo.mode,
                    .layers = {},
-                   .relief = relief(),
+                   .relief = globe->relief(),
                    .surface = options.surface,
                    .sky = sky(),
                    .lit = !options.unlit,
@@ -115,26 +120,27 @@ FrameInput Globe::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px) {
                    .timed = options.time.has_value(),
                    .sun = sun(),
                    .frame = frame,
-                   .ground_m = ground().height_m(camera.eye.lat, camera.eye.lon),
+                   .views = static_cast<int>(globe->views.size()),
+                   .ground_m = globe->ground().height_m(camera.eye.lat, camera.eye.lon),
                    .on_draw = &on_draw,
-                   .paper_a = experiments.paper_a,
-                   .paper_band = experiments.paper_band,
-                   .naive_translucency = experiments.naive_translucency};
-  for (ImageLayer* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), has_night()));
+                   .paper_a = globe->experiments.paper_a,
+                   .paper_band = globe->experiments.paper_band,
+                   .naive_translucency = globe->experiments.naive_translucency};
+  for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->has_night()));
   return input;
 }
 
-void Globe::Impl::count() {
-  const ImageLayer& first = *stack.front();
+void GlobeView::Impl::count() {
+  const LayerView& first = *stack.front();
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
-  stats.height_bytes = heights ? relief()->bytes() : 0;
-  for (ImageLayer* layer : stack) {
-    stats.gpu_bytes += layer->gpu_bytes();
+  stats.height_bytes = globe->heights ? globe->relief()->bytes() : 0;
+  for (const LayerView* layer : stack) {
+    stats.gpu_bytes += layer->layer().gpu_bytes();
     stats.patches_held += layer->tree().size();
-    stats.tiles_known += layer->tiles_known();
-    if (layer == plain.get()) continue;
+    stats.tiles_known += layer->layer().tiles_known();
+    if (&layer->layer() == globe->plain.get()) continue;
     stats.tiles_wanted += layer->coverage().tiles;
     stats.tiles_pending += layer->coverage().pending;
     stats.tiles_missing += layer->coverage().missing;
@@ -143,55 +149,93 @@ void Globe::Impl::count() {
 }
 
 // Chooses and requests what the frame draws.
-void Globe::Impl::plan(Viewport viewport) {
+void GlobeView::Impl::plan(Viewport viewport) {
   const auto start = FrameClock::now();
   look(viewport);
   last_plan = plan_frame(view, snapshot(), selection_options(), std::move(last_plan));
   execute(last_plan);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
-  for (ImageLayer* layer : stack) layer->ask();
-  if (!heights) return;
-  stats.heights_pending = heights->ask(stack.front()->patches());
-  stats.heights_missing = relief()->missing();
+  for (LayerView* layer : stack) layer->ask();
+  if (!globe->heights) return;
+  stats.heights_pending = globe->heights->ask(viewers());
+  stats.heights_missing = globe->relief()->missing();
 }
 
-FrameStats Globe::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
+// This view first, then the other views that have drawn.
+std::vector<HeightLayer::Viewer> GlobeView::Impl::viewers() const {
+  std::vector<HeightLayer::Viewer> all{{stack.front()->tree(), stack.front()->patches()}};
+  for (const Impl* other : globe->views) {
+    if (other == this || other->stack.empty()) continue;
+    all.push_back({other->stack.front()->tree(), other->stack.front()->patches()});
+  }
+  return all;
+}
+
+// Heights are taken after the picture is drawn, so that code that steers the eye sees new ground before it is drawn.
+void GlobeView::Impl::take_heights() {
+  if (!globe->heights) return;
+  std::vector<HeightLayer::Viewer> all = viewers();
+  globe->heights->take_finished(all, globe->options.relief_meshes_per_frame, globe->missing_heights);
+  heights_seen = globe->heights->taken();
+  auto viewer = all.begin();
+  stats.heights_arrived = viewer->arrived;
+  for (Impl* other : globe->views) {
+    if (other != this && !other->stack.empty() && (++viewer)->arrived) other->stats.heights_arrived = true;
+  }
+}
+
+void GlobeView::Impl::draw_picture(unsigned framebuffer, const FrameInput& input) {
+  const Result<FrameCounts> counts = globe->renderer->draw(input, memory, framebuffer);
+  status = counts ? Status(Done{}) : counts.error();
+  if (!counts) return;
+  stats.draw_calls = counts->draw_calls;
+  stats.triangles = counts->triangles;
+}
+
+FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when) {
+  globe->take_cuts();
+  if (std::exchange(globe->changed, false)) {
+    for (Impl* each : globe->views) each->changed = true;
+  }
   stats = {};
-  ++frame;
-  changed = false;
+  frame = ++globe->frame;
   if (viewport != drawn) restore_detail();
+  changed = false;
   drawn = viewport;
   drawn_into = framebuffer;
-  stats.uploaded_bytes = take_finished();
-  stats.objects_cut = std::exchange(objects_cut, 0);
+  stats.uploaded_bytes = globe->take_finished();
+  stats.objects_cut = std::exchange(globe->objects_cut, 0);
   stack_layers();
   plan(viewport);
-  const Result<FrameCounts> counts = renderer->draw(frame_input(viewport, corner_px), framebuffer);
-  status = counts ? Status(Done{}) : counts.error();
-  if (counts) {
-    stats.draw_calls = counts->draw_calls;
-    stats.triangles = counts->triangles;
+  status = Done{};
+  const FrameInput input = frame_input(viewport, corner_px);
+  // Programs are made while tiles are on their way.
+  if (when == Draw::when_settled && !settled()) {
+    status = globe->renderer->prepare(input, memory);
+  } else {
+    draw_picture(framebuffer, input);
   }
-  for (ImageLayer* layer : stack) layer->end_frame(frame);
+  for (LayerView* layer : stack) layer->layer().end_frame(*layer, frame);
   count();
-  // Heights are taken after the picture is drawn, so that code that steers the eye sees new ground before it is drawn.
-  if (heights) {
-    ImageLayer& base = *stack.front();
-    stats.heights_arrived =
-        heights->take_finished(base.tree(), base.patches(), options.relief_meshes_per_frame, missing_heights);
-  }
+  take_heights();
   return stats;
 }
 
-bool Globe::Impl::settled() const {
+bool GlobeView::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
-  return std::ranges::all_of(stack, [](ImageLayer* layer) { return layer->settled(); });
+  if (std::ranges::any_of(globe->objects, &ObjectLayer::waits)) return false;
+  return std::ranges::all_of(stack, [](const LayerView* layer) { return layer->settled(); });
 }
 
-void Globe::Impl::restore_detail() {
+void GlobeView::Impl::restore_detail() {
   changed = true;
-  for (const auto& layer : images) layer->restore_detail();
+  for (LayerView* layer : stack) layer->restore_detail();
+}
+
+void GlobeView::Impl::tell_settled() {
+  const bool settled_before = std::exchange(was_settled, settled());
+  if (was_settled && !settled_before && on_settled) on_settled();
 }
 
 }  // namespace terrella

@@ -104,7 +104,7 @@ Status Globe::move(LayerId layer, std::size_t position) {
   auto& objects = impl_->objects;
   if (const auto from = std::ranges::find(objects, layer, &ObjectLayer::id); from != objects.end()) {
     move_to(objects, from, position);
-    return impl_->upload_objects();
+    return impl_->show_layers();
   }
   auto& images = impl_->images;
   const auto from = std::ranges::find_if(images, [layer](const auto& image) { return image->id() == layer; });
@@ -119,11 +119,13 @@ Status Globe::remove(LayerId layer) {
   if (!call) return call.error();
   if (impl_->object(layer) != nullptr) {
     std::erase_if(impl_->objects, [layer](const ObjectLayer& other) { return other.id == layer; });
-    return impl_->upload_objects();
+    return impl_->show_layers();
   }
   ImageLayer* image = impl_->image(layer);
   if (image == nullptr) return no_layer("Globe::remove", "layer", layer);
-  std::erase(impl_->stack, image);
+  for (GlobeView::Impl* view : impl_->views) {
+    std::erase_if(view->stack, [image](const LayerView* drawn) { return &drawn->layer() == image; });
+  }
   std::erase_if(impl_->images, [image](const auto& other) { return other.get() == image; });
   impl_->share_gpu();
   impl_->restore_detail();
@@ -158,43 +160,13 @@ Result<std::string> Globe::attribution(LayerId layer) const {
   return no_layer("Globe::attribution", "layer", layer);
 }
 
-std::vector<std::string> Globe::attributions() const {
-  std::vector<std::string> texts;
-  if (!impl_->may_call("Globe::attributions")) return texts;
-  const auto add = [&texts](const std::string& text) {
-    if (!text.empty() && std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
-  };
-  for (const ImageLayer* layer : impl_->stack) {
-    if (layer->is_on_screen()) add(layer->attribution());
-  }
-  if (impl_->stack.empty() || impl_->stack.front()->patches().empty()) return texts;
-  if (impl_->heights && impl_->heights->is_on_screen()) add(impl_->heights->attribution());
-  for (const ObjectLayer& layer : impl_->objects) {
-    if (layer.is_drawn()) add(layer.attribution);
-  }
-  return texts;
-}
-
-std::optional<double> Globe::finest_texel_m() const {
-  std::optional<double> finest;
-  if (!impl_->may_call("Globe::finest_texel_m")) return finest;
-  const double degree_m = options().body.ellipsoid.a_m() * Angle::degrees(1.0).rad();
-  for (const ImageLayer* layer : impl_->stack) {
-    if (!layer->is_on_screen()) continue;
-    const TileGrid& grid = layer->grid();
-    const double texel_m = tile_span_deg(grid, grid.max_level) / grid.tile_px * degree_m;
-    finest = std::min(finest.value_or(texel_m), texel_m);
-  }
-  return finest;
-}
-
 // Relief raises the vertices of patches, so all patches are discarded.
 Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   const auto call = impl_->may_draw("Globe::set_elevation");
   if (!call) return call.error();
   if (!elevation && !impl_->heights) return Done{};
   if (elevation.has_value() != has_relief()) {
-    if (Status made = impl_->renderer->set_relief(elevation.has_value()); !made) return made;
+    impl_->renderer->set_relief(elevation.has_value());
   }
   impl_->renderer->forget_slopes();
   impl_->heights.reset();

@@ -1,10 +1,24 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "globe/globe_impl.h"
-#include "objects/faded_scene.h"
 
 // The object layers of a globe.
 namespace terrella {
+namespace {
+
+bool is_positive(const ObjectChange& change) { return !change.size_px || *change.size_px > 0.0F; }
+
+Status report(const std::vector<ObjectId>& unknown) {
+  if (unknown.empty()) return Done{};
+  const std::string more = unknown.size() == 1 ? "" : fmt::format(" and {} other ids", unknown.size() - 1);
+  return Error{
+      fmt::format("Globe::edit_objects: the layer has no object {}{}; add them first. The other edits are made",
+                  static_cast<std::uint64_t>(unknown.front()), more)};
+}
+
+}  // namespace
 
 ObjectLayer* Globe::Impl::object(LayerId id) {
   const auto found = std::ranges::find(objects, id, &ObjectLayer::id);
@@ -22,9 +36,11 @@ Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   const auto call = impl_->may_draw("Globe::add_objects");
   if (!call) return call.error();
   const LayerId id = impl_->next_id();
-  impl_->objects.push_back({id, std::move(objects), shown});
-  if (Status made = impl_->upload_objects(); !made) {
+  ObjectLayer& layer = impl_->objects.emplace_back(id, shown, impl_->bell);
+  impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid);
+  if (Status made = impl_->show_layers(); !made) {
     impl_->objects.pop_back();
+    static_cast<void>(impl_->show_layers());
     return made.error();
   }
   return id;
@@ -35,12 +51,32 @@ Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   if (!call) return call.error();
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::set_objects", "object layer", layer);
+  impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid);
+  return impl_->show_layers();
+}
+
+// The frame uploads what the edits change. So most edits need no OpenGL; a layer that begins to be drawn does.
+Status Globe::edit_objects(LayerId layer, ObjectEdits edits) {
+  if (Status call = impl_->may_call("Globe::edit_objects"); !call) return call;
+  ObjectLayer* changed = impl_->object(layer);
+  if (changed == nullptr) return no_layer("Globe::edit_objects", "object layer", layer);
+  const auto wrong = std::ranges::find_if_not(edits.changes, is_positive);
+  const float wrong_px = wrong == edits.changes.end() ? 1.0F : *wrong->size_px;
+  std::erase_if(edits.changes, [](const ObjectChange& change) { return !is_positive(change); });
+  std::vector<ObjectId> unknown;
   const bool was_drawn = changed->is_drawn();
-  changed->scene = std::move(objects);
-  changed->line_length.reset();
-  changed->cut.reset();
-  changed->faded.reset();
-  return was_drawn || changed->is_drawn() ? impl_->upload_objects() : Status(Done{});
+  impl_->objects_cut += changed->edit(std::move(edits), unknown);
+  impl_->changed = true;
+  if (changed->is_drawn() != was_drawn) {
+    const auto call = impl_->may_draw("Globe::edit_objects");
+    if (!call) return call.error();
+    if (Status shown = impl_->show_layers(); !shown) return shown;
+  }
+  if (!(wrong_px > 0.0F)) {
+    return Error{
+        fmt::format("Globe::edit_objects: a size of {} px; give a positive one. The other edits are made", wrong_px)};
+  }
+  return report(unknown);
 }
 
 Status Globe::show_objects(LayerId layer, bool shown) {
@@ -49,7 +85,7 @@ Status Globe::show_objects(LayerId layer, bool shown) {
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::show_objects", "object layer", layer);
   if (std::exchange(changed->shown, shown) == shown) return Done{};
-  return impl_->upload_objects();
+  return impl_->show_layers();
 }
 
 Status Globe::fade_objects(LayerId layer, double opacity) {
@@ -58,37 +94,31 @@ Status Globe::fade_objects(LayerId layer, double opacity) {
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::fade_objects", "object layer", layer);
   if (Status good = check_opacity("Globe::fade_objects", opacity); !good) return good;
-  if (std::exchange(changed->opacity, opacity) == opacity) return Done{};
-  changed->faded.reset();
-  return impl_->upload_objects();
+  if (changed->opacity() == opacity) return Done{};
+  changed->set_opacity(opacity);
+  return impl_->show_layers();
 }
 
-// Cuts a scene once. Fading the scene changes only its colours.
-CutScene Globe::Impl::cut_scene(ObjectLayer& layer, Angle step) {
-  if (!layer.cut || layer.cut->step != step) {
-    layer.cut = cut_objects(layer.scene, options.body.ellipsoid, step);
-    objects_cut += layer.scene.lines.size() + layer.scene.polygons.size();
-  }
-  if (layer.opacity == 1.0) return {layer.scene, *layer.cut};
-  if (!layer.faded) layer.faded = faded(layer.scene, layer.opacity);
-  return {*layer.faded, *layer.cut};
-}
-
-// Objects that one draw takes must be contiguous, across layers.
-Status Globe::Impl::upload_objects() {
+Status Globe::Impl::show_layers() {
   changed = true;
-  std::vector<ObjectLayer*> seen;
+  std::vector<DrawnLayer> layers;
   for (ObjectLayer& layer : objects) {
-    if (layer.is_drawn()) seen.push_back(&layer);
+    static_cast<void>(layer.take_replaced());
+    if (layer.is_drawn()) layers.push_back(layer.drawn());
   }
-  Angle length{};
-  for (ObjectLayer* layer : seen) {
-    if (!layer->line_length) layer->line_length = line_length(layer->scene);
-    length = length + *layer->line_length;
+  return renderer->set_objects(std::move(layers));
+}
+
+// A program that cannot be made is reported by the frame.
+void Globe::Impl::take_cuts() {
+  bool replaced = false;
+  for (ObjectLayer& layer : objects) {
+    const std::size_t taken = layer.take_cuts();
+    objects_cut += taken;
+    changed = changed || taken > 0;
+    replaced = layer.take_replaced() || replaced;
   }
-  std::vector<CutScene> scenes;
-  for (ObjectLayer* layer : seen) scenes.push_back(cut_scene(*layer, line_step(length)));
-  return renderer->set_objects(scenes);
+  if (replaced) static_cast<void>(show_layers());
 }
 
 }  // namespace terrella

@@ -16,28 +16,31 @@ bool holds(const TileGrid& grid, const Ellipsoid& ellipsoid, const Geodetic& pla
 
 }  // namespace
 
-bool Globe::Impl::shows(const ImageLayer& layer, const Geodetic& place) const {
-  if (!layer.is_drawn(has_night()) || !holds(layer.grid(), options.body.ellipsoid, place)) return false;
-  if (!has_night()) return true;
+bool GlobeView::Impl::shows(const ImageLayer& layer, const Geodetic& place) const {
+  const bool has_night = globe->has_night();
+  if (!layer.is_drawn(has_night) || !holds(layer.grid(), globe->options.body.ellipsoid, place)) return false;
+  if (!has_night) return true;
   const double sun_sine = glm::dot(Ellipsoid::normal(place.lat, place.lon).xyz, sun());
   return part_shown(layer.look().daylight, sun_sine) > 0.0;
 }
 
-View Globe::view(Viewport viewport) const { return make_view(impl_->camera, impl_->options.body.ellipsoid, viewport); }
+View GlobeView::Impl::eye_view(Viewport viewport) const {
+  return make_view(camera, globe != nullptr ? globe->options.body.ellipsoid : earth().ellipsoid, viewport);
+}
 
-GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
+GlobePick GlobeView::Impl::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   GlobePick found;
-  if (!impl_->may_call("Globe::pick")) return found;
-  const View eye = view(viewport);
-  const Ground drawn = ground();
-  found.place = terrella::pick(eye, drawn, pixel_px);
-  for (const auto& layer : impl_->images) {
-    if (found.place && impl_->shows(*layer, *found.place)) found.imagery = layer->id();
+  const View eye = eye_view(viewport);
+  const Ground drawn_ground = globe->ground();
+  found.place = terrella::pick(eye, drawn_ground, pixel_px);
+  for (const auto& layer : globe->images) {
+    if (found.place && shows(*layer, *found.place)) found.imagery = layer->id();
   }
-  const PickOptions how{.through_ground = impl_->options.surface.alpha < 1.0};
-  for (const ObjectLayer& layer : impl_->objects) {
+  const PickOptions how{.through_ground = globe->options.surface.alpha < 1.0};
+  for (const ObjectLayer& layer : globe->objects) {
     if (!layer.is_drawn()) continue;
-    const auto object = pick_object(eye, drawn, layer.scene, pixel_px, how);
+    LayerObjects& objects = *layer.drawn().objects;
+    const auto object = objects.pick(eye, drawn_ground, pixel_px, how, memory.labels.at(objects, pixel_px, viewport));
     if (!object || (found.object && found.object->distance_m < object->distance_m)) continue;
     found.object = object;
     found.objects = layer.id;
@@ -65,15 +68,14 @@ std::future<Result<double, TileFailure>> Globe::stored_value(LayerId imagery, co
   });
 }
 
-std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewport) const {
-  if (!impl_->may_call("Globe::project")) return std::nullopt;
-  const View eye = view(viewport);
-  const Ecef at = impl_->options.body.ellipsoid.to_ecef(place);
+std::optional<glm::dvec2> GlobeView::Impl::project(const Geodetic& place, Viewport viewport) const {
+  const View eye = eye_view(viewport);
+  const Ecef at = globe->options.body.ellipsoid.to_ecef(place);
   const auto pixel = terrella::project(eye, at);
   if (!pixel || pixel->x < 0.0 || pixel->y < 0.0 || pixel->x > viewport.width_px || pixel->y > viewport.height_px) {
     return std::nullopt;
   }
-  return hidden_by_ground(eye, ground(), at) ? std::nullopt : pixel;
+  return hidden_by_ground(eye, globe->ground(), at) ? std::nullopt : pixel;
 }
 
 Ground Globe::ground() const { return impl_->ground(); }

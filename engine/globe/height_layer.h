@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,14 +26,21 @@ class HeightLayer {
   /// True if any heights are loaded.
   [[nodiscard]] bool is_on_screen() const { return relief_->field().size() > 0; }
 
-  /// Adds arrived tiles to the relief, one by one, until `meshes` meshes of the given patches are out of date. Appends
-  /// failed tiles to `missing`. True if a tile has arrived.
-  bool take_finished(const PatchTree& tree, const std::vector<SelectedPatch>& patches, int meshes,
-                     std::deque<MissingTile>& missing);
-  /// Requests the tiles that the patches want and that are not loaded. Returns their number.
-  int ask(const std::vector<SelectedPatch>& patches);
-  /// See TileStream::has_news().
-  [[nodiscard]] bool has_news() const { return stream_.has_news(); }
+  /// The patches of one view, and the answer: true if heights have arrived under them.
+  struct Viewer {
+    const PatchTree& tree;
+    const std::vector<SelectedPatch>& patches;
+    bool arrived = false;
+  };
+  /// Adds arrived tiles to the relief, one by one, until `meshes` meshes of the first viewer's patches are out of date.
+  /// Appends failed tiles to `missing`. Tells each viewer.
+  void take_finished(std::span<Viewer> viewers, int meshes, std::deque<MissingTile>& missing);
+  /// Requests the tiles that the viewers' patches want and that are not loaded. Returns the number of those that the
+  /// first one wants.
+  int ask(std::span<const Viewer> viewers);
+  /// See TileStream.
+  [[nodiscard]] const StreamCounts& taken() const { return stream_.taken(); }
+  [[nodiscard]] bool has_news(const StreamCounts& since, bool wants) const { return stream_.has_news(since, wants); }
 
  private:
   std::shared_ptr<Relief> relief_;  ///< shared with each Ground

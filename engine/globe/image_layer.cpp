@@ -10,8 +10,6 @@ namespace {
 
 constexpr int kMips = 4;
 constexpr TileGrid kPlainGrid{.tile_px = 16};
-/// Priority of drawn tiles that have a better edition: after all tiles that are not there.
-constexpr double kRenewal = -1e9;
 
 // The other texturing methods exist for comparison, so they draw the full grid, as every tool does.
 TileGrid grid_to_draw(const GlobeOptions& options, TileGrid grid) {
@@ -42,10 +40,10 @@ ImageLayer::ImageLayer(LayerId id, const LayerSetup& setup, std::shared_ptr<Tile
       tiles_(grid_, layout_of(setup.options, grid_, source.get()), kMips, gpu_bytes),
       source_(std::move(source)),
       retry_after_(setup.options.retry_after) {
-  discard_patches();
   if (!source_) return;
-  if (const auto& slots = tiles_.layout().numbers) gpu_.numbers.emplace(*source_->info().numbers, *slots);
-  loading_ = {.workers = setup.options.workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
+  if (const auto& slots = tiles_.layout().numbers) numbers_.emplace(*source_->info().numbers, *slots);
+  const int workers = setup.options.workers > 0 ? setup.options.workers : decoder_threads();
+  loading_ = {.workers = workers, .gutter = setup.options.gutter_px, .mips = kMips, .bell = setup.bell};
   // Tiles waiting for slots hold at most as many bytes as all slots.
   loading_.max_finished_bytes =
       std::min(loading_.max_finished_bytes, static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes());
@@ -84,10 +82,60 @@ void ImageLayer::set_look(const ImageLook& look) {
   look_ = look;
 }
 
+bool ImageLayer::is_outdated(const TileId& id, const TileResidency::Entry& entry) const {
+  return entry.is_outdated || (entry.edition < source_->edition() && entry.edition < source_->edition_of(id));
+}
+
+LayerView& ImageLayer::seen_by(ViewId view) {
+  const auto found = std::ranges::find_if(views_, [view](const auto& seen) { return seen->view() == view; });
+  if (found != views_.end()) return **found;
+  return *views_.emplace_back(std::make_unique<LayerView>(*this, view));
+}
+
+void ImageLayer::forget(ViewId view) {
+  if (std::erase_if(views_, [view](const auto& seen) { return seen->view() == view; }) > 0) restore_detail();
+}
+
 void ImageLayer::discard_patches() {
-  gpu_.vertices.reset();
-  patches_.clear();
-  tree_ = std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
+  for (const auto& view : views_) view->discard_patches();
+}
+
+void ImageLayer::restore_detail() {
+  for (const auto& view : views_) view->restore_detail();
+}
+
+std::unique_ptr<PatchTree> ImageLayer::make_tree() const {
+  return std::make_unique<PatchTree>(ellipsoid_, grid_, segments_, mapping_);
+}
+
+// Slot 0 and the slots of root tiles are never evicted. A tenth of the others stays free for tiles in flight.
+int ImageLayer::room_for(const LayerView& view) const {
+  const int all = (tiles_.capacity() - 1 - static_cast<int>(roots_.size())) * 9 / 10;
+  int others = 0, sharing = 1;
+  for (const auto& other : views_) {
+    if (other.get() == &view || other->coverage().tiles == 0) continue;
+    others += other->coverage().tiles;
+    ++sharing;
+  }
+  return std::max(all - others, all / sharing);
+}
+
+bool ImageLayer::is_crowded(const LayerView& view) const {
+  return views_.size() > 1 && view.coverage().tiles > room_for(view);
+}
+
+void ImageLayer::request(const LayerView& asking) {
+  if (views_.size() == 1) return stream_->request(asking.requests());
+  std::vector<TileRequest> all = asking.requests();
+  for (const auto& view : views_) {
+    if (view.get() == &asking) continue;
+    for (const TileRequest& request : view->requests()) {
+      const TileResidency::Entry* entry = tiles_.residency().find(request.id);
+      const bool is_there = entry != nullptr && entry->state != TileState::unknown;
+      if (!is_there || (entry->state == TileState::resident && is_outdated(request.id, *entry))) all.push_back(request);
+    }
+  }
+  stream_->request(all);
 }
 
 bool ImageLayer::is_drawn(bool has_night) const {
@@ -100,35 +148,21 @@ bool ImageLayer::is_opaque(bool has_night) const {
   return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(has_night);
 }
 
+bool ImageLayer::hides(bool has_night) const {
+  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(has_night);
+}
+
 bool ImageLayer::is_special(bool has_night) const {
   return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
          (has_night && look_.daylight != Daylight::both);
 }
 
-// Slot 0 and the slots of root tiles are never evicted. A tenth of the others stays free for tiles in flight.
-LayerSnapshot ImageLayer::snapshot() {
-  LayerSnapshot layer{.tree = tree_.get(),
-                      .tiles = &tiles_.residency(),
-                      .texels_per_pixel = texels_per_pixel_,
-                      .detail = detail_,
-                      .max_tile_level = look_.max_level,
-                      .daylight = look_.daylight};
-  if (stream_) layer.room = (tiles_.capacity() - 1 - static_cast<int>(roots_.size())) * 9 / 10;
-  if (look_.min_level > grid_.min_level) layer.least_level = look_.min_level;
-  return layer;
-}
-
-void ImageLayer::execute(LayerPlan& plan, std::uint64_t frame) {
-  tree_->adopt(plan.growth);
-  std::swap(patches_, plan.patches);
-  std::swap(coverage_, plan.coverage);
-  detail_ = plan.detail;
-  frame_ = frame;
-  coverage_.uses.note(frame, tiles_.residency());
-}
-
-void ImageLayer::copy_relief() {
-  for (const SelectedPatch& patch : patches_) PatchTree::copy_relief(*patch.surface, *patch.node);
+// An upload evicts what no view needs. A view that takes more than its room is not spared.
+void ImageLayer::keep_tiles_of_views(std::size_t uploads, std::uint64_t frame) {
+  if (views_.size() < 2 || tiles_.free_slots() > static_cast<int>(uploads)) return;
+  for (const auto& view : views_) {
+    if (!is_crowded(*view)) view->keep_tiles(frame - 1);
+  }
 }
 
 std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t frame,
@@ -136,6 +170,7 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
   std::size_t bytes = 0;
   if (!stream_) return bytes;
   stream_->retry();
+  keep_tiles_of_views(allowance.bytes / tiles_.slot_bytes() + 1, frame);
   while (allowance.bytes > 0) {
     const std::optional<LoadedTile> loaded = stream_->take(missing);
     if (!loaded) break;
@@ -153,52 +188,14 @@ std::size_t ImageLayer::take_finished(UploadAllowance& allowance, std::uint64_t 
   return bytes;
 }
 
-// Root tiles come first: an ancestor for everything.
-void ImageLayer::ask() {
-  if (!stream_) return;
-  std::vector<TileRequest> requests;
-  for (const TileId& id : roots_) {
-    if (tiles_.residency().entry(id).state == TileState::unknown) requests.push_back({id, 1e9});
-  }
-  for (const WantedTile& wanted : coverage_.wanted) requests.push_back({wanted.id, wanted.priority});
-  edition_ = source_->edition();
-  outdated_drawn_ = 0;
-  if (edition_ > 0 || was_invalidated_) add_outdated(requests);
-  stream_->request(requests);
-}
-
-void ImageLayer::add_outdated(std::vector<TileRequest>& requests) {
-  for (const auto& [id, entry] : tiles_.residency().entries()) {
-    if (entry.state != TileState::resident || entry.last_drawn < frame_) continue;
-    if (entry.is_outdated) ++outdated_drawn_;
-    if (entry.is_outdated || (entry.edition < edition_ && entry.edition < source_->edition_of(id))) {
-      requests.push_back({id, kRenewal});
-    }
-  }
-}
-
-void ImageLayer::end_frame(std::uint64_t frame) {
-  tree_->end_frame();
+void ImageLayer::end_frame(LayerView& view, std::uint64_t frame) {
+  view.tree().end_frame();
   tiles_.residency().end_frame(frame, grid_.min_level);
 }
 
 void ImageLayer::stop_asking() {
+  for (const auto& view : views_) view->stop_asking();
   if (stream_) stream_->stop();
-}
-
-LayerFrame ImageLayer::frame(bool is_base, bool has_night) {
-  if (gpu_.numbers) gpu_.numbers->set(*look_.numbers);
-  tiles_.set_empty(is_base ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
-  return {.tree = tree_.get(),
-          .patches = &patches_,
-          .coverage = &coverage_,
-          .tiles = &tiles_,
-          .gpu = &gpu_,
-          .opacity = is_base ? 1.0 : look_.opacity,
-          .daylight = has_night ? look_.daylight : Daylight::both,
-          .alpha = look_.alpha,
-          .height_m = is_base ? 0.0 : look_.height_m,
-          .special = is_special(has_night)};
 }
 
 std::optional<LayerValue> ImageLayer::value_at(const Geodetic& place) const {
@@ -217,19 +214,10 @@ std::optional<LayerValue> ImageLayer::value_at(const Geodetic& place) const {
     };
     const double number = tiles_.number_at(id, texel(std::ldexp(at.x, -id.squeeze) - static_cast<double>(id.x)),
                                            texel(at.y - static_cast<double>(id.y)));
-    const NumberInfo& info = gpu_.numbers->info();
+    const NumberInfo& info = numbers_->info();
     return LayerValue{.value = number * info.scale + info.offset, .level = level};
   }
   return std::nullopt;
-}
-
-// Patches of a root tile that has finally failed can never be covered, so nothing waits for them.
-bool ImageLayer::settled() {
-  if (!stream_) return true;
-  if (!coverage_.wanted.empty() || outdated_drawn_ > 0) return false;
-  if (coverage_.uncovered == 0) return true;
-  return std::ranges::none_of(
-      roots_, [this](const TileId& id) { return tiles_.residency().entry(id).state == TileState::unknown; });
 }
 
 }  // namespace terrella

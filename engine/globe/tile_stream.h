@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <span>
@@ -20,6 +21,12 @@ inline void note(std::deque<MissingTile>& missing, MissingTile tile) {
   missing.push_back(std::move(tile));
   if (missing.size() > kMost) missing.pop_front();
 }
+
+/// Counts of a stream. A view remembers those of its last frame, so that it knows whether others took what it wants.
+struct StreamCounts {
+  std::uint64_t taken = 0;    ///< tiles handed over, failed ones too
+  std::uint64_t retries = 0;  ///< rounds of retries
+};
 
 /// Brings the tiles of one layer from the source into the scene. Requests the tiles that a frame wants and hands over
 /// arrived tiles. Marks in the residency which tiles are missing and when to retry them. Imagery and heights differ
@@ -41,13 +48,18 @@ class TileStream {
     if (std::exchange(wants_, false)) loader_.request({});
   }
   /// Marks tiles as unknown again when their time to retry has come.
-  void retry() { residency_.retry(Clock::now()); }
+  void retry() {
+    if (!residency_.has_retry(Clock::now())) return;
+    residency_.retry(Clock::now());
+    ++taken_.retries;
+  }
   /// Returns the next decoded tile; none if no other tile has arrived. Marks failed tiles and appends them to
   /// `missing`.
   std::optional<Loaded<Decoded>> take(std::deque<MissingTile>& missing) {
     for (;;) {
       std::vector<Loaded<Decoded>> next = loader_.poll(1);
       if (next.empty()) return std::nullopt;
+      ++taken_.taken;
       if (next.front().tile) return std::move(next.front());
       if (keep_earlier(next.front())) continue;
       const TileFailure& failure = next.front().tile.error();
@@ -56,12 +68,14 @@ class TileStream {
       note(missing, {next.front().id, failure, layer_});
     }
   }
-  /// True if a frame would have something to do: a tile has arrived, a retry is due, or tiles are wanted and none is in
-  /// flight.
-  [[nodiscard]] bool has_news() const {
-    if (residency_.has_retry(Clock::now())) return true;
+  [[nodiscard]] const StreamCounts& taken() const { return taken_; }
+  /// True if a frame of a view would have something to do: a retry is due or was made since the view's last frame; or
+  /// the view wants tiles, and tiles have arrived since then, or none is in flight.
+  [[nodiscard]] bool has_news(const StreamCounts& since, bool wants) const {
+    if (taken_.retries != since.retries || residency_.has_retry(Clock::now())) return true;
+    if (!wants) return false;
     const LoaderCounts counts = loader_.counts();
-    return counts.finished > 0 || (wants_ && counts.waiting + counts.running + counts.fetching == 0);
+    return taken_.taken != since.taken || counts.finished > 0 || counts.waiting + counts.running + counts.fetching == 0;
   }
   [[nodiscard]] LoaderCounts counts() const { return loader_.counts(); }
 
@@ -80,6 +94,7 @@ class TileStream {
   LayerId layer_;
   Clock::duration retry_after_;
   bool wants_ = false;  ///< the last request was not empty
+  StreamCounts taken_;
 };
 
 }  // namespace terrella

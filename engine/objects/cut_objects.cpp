@@ -1,39 +1,63 @@
 #include "objects/cut_objects.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "geo/split_position.h"
 
 namespace terrella {
 namespace {
 
-/// Areas get their triangles from the lowest to the highest. If there are too many triangles, the highest areas are
-/// left out.
-void cut_fills(const ObjectScene& scene, const Ellipsoid& ellipsoid, CutObjects& cut) {
-  for (const PolygonObject& polygon : scene.polygons) cut.heights_m.push_back(mean_height_m(polygon));
-  std::vector<std::size_t> order(scene.polygons.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&cut](std::size_t k) { return cut.heights_m[k]; });
-  cut.fills.resize(scene.polygons.size());
-  std::size_t triangles = 0;
-  for (const std::size_t k : order) {
-    if (scene.polygons[k].fill.alpha == 0) continue;
-    cut.fills[k] = fill_area(scene.polygons[k], ellipsoid, kMostFillTriangles - triangles);
-    triangles += cut.fills[k].indices.size() / 3;
-  }
+/// Pieces of lines that take about a frame's time.
+constexpr double kMostPiecesAtOnce = 30'000.0;
+/// An area with a fill costs as much as so many pieces of a line.
+constexpr double kPiecesOfAFill = 1500.0;
+
+/// Appends a way with one vertex before and one after it. For a closed way, these are its neighbours round the corner.
+void append_way(const std::vector<glm::dvec3>& way, bool closed, std::vector<LineVertex>& out) {
+  if (way.size() < 2) return;
+  const auto vertex = [](const glm::dvec3& p_m, float width) {
+    const SplitPosition p = split_position(p_m);
+    return LineVertex{p.high, p.low, width, {}};
+  };
+  out.push_back(vertex(closed ? way[way.size() - 2] : way.front(), 0.0F));
+  for (std::size_t k = 0; k + 1 < way.size(); ++k) out.push_back(vertex(way[k], 1.0F));
+  out.push_back(vertex(way.back(), 0.0F));
+  out.push_back(vertex(closed ? way[1] : way.back(), 0.0F));
 }
 
-/// Outlines lie at the height of the fills.
-void cut_outlines(const ObjectScene& scene, const Ellipsoid& ellipsoid, CutObjects& cut) {
-  cut.outlines.resize(scene.polygons.size());
-  for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
-    const PolygonObject& polygon = scene.polygons[k];
-    if (polygon.stroke.alpha == 0) continue;
-    const double lift_m = is_underground(polygon) ? 0.0 : std::max(cut.fills[k].lift_m, sag_m(ellipsoid, cut.step));
-    for (const auto& ring : polygon.rings) cut.outlines[k].push_back(outline(ring, ellipsoid, cut.step, lift_m));
+/// Outlines lie at the height of the fill.
+AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
+  AreaCut cut{.index = area.index};
+  const PolygonObject& shape = *area.shape;
+  double lift_m = sag_m(job.ellipsoid, job.step);
+  if (area.fill) {
+    FillMesh mesh = fill_area(shape, job.ellipsoid, most_triangles);
+    cut.dropped = mesh.indices.empty();
+    cut.triangles = std::move(mesh.indices);
+    cut.fill.reserve(mesh.positions_m.size());
+    for (const glm::dvec3& p_m : mesh.positions_m) {
+      const SplitPosition p = split_position(p_m);
+      cut.fill.push_back({p.high, p.low, {}});
+    }
+    lift_m = std::max(lift_m, mesh.lift_m);
   }
+  if (!area.outline) return cut;
+  if (is_underground(shape)) lift_m = 0.0;
+  for (const auto& ring : shape.rings) append_way(outline(ring, job.ellipsoid, job.step, lift_m), true, cut.outline);
+  return cut;
 }
 
 }  // namespace
+
+bool CutJob::is_large() const {
+  double pieces = 0.0;
+  for (const Line& line : lines) pieces += double(line.shape->places.size()) + length_of(line.shape->places) / step;
+  for (const Area& area : areas) {
+    if (area.fill) pieces += kPiecesOfAFill;
+    for (const auto& ring : area.shape->rings) pieces += double(ring.size()) + length_of(ring) / step;
+  }
+  return !(pieces <= kMostPiecesAtOnce);
+}
 
 Angle line_length(const ObjectScene& scene) {
   Angle length{};
@@ -50,14 +74,20 @@ Angle line_step(Angle length) {
   return step;
 }
 
-CutObjects cut_objects(const ObjectScene& scene, const Ellipsoid& ellipsoid, Angle step) {
+CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop) {
   CutObjects cut;
-  cut.step = step;
-  for (const LineObject& line : scene.lines) {
-    cut.lines.push_back(line.color.alpha == 0 ? CutObjects::Way{} : line_along_geodesics(line.places, ellipsoid, step));
+  for (const CutJob::Line& line : job.lines) {
+    if (stop) return cut;
+    cut.lines.push_back({.index = line.index, .vertices = {}});
+    append_way(line_along_geodesics(line.shape->places, job.ellipsoid, job.step), false, cut.lines.back().vertices);
   }
-  cut_fills(scene, ellipsoid, cut);
-  cut_outlines(scene, ellipsoid, cut);
+  std::ranges::stable_sort(job.areas, {}, &CutJob::Area::height_m);
+  for (const CutJob::Area& area : job.areas) {
+    if (stop) return cut;
+    cut.areas.push_back(cut_area(area, job, job.most_triangles));
+    job.most_triangles -= cut.areas.back().triangles.size() / 3;
+  }
+  std::ranges::sort(cut.areas, {}, &AreaCut::index);
   return cut;
 }
 

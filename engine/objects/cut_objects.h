@@ -1,37 +1,73 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
-#include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
+#include "geo/ellipsoid.h"
+#include "objects/object_batches.h"
 #include "objects/object_shapes.h"
 
 namespace terrella {
 
-/// Limits of one scene. Over the first, lines are cut more coarsely; over the second, areas are left out.
+/// Limits of one layer. Over the first, lines are cut more coarsely; over the second, areas are left out.
 inline constexpr std::size_t kMostLineVertices = 4'000'000;
 inline constexpr std::size_t kMostFillTriangles = 8'000'000;
 
-/// The lines and areas of a scene, cut so that they follow the ellipsoid. This is the slow part of making batches.
-/// Colours do not matter, except that objects with alpha 0 are left empty.
-struct CutObjects {
-  using Way = std::vector<glm::dvec3>;  ///< ECEF, metres
+/// A line, cut so that it follows the ellipsoid: in the layout for the GPU, without a colour. Pieces are 1 px wide.
+struct LineCut {
+  std::uint32_t index = 0;  ///< of the line, in its layer
+  std::vector<LineVertex> vertices;
+};
 
-  Angle step{};                            ///< step at which lines and outlines were cut
-  std::vector<Way> lines;                  ///< one per line
-  std::vector<FillMesh> fills;             ///< one per area
-  std::vector<double> heights_m;           ///< one per area: mean height of its places
-  std::vector<std::vector<Way>> outlines;  ///< per area, one per ring
+/// An area, cut likewise: its fill and its outlines.
+struct AreaCut {
+  std::uint32_t index = 0;  ///< of the area, in its layer
+  std::vector<FillVertex> fill = {};
+  std::vector<std::uint32_t> triangles = {};
+  std::vector<LineVertex> outline = {};
+  bool dropped = false;  ///< the fill is invalid, or the layer would have more than kMostFillTriangles
+};
+
+/// Lines and areas to be cut, which is the slow part of drawing them. Only the places of the objects are read.
+struct CutJob {
+  struct Line {
+    std::uint32_t index;
+    std::shared_ptr<const LineObject> shape;
+  };
+  struct Area {
+    std::uint32_t index;
+    std::shared_ptr<const PolygonObject> shape;
+    bool fill, outline;  ///< parts that have a colour
+    double height_m;     ///< mean height of the places
+  };
+  Ellipsoid ellipsoid;
+  Angle step{};  ///< of lines and outlines
+  std::size_t most_triangles = kMostFillTriangles;
+  std::vector<Line> lines = {};
+  std::vector<Area> areas = {};
+
+  [[nodiscard]] bool empty() const { return lines.empty() && areas.empty(); }
+  [[nodiscard]] std::size_t size() const { return lines.size() + areas.size(); }
+  /// True if the job is better done by a worker: it may take more than a frame.
+  [[nodiscard]] bool is_large() const;
+};
+
+struct CutObjects {
+  std::vector<LineCut> lines;
+  std::vector<AreaCut> areas;
 };
 
 /// Returns the length of all lines and outlines together, as an angle on the sphere.
 [[nodiscard]] Angle line_length(const ObjectScene& scene);
 
 /// Returns the step for lines and outlines of a total length: kLineStep, doubled until they fit within
-/// kMostLineVertices. The step only doubles so that it, and every cut, rarely changes as a scene grows.
+/// kMostLineVertices.
 [[nodiscard]] Angle line_step(Angle length);
 
-/// Cuts all lines and areas of a scene. thread: any
-[[nodiscard]] CutObjects cut_objects(const ObjectScene& scene, const Ellipsoid& ellipsoid, Angle step);
+/// Cuts the objects of a job. Areas get their triangles from the lowest to the highest; if there are too many
+/// triangles, the highest areas are left out. Ends early, with a useless result, once `stop` is set. thread: any
+[[nodiscard]] CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop);
 
 }  // namespace terrella

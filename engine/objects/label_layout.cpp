@@ -31,6 +31,14 @@ std::u32string code_points(std::string_view utf8) {
   return points;
 }
 
+std::u32string label_text(std::string_view utf8) {
+  std::u32string text = code_points(utf8);
+  if (text.size() <= kMostLabelCharacters) return text;
+  text.resize(kMostLabelCharacters);
+  text.back() = U'…';
+  return text;
+}
+
 LabelRoom::LabelRoom(Viewport picture)
     : picture_(picture),
       columns_(picture.width_px / kCell_px + 1),

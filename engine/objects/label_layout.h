@@ -13,6 +13,11 @@ namespace terrella {
 /// Returns the code points of a UTF-8 text, with U+FFFD for each byte that does not begin a code point. thread: any
 [[nodiscard]] std::u32string code_points(std::string_view utf8);
 
+/// Characters of a label; a longer text ends in "…".
+inline constexpr std::size_t kMostLabelCharacters = 96;
+/// Returns the characters that a label shows of its text. thread: any
+[[nodiscard]] std::u32string label_text(std::string_view utf8);
+
 /// A box on the picture, pixels, y down.
 struct LabelBox {
   glm::vec2 low_px, high_px;

@@ -4,12 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
-#include "geo/ellipsoid.h"
 #include "geo/objects.h"
-#include "objects/cut_objects.h"
 
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
@@ -50,7 +47,7 @@ struct FillVertex {
 static_assert(sizeof(FillVertex) == 28);
 
 /// Objects of one kind, sorted by part, then by opacity (opaque first), then by choice. Within these, objects keep the
-/// scene's order, and areas are sorted by height. So each draw takes one contiguous range.
+/// layer's order. So each draw takes one contiguous range.
 template <class T>
 struct Batch {
   struct Range {
@@ -65,6 +62,7 @@ struct Batch {
   [[nodiscard]] static std::size_t bucket(ObjectPart part, bool opaque, bool chosen) {
     return (part == ObjectPart::above_ground ? 4U : 0U) + (opaque ? 0U : 2U) + (chosen ? 1U : 0U);
   }
+  [[nodiscard]] static bool is_opaque(std::size_t bucket) { return (bucket & 2U) == 0; }
   [[nodiscard]] Range range(ObjectPart part, bool opaque, ObjectChoice choice) const {
     const std::size_t from = bucket(part, opaque, choice == ObjectChoice::chosen);
     const std::size_t to = bucket(part, opaque, choice != ObjectChoice::others) + 1;
@@ -72,25 +70,13 @@ struct Batch {
   }
 };
 
-/// A scene in the layout for the GPU.
-struct ObjectBatches {
-  Batch<DotInstance> spheres;
-  Batch<DotInstance> markers;
-  Batch<LineVertex> lines;  ///< a range of n vertices contains n - 3 pieces
-  std::vector<FillVertex> fill_vertices;
-  Batch<std::uint32_t> fill_indices;
-  std::size_t fills_dropped = 0;  ///< areas left out because the scene would have more than kMostFillTriangles
+/// One place of a model: its position, the model's axes in metres, and a colour that is mixed in by its alpha.
+struct MeshStand {
+  glm::vec3 high_m;
+  glm::vec3 low_m;
+  std::array<glm::vec3, 3> ecef_from_model;  ///< axes of length 0: not drawn
+  ObjectColor tint{0, 0, 0, 0};
 };
-
-/// A scene with its lines and areas, cut by cut_objects(). The colours may have changed since the cut.
-struct CutScene {
-  const ObjectScene& scene;
-  const CutObjects& cut;
-};
-
-/// Sorts the objects of several scenes. Objects of a later scene lie over those of earlier scenes. thread: any
-[[nodiscard]] ObjectBatches make_batches(std::span<const CutScene> scenes, const Ellipsoid& ellipsoid);
-/// Cuts and sorts one scene. thread: any
-[[nodiscard]] ObjectBatches make_batches(const ObjectScene& scene, const Ellipsoid& ellipsoid);
+static_assert(sizeof(MeshStand) == 64);
 
 }  // namespace terrella

@@ -11,12 +11,14 @@
 namespace terrella {
 
 /// The list of an ObjectScene that holds the object.
-enum class ObjectKind { point, line, polygon, mesh };
+enum class ObjectKind { point, line, polygon, mesh, label };
 
+/// A picked part of a feature.
 struct PickedObject {
   ObjectKind kind = ObjectKind::point;
-  std::size_t index = 0;    ///< index in that list
+  std::size_t index = 0;    ///< index in that list; objects that an edit adds are counted on, and keep their index
   double distance_m = 0.0;  ///< distance from the eye
+  ObjectIdentity of = {};   ///< the feature
 };
 
 /// Options of a pick. By default, objects that the ground hides are not picked.
@@ -27,8 +29,8 @@ struct PickOptions {
 
 /// Returns the object under a pixel (as in geo/coordinates.h) that is nearest to the eye. At equal distance, points win
 /// over lines and lines over areas, and a later object over an earlier one. Markers and lines are tested by their size
-/// on the screen, spheres and areas by their shape, meshes by their bounding sphere. Takes about 1 µs per vertex of all
-/// objects in the scene. thread: main if the ground has heights, else thread: any
+/// on the screen, spheres and areas by their shape, meshes by their bounding sphere, labels not at all. Takes about 1
+/// µs per vertex of all objects in the scene. thread: main if the ground has heights, else thread: any
 [[nodiscard]] std::optional<PickedObject> pick_object(const View& view, const Ground& ground, const ObjectScene& scene,
                                                       glm::dvec2 pixel_px, const PickOptions& options = {});
 

@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <iterator>
+#include <numeric>
 #include <span>
+#include <utility>
 
 #include "geo/split_position.h"
 
@@ -36,13 +38,20 @@ std::uint32_t place_on_curve(const vec3& place_m, float reach_m) {
 }
 
 /// Sorts spheres along the curve and returns the position of each on the curve.
-std::vector<std::uint32_t> sort_along_curve(std::span<DotInstance> spheres) {
+std::vector<std::uint32_t> sort_along_curve(std::span<DotInstance> spheres, std::span<std::uint32_t> sources) {
   float reach_m = 1.0F;
   for (const DotInstance& d : spheres) reach_m = std::max(reach_m, glm::length(d.high_m));
-  const auto place = [reach_m](const DotInstance& d) { return place_on_curve(d.high_m, reach_m); };
-  std::ranges::stable_sort(spheres, {}, place);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // the place on the curve, and the index
+  for (const DotInstance& d : spheres) order.emplace_back(place_on_curve(d.high_m, reach_m), order.size());
+  std::ranges::sort(order);
+  const std::vector<DotInstance> old(spheres.begin(), spheres.end());
+  const std::vector<std::uint32_t> old_sources(sources.begin(), sources.end());
   std::vector<std::uint32_t> places;
-  std::ranges::transform(spheres, std::back_inserter(places), place);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    spheres[k] = old[order[k].second];
+    sources[k] = old_sources[order[k].second];
+    places.push_back(order[k].first);
+  }
   return places;
 }
 
@@ -76,13 +85,14 @@ void append(std::vector<SphereGroups::Run>& runs, SphereGroups::Run run) {
 
 }  // namespace
 
-SphereGroups::SphereGroups(const Batch<DotInstance>& spheres) : items_(spheres.items) {
+SphereGroups::SphereGroups(const Batch<DotInstance>& spheres) : items_(spheres.items), sources_(spheres.items.size()) {
+  std::iota(sources_.begin(), sources_.end(), std::uint32_t{0});
   for (std::size_t bucket = 0; bucket < Batch<DotInstance>::kBuckets; ++bucket) {
     const std::size_t first = spheres.first[bucket], end = spheres.first[bucket + 1];
     const std::span<DotInstance> all(items_.data() + first, end - first);
-    const bool opaque = !all.empty() && all.front().color.alpha == 255;
-    if (opaque) {
-      add_cubes({first, end - first}, sort_along_curve(all), first, kCurveBits);
+    if (Batch<DotInstance>::is_opaque(bucket)) {
+      add_cubes({first, end - first}, sort_along_curve(all, std::span(sources_).subspan(first, end - first)), first,
+                kCurveBits);
     } else {
       add_groups({first, end - first}, false);
     }
@@ -124,6 +134,12 @@ SphereGroups::Group SphereGroups::group_of(Run run) const {
   return {run, true, middle.high, middle.low, 1.0001F * radius_m, largest_m};
 }
 
+void SphereGroups::set(std::size_t k, const DotInstance& sphere) {
+  items_[k] = sphere;
+  const auto after = std::ranges::upper_bound(groups_, k, {}, [](const Group& g) { return g.run.first; });
+  std::prev(after)->stale = true;
+}
+
 SphereGroups::Look SphereGroups::look_of(const Group& group, const SphereSight& sight) {
   const vec3 center = (group.high_m - sight.eye_high_m) + (group.low_m - sight.eye_low_m);
   const float away = glm::length(center);
@@ -145,10 +161,15 @@ SphereGroups::Look SphereGroups::look_of(const Group& group, const SphereSight& 
   return widest_px <= sight.largest_point_px ? Look::points : Look::triangles;
 }
 
-SphereGroups::Seen SphereGroups::seen(Run range, const SphereSight& sight) const {
+SphereGroups::Seen SphereGroups::seen(Run range, const SphereSight& sight) {
   Seen seen;
   const auto first = std::ranges::lower_bound(groups_, range.first, {}, [](const Group& g) { return g.run.first; });
   for (auto group = first; group != groups_.end() && group->run.first < range.first + range.count; ++group) {
+    if (group->stale) {
+      const bool opaque = group->opaque;
+      *group = group_of(group->run);
+      group->opaque = opaque;
+    }
     const Look look = look_of(*group, sight);
     if (look == Look::triangles) append(seen.triangles, group->run);
     if (look == Look::points) append(seen.points, group->run);

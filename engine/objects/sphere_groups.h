@@ -23,8 +23,8 @@ struct SphereSight {
 };
 
 /// Spheres in groups of neighbours, each with a bounding ball. Invisible groups are culled as a whole. Opaque spheres
-/// are grouped by cubes of space. Translucent spheres keep the scene's order, in which they are blended. Pure values.
-/// thread: any
+/// are grouped by cubes of space. Translucent spheres keep the layer's order, in which they are blended. thread: any,
+/// but one call at a time
 class SphereGroups {
  public:
   static constexpr std::size_t kMostInGroup = 64;
@@ -39,8 +39,12 @@ class SphereGroups {
   SphereGroups() = default;
   explicit SphereGroups(const Batch<DotInstance>& spheres);
   [[nodiscard]] const std::vector<DotInstance>& items() const { return items_; }
+  /// Index in the batch of the sphere at `k` of items().
+  [[nodiscard]] std::size_t source(std::size_t k) const { return sources_[k]; }
+  /// Replaces the sphere at `k` of items(), for example moves it. Its group's ball grows or shrinks.
+  void set(std::size_t k, const DotInstance& sphere);
   /// Returns the possibly visible spheres of a range of the batch: all visible ones, and some that are not.
-  [[nodiscard]] Seen seen(Run range, const SphereSight& sight) const;
+  [[nodiscard]] Seen seen(Run range, const SphereSight& sight);
 
  private:
   struct Group {
@@ -49,6 +53,7 @@ class SphereGroups {
     glm::vec3 high_m, low_m;  ///< centre of the ball
     float radius_m;           ///< radius of the ball
     float largest_m;          ///< radius of the largest sphere
+    bool stale = false;       ///< the ball is not that of the spheres any more
   };
   enum class Look { hidden, triangles, points };
   [[nodiscard]] static Look look_of(const Group& group, const SphereSight& sight);
@@ -57,6 +62,7 @@ class SphereGroups {
   void add_cubes(Run run, const std::vector<std::uint32_t>& places, std::size_t zeroth, unsigned bits);
 
   std::vector<DotInstance> items_;
+  std::vector<std::uint32_t> sources_;
   std::vector<Group> groups_;
 };
 

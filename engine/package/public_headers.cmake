@@ -1,5 +1,6 @@
 # What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
 set(TERRELLA_PUBLIC_HEADERS
+  engine/globe/data_files.h
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
@@ -55,7 +56,10 @@ endfunction()
 
 # The name under include/terrella: globe.h for engine/globe/globe.h, codecs/image.h for engine/codecs/image.h.
 function(terrella_installed_header header out)
-  string(REGEX REPLACE "^engine/(globe/)?" "" installed ${header})
+  string(REGEX REPLACE "^engine/(globe/globe.h$)?" "" installed ${header})
+  if(NOT installed)
+    set(installed globe.h)
+  endif()
   set(${out} ${installed} PARENT_SCOPE)
 endfunction()
 

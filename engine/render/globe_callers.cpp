@@ -17,7 +17,7 @@ void GlobeRenderer::draw_callers(const Pass& pass, DrawStage stage) {
   const View& view = pass.eye.view;
   const GlState kept;
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_->framebuffer());
   glViewport(pass.eye.left_px, 0, view.viewport.width_px, view.viewport.height_px);
   glScissor(pass.eye.left_px, 0, view.viewport.width_px, view.viewport.height_px);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
@@ -28,24 +28,6 @@ void GlobeRenderer::draw_callers(const Pass& pass, DrawStage stage) {
   FrameMatrices matrices = frame_matrices(view, frame_.clip_scale.z, frame_.clip_scale.w, options_.depth);
   matrices.corner_px = {pass.eye.left_px, 0};
   (*pass.input.on_draw)(stage, matrices);
-}
-
-Status GlobeRenderer::copy_depth(GLuint framebuffer, glm::ivec2 corner_px) {
-  if (!depth_copy_) {
-    const Status built = build_into(
-        depth_copy_, {{GL_VERTEX_SHADER, {"interlace.vert"}}, {GL_FRAGMENT_SHADER, {"copy_depth.frag"}}}, {});
-    if (!built) return built;
-  }
-  const Viewport size = targets_.size();
-  const gl::VertexArray nothing = gl::make_vertex_array();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(corner_px.x, corner_px.y, size.width_px, size.height_px);
-  apply({.program = depth_copy_.name(), .depth = DepthState{.test = GL_ALWAYS}, .color = {false, false, false, false}});
-  glUniform2i(0, corner_px.x, corner_px.y);
-  glBindTextureUnit(0, targets_.depth());
-  glBindVertexArray(nothing.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  return Done{};
 }
 
 }  // namespace terrella

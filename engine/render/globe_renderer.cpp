@@ -31,7 +31,7 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   std::unique_ptr<GlobeRenderer> renderer(new GlobeRenderer(options, ellipsoid));
   renderer->limb_ = std::make_unique<LimbPass>();
   if (sky != nullptr) {
-    if (Status s = make_once(renderer->sky_, sky->body, sky->stars); !s) return s.error();
+    renderer->sky_ = std::make_unique<SkyPass>(sky->body, sky->stars);
     if (Status s = renderer->set_night_lights(sky->night_lights); !s) return s.error();
   }
   renderer->frame_block_ = gl::make_buffer();
@@ -39,56 +39,60 @@ Result<std::unique_ptr<GlobeRenderer>> GlobeRenderer::create(const RenderOptions
   return renderer;
 }
 
-Status GlobeRenderer::set_objects(std::span<const CutScene> scenes) {
+Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
   if (Status s = make_once(objects_, options_.depth); !s) return s;
   if (!label_font_.empty()) objects_->set_label_font(std::exchange(label_font_, {}));
-  objects_->set_objects(make_batches(scenes, ellipsoid_));
-  std::vector<MeshObject> meshes;
-  std::vector<LabelObject> labels;
-  for (const CutScene& from : scenes) {
-    meshes.insert(meshes.end(), from.scene.meshes.begin(), from.scene.meshes.end());
-    labels.insert(labels.end(), from.scene.labels.begin(), from.scene.labels.end());
+  objects_->set_layers(std::move(layers));
+  return objects_->prepare();
+}
+
+Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory) {
+  if (objects_) {
+    if (Status prepared = objects_->prepare(); !prepared) return prepared;
   }
-  if (Status set = objects_->set_meshes(meshes, ellipsoid_); !set) return set;
-  return objects_->set_labels(labels, ellipsoid_);
+  if (sky_) sky_->keep_air_in(memory.air);
+  FrameCounts counts;
+  for (const EyePicture& eye : pictures_of(input)) {
+    if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared;
+  }
+  return Done{};
 }
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  patches_->set_air(air_of(pass));
-  patches_->set_light(light_of(pass.input));
-  for (const LayerFrame& layer : pass.input.layers) {
-    const bool numbers = layer.gpu->numbers.has_value();
-    if (Status s = patches_->prepare(pass.role_of(layer), numbers); !s) return s;
+  if (pass.input.sky && sky_) {
+    if (Status s = sky_->prepare(*pass.input.sky); !s) return s;
   }
+  if (Status s = prepare_layers(pass); !s) return s;
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_depth(); !s) return s;
   }
   if (has_inner_sphere(pass)) {
     if (Status s = make_once(inner_sphere_, options_.depth); !s) return s;
   }
-  if (Status s = mountains_on_limb(pass) ? make_once(outline_) : limb_->prepare(limb_look(pass, air_of(pass))); !s) {
-    return s;
+  const bool samples = targets_->samples() > 0;
+  if (!mountains_on_limb(pass)) {
+    if (Status s = limb_->prepare(limb_look(pass, air_of(pass)), samples); !s) return s;
+  } else if (!samples) {
+    if (Status s = make_once(outline_); !s) return s;
   }
   return pass.input.stereo == Stereo::interlaced ? make_once(interlace_) : Done{};
 }
 
-Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, GLuint framebuffer) {
+Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
+  if (Status prepared = prepare(input, memory); !prepared) return prepared.error();
   FrameCounts counts;
+  if (objects_) objects_->upload();
+  if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits.error();
   const std::vector<EyePicture> pictures = pictures_of(input);
-  for (const EyePicture& eye : pictures) {
-    if (Status prepared = prepare({input, eye, counts}); !prepared) return prepared.error();
-  }
-  const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
-  const bool through = input.sky && input.surface.alpha < 1.0;
-  targets_.fit(input.size, through || selective || input.stereo == Stereo::interlaced);
   upload_layers(input);
   begin_frame(input, counts);
   // Places for labels are chosen for the first eye, so that both eyes see the same labels.
-  if (objects_) objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}));
+  if (objects_) {
+    objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}), memory.labels);
+  }
   for (const EyePicture& eye : pictures) draw_picture({input, eye, counts});
-  apply({});  // a scissor would cut the copy
-  targets_.copy_to(framebuffer, input.corner_px);
+  hand_over(input, framebuffer);
   if (limb_comes_last({input, pictures.front(), counts})) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     draw_limb({input, pictures.front(), counts}, false);
@@ -208,28 +212,34 @@ void GlobeRenderer::draw_far_side_curtain(const Pass& pass) {
 void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   const View& view = pass.eye.view;
   const bool mountains = mountains_on_limb(pass);
+  if (mountains && targets_->samples() > 0) return;  // samples cover their outline by parts
   if (!mountains && !limb_->fit(view, ellipsoid_)) return;
   const DrawState state = in_place ? picture_state(pass.eye) : DrawState{};
   const auto draw = [&](GLuint texture, GLuint depth, int rows_apart) {
-    const LimbPicture picture{.texture = texture, .left_px = pass.eye.left_px, .rows_apart = rows_apart};
+    const LimbPicture picture{.texture = texture,
+                              .left_px = pass.eye.left_px,
+                              .rows_apart = rows_apart,
+                              .from_samples = targets_->samples() > 0};
     mountains ? outline_->draw(view.viewport, picture, {depth, static_cast<float>(no_depth())}, state)
               : limb_->draw(view, picture, limb_look(pass, air_), air_, state);
     ++pass.counts.draw_calls;
   };
   const int rows_apart = pass.eye.interlaced ? 2 : 1;
-  if (!in_place) return draw(targets_.color(), targets_.depth(), rows_apart);
+  if (!in_place) return draw(targets_->color(), targets_->depth(), rows_apart);
   // A pass must not read the texture that it writes, so the limb is first drawn beside the picture.
-  const FrameTargets::Beside beside = targets_.beside();
+  const FrameTargets::Beside beside = targets_->beside();
+  apply({});
+  targets_->resolve_color(beside);  // the ribbon covers samples of pixels whose centres it misses
   glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);
   apply(state);
   if (mountains) glClearBufferfv(GL_COLOR, 0, std::array<float, 4>{}.data());
-  draw(targets_.color(), targets_.depth(), rows_apart);
-  glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
+  draw(targets_->color(), targets_->depth(), rows_apart);
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_->framebuffer());
   draw(beside.texture, 0, 0);
 }
 
 void GlobeRenderer::begin_frame(const FrameInput& input, FrameCounts& counts) {
-  glBindFramebuffer(GL_FRAMEBUFFER, targets_.framebuffer());
+  glBindFramebuffer(GL_FRAMEBUFFER, targets_->framebuffer());
   glViewport(0, 0, input.size.width_px, input.size.height_px);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glFrontFace(GL_CCW);
@@ -265,7 +275,7 @@ DrawState GlobeRenderer::picture_state(const EyePicture& eye) const {
 std::optional<StencilState> GlobeRenderer::stencil(const EyePicture& eye, const Marks& marks) const {
   const GLuint rows = eye.interlaced ? kRightEyeBit : 0U;
   const GLuint read = rows | marks.clear | marks.needed;
-  if (!targets_.has_stencil() || (read | marks.set) == 0) return std::nullopt;
+  if (!targets_->has_stencil() || (read | marks.set) == 0) return std::nullopt;
   return StencilState{.reference = eye.row_bits | marks.set | marks.needed, .read_mask = read, .write_mask = marks.set};
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "geo/camera.h"
+#include "render/gl/context_mark.h"
 #include "render/gl/draw_state.h"
 #include "render/gl/frame_block.h"
 #include "render/gl/frame_targets.h"
@@ -68,6 +69,7 @@ struct FrameInput {
   bool timed = false;             ///< the Sun is where a time puts it; false: over the viewer's shoulder
   glm::dvec3 sun{1.0, 0.0, 0.0};  ///< direction to the Sun: unit vector, ECEF axes
   std::uint64_t frame = 0;
+  int views = 1;          ///< views that are drawn in turn
   double ground_m = 0.0;  ///< height of the ground under the eye
   /// Draws for the application; may be empty.
   const std::function<void(DrawStage, const FrameMatrices&)>* on_draw = nullptr;
@@ -76,6 +78,13 @@ struct FrameInput {
   /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
   /// prevents.
   bool naive_translucency = false;
+};
+
+/// What one view keeps from frame to frame.
+struct PictureMemory {
+  FrameTargets targets;
+  std::unique_ptr<AirTextures> air;
+  ShownLabels labels;
 };
 
 /// Data of the sky. The renderer makes programs for the sky only if it gets this data.
@@ -91,30 +100,31 @@ class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
                                                                      const Ellipsoid& ellipsoid, const SkyAssets* sky);
-  /// Makes the programs for patches with or without relief. Call it before the first frame. The caller discards the
+  /// Draws patches with or without relief from now on. Call it before the first frame. The caller discards the
   /// vertices of all layers.
-  Status set_relief(bool on);
+  void set_relief(bool on);
   /// Draws city lights on the night side from now on; an empty map: none.
   Status set_night_lights(const GreyPicture& map);
   [[nodiscard]] bool has_night_lights() const { return options_.night_lights; }
   /// Forgets the slopes on the GPU, because other heights will be drawn.
   void forget_slopes() { slopes_.reset(); }
-  /// True if the current context is the one with this renderer's objects. Tests names that contexts do not share.
-  [[nodiscard]] bool is_of_current_context() const { return patches_->is_of_current_context(); }
+  /// True if the current context is the one with this renderer's objects.
+  [[nodiscard]] bool is_of_current_context() const { return context_.is_current(); }
 
   /// Sets the bytes of the font file for labels, before the first objects. Without a font there are no labels.
   void set_label_font(std::vector<std::byte> font) { label_font_ = std::move(font); }
-  /// Replaces all objects. The first call makes the programs for objects.
-  Status set_objects(std::span<const CutScene> scenes);
+  /// Sets the object layers to draw, the lowest first; they must stay until the next call. Makes the programs that the
+  /// layers need.
+  Status set_objects(std::vector<DrawnLayer> layers);
 
+  /// Makes the programs of a frame that no earlier frame needed. Draws nothing.
+  Status prepare(const FrameInput& input, PictureMemory& memory);
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
-  Result<FrameCounts> draw(const FrameInput& input, GLuint framebuffer);
-
-  /// Depth of the last picture, a texture; 0 before the first. Its rows begin at the bottom.
-  [[nodiscard]] GLuint depth_texture() const { return targets_.depth(); }
-  /// Copies the depth of the last picture to each sample of a framebuffer.
-  Status copy_depth(GLuint framebuffer, glm::ivec2 corner_px);
+  /// A multisampled framebuffer gets the samples of a picture with as many. `memory` is that of the view.
+  Result<FrameCounts> draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
+  /// Copies the depth of a view's last picture to each sample of a framebuffer: sample by sample if it has as many.
+  Status copy_depth(const FrameTargets& from, GLuint framebuffer, glm::ivec2 corner_px);
 
  private:
   /// One eye's part of the picture.
@@ -146,7 +156,7 @@ class GlobeRenderer {
   };
 
   GlobeRenderer(const RenderOptions& options, const Ellipsoid& ellipsoid) : options_(options), ellipsoid_(ellipsoid) {}
-  Status make_patches(RenderOptions options, bool relief);
+  void make_patches(RenderOptions options, bool relief);
   // globe_renderer.cpp: the order of the passes.
   Status prepare(const Pass& pass);
   [[nodiscard]] const AirTextures* air_of(const Pass& pass) const;
@@ -172,7 +182,15 @@ class GlobeRenderer {
   // globe_callers.cpp: drawing of the application's own.
   void draw_callers(const Pass& pass, DrawStage stage);
 
+  // globe_targets.cpp: from the picture to the caller's framebuffer.
+  Status fit_targets(const FrameInput& input, FrameTargets& targets, GLuint framebuffer);
+  void hand_over(const FrameInput& input, GLuint framebuffer);
+  static Status prepare_copy(gl::Program& program, std::string_view fragment, bool samples);
+  static void copy_samples(const gl::Program& program, GLuint texture, GLuint framebuffer, const DrawState& state,
+                           const FrameTargets& from, glm::ivec2 corner_px);
+
   // globe_surface.cpp: the image layers.
+  Status prepare_layers(const Pass& pass);
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);
@@ -203,6 +221,7 @@ class GlobeRenderer {
 
   RenderOptions options_;
   Ellipsoid ellipsoid_;
+  ContextMark context_;
   bool relief_ = false;
   std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief
@@ -215,8 +234,8 @@ class GlobeRenderer {
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;
-  FrameTargets targets_;
-  gl::Program depth_copy_;
+  FrameTargets* targets_ = nullptr;  ///< of the view that is drawn
+  gl::Program depth_copy_, depth_samples_copy_, color_samples_copy_;
   FrameBlock frame_{};  ///< uniforms of the eye whose picture is drawn
   gl::Buffer frame_block_;
 };

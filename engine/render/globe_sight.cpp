@@ -98,6 +98,7 @@ bool GlobeRenderer::mountains_on_limb(const Pass& pass) const {
 
 // If nothing covers the limb, the limb is drawn after the picture is copied, which saves a copy.
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
+  if (targets_->samples() > 0) return false;  // the caller's framebuffer gets whole samples
   if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0) || *pass.input.on_draw) return false;
   if (!objects_) return true;
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));

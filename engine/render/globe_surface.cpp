@@ -20,19 +20,15 @@ constexpr double kLitFootprint_texels = 5.0;
 
 }  // namespace
 
-Status GlobeRenderer::set_relief(bool on) {
-  if (Status made = make_patches(options_, on); !made) return made;
+void GlobeRenderer::set_relief(bool on) {
+  make_patches(options_, on);
   relief_ = on;
   slopes_.reset();
-  return Done{};
 }
 
-Status GlobeRenderer::make_patches(RenderOptions options, bool relief) {
+void GlobeRenderer::make_patches(RenderOptions options, bool relief) {
   options.light.relief = relief && options.light.relief;
-  Result<std::unique_ptr<PatchPass>> made = PatchPass::create(options, relief);
-  if (!made) return made.error();
-  patches_ = std::move(*made);
-  return Done{};
+  patches_ = PatchPass::create(options, relief);
 }
 
 Status GlobeRenderer::set_night_lights(const GreyPicture& map) {
@@ -44,9 +40,7 @@ Status GlobeRenderer::set_night_lights(const GreyPicture& map) {
     if (!made) return made.error();
     lights = std::move(*made);
   }
-  if (patches_) {
-    if (Status made = make_patches(options, relief_); !made) return made;
-  }
+  if (patches_) make_patches(options, relief_);
   options_ = options;
   night_lights_ = std::move(lights);
   return Done{};
@@ -56,14 +50,25 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
   return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
 }
 
+Status GlobeRenderer::prepare_layers(const Pass& pass) {
+  patches_->set_air(air_of(pass));
+  patches_->set_light(light_of(pass.input));
+  patches_->set_plain_footprint(pass.input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
+  for (const LayerFrame& layer : pass.input.layers) {
+    const bool numbers = layer.gpu->numbers != nullptr;
+    if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches); !s) return s;
+  }
+  return Done{};
+}
+
 // An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
 void GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
   patches_->set_paper_band(input.paper_band);
-  patches_->set_plain_footprint(input.lit ? kLitFootprint_texels : kPlainFootprint_texels);
   const bool shaded = input.relief != nullptr && input.lit;
   if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
+  if (slopes_) slopes_->set_views(input.views);
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;

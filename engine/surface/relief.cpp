@@ -180,6 +180,11 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
   tiles_.end_frame(round_, grid().min_level);
   std::vector<WantedTile> wanted;
   for (const TileId& id : root_tiles(grid())) want_tile(id, 1e9, wanted);
+  want_too(patches, wanted);
+  return wanted;
+}
+
+void Relief::want_too(const std::vector<SelectedPatch>& patches, std::vector<WantedTile>& wanted) {
   const double texel_m = span_m(ellipsoid_, grid());
   for (const SelectedPatch& patch : patches) {
     const PatchNode& node = *patch.node;
@@ -197,7 +202,6 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
       }
     }
   }
-  return wanted;
 }
 
 void Relief::want_tile(const TileId& id, double priority, std::vector<WantedTile>& wanted) {

@@ -69,6 +69,9 @@ class Relief : public GroundHeights {
   /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
   /// that no view has wanted for long are evicted when the budget is used up.
   [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
+  /// Appends what the patches of another view want besides. Call it after want(), so that the tiles of all views count
+  /// as wanted at the same time.
+  void want_too(const std::vector<SelectedPatch>& patches, std::vector<WantedTile>& wanted);
 
  private:
   /// A rectangle in which heights have changed, degrees; row latitudes of the heights' grid.

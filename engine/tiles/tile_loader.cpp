@@ -33,6 +33,8 @@ Result<TileTexels, TileFailure> texels_of(const EncodedTile& tile, int tile_px, 
 
 }  // namespace
 
+int decoder_threads(unsigned cores) { return static_cast<int>(std::clamp(cores, 2U, 8U)); }
+
 template class Loader<TileTexels>;
 
 TileLoader::TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options)

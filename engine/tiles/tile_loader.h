@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Loaded {
   Result<Decoded, TileFailure> tile;
   std::uint64_t edition = 0;  ///< TileSource::edition() before the tile was read
 };
+
+/// Threads that decode the tiles of one layer: one for each core, from 2 to 8, because more would starve the thread
+/// that draws, and uploads could not keep up with them. thread: any
+[[nodiscard]] int decoder_threads(unsigned cores = std::thread::hardware_concurrency());
 
 struct LoaderOptions {
   int workers = 2;                              ///< threads that read and decode, [1, 64]

@@ -5,6 +5,9 @@ layout(location = 1) uniform float depth_bias;   // fraction of the distance, â‰
 // Radius of a sphere around the planet's centre that hides the objects behind it; 0: none.
 layout(location = 2) uniform float hiding_radius;
 
+// Outside the picture: the place of hidden objects, whose alpha is 0.
+const vec4 kNowhere = vec4(2.0, 2.0, 2.0, 1.0);
+
 // Position relative to the eye, Earth-fixed axes.
 vec3 from_eye(vec3 high_ecef, vec3 low_ecef) {
   precise vec3 p = (high_ecef - eye_high_ecef.xyz) + (low_ecef - eye_low_ecef.xyz);

@@ -13,5 +13,5 @@ void main() {
   float day = smoothstep(-0.35, 0.75, dot(normalize(position_high_ecef), sun_ecef.xyz));
   fill_color = vec4(color.rgb * mix(1.0, mix(0.4, 1.0, day), sun_ecef.w), color.a);
   if (in_air()) air_before(from_eye(position_high_ecef, position_low_ecef), air_through, air_light);
-  gl_Position = clip_of(view_of(position_high_ecef, position_low_ecef), pull);
+  gl_Position = color.a == 0.0 ? kNowhere : clip_of(view_of(position_high_ecef, position_low_ecef), pull);
 }

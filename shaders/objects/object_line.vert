@@ -52,9 +52,9 @@ void main() {
   line_color = color;
   pull = 1.0 - depth_bias;
   across_w = 0.0;
-  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = kNowhere;
   float least = clip_scale.z;   // parts before the near plane are not drawn
-  if (width <= 0.0 || (-here.z < least && -next.z < least)) return;
+  if (width <= 0.0 || color.a == 0.0 || (-here.z < least && -next.z < least)) return;
   if (in_air()) {
     gl_VertexID >= 2 ? air_before(from_eye(next_high_ecef, next_low_ecef), air_through, air_light)
                      : air_before(from_eye(here_high_ecef, here_low_ecef), air_through, air_light);

@@ -20,5 +20,5 @@ void main() {
   pull = 1.0 - (depth_bias > 0.0 ? depth_bias + min(4.0 * radius_px / focal_px(), 0.5) : 0.0);
   vec4 clip = clip_of(c, pull);
   if (clip.w > 0.0) clip.xy += offset_px * (2.0 / viewport_px) * clip.w;
-  gl_Position = is_hidden(center, length(center), 0.0) ? vec4(2.0, 2.0, 2.0, 1.0) : clip;
+  gl_Position = color.a == 0.0 || is_hidden(center, length(center), 0.0) ? kNowhere : clip;
 }

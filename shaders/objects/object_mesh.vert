@@ -8,6 +8,7 @@ layout(location = 5) in vec3 place_low_ecef;
 layout(location = 6) in vec3 left_ecef;      // the model's x, y and z axes at its place
 layout(location = 7) in vec3 up_ecef;
 layout(location = 8) in vec3 forward_ecef;
+layout(location = 9) in vec4 tint_in;        // mixed in by its alpha
 
 out vec3 normal_ecef;
 out vec3 way_ecef;                           // from the eye to the vertex
@@ -15,6 +16,7 @@ out vec2 uv;
 out vec4 color_linear;
 out vec3 air_through;
 out vec3 air_light;
+flat out vec4 tint;
 flat out float pull;
 
 void main() {
@@ -22,6 +24,7 @@ void main() {
   way_ecef = from_eye(place_high_ecef, place_low_ecef) + ecef_from_model * position_model;
   normal_ecef = ecef_from_model * normal_model;
   uv = uv_in;
+  tint = tint_in;
   color_linear = color_in;
   if (in_air()) air_before(way_ecef, air_through, air_light);
   pull = 1.0 - depth_bias;

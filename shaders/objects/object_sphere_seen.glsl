@@ -26,8 +26,8 @@ bool see_sphere(out Outline outline) {
   sphere_color = color;
   shape = vec2(0.0);
   sun_disc = vec3(0.0);
-  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  if (!(k2 > 0.0) || is_hidden(c, away, r)) return false;
+  gl_Position = kNowhere;
+  if (color.a == 0.0 || !(k2 > 0.0) || is_hidden(c, away, r)) return false;
   vec3 axis = c / away;
   vec3 side = normalize(abs(axis.x) < 0.7 ? vec3(0.0, axis.z, -axis.y) : vec3(-axis.z, 0.0, axis.x));
   vec3 up = cross(axis, side);

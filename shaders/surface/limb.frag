@@ -8,6 +8,13 @@ in vec2 outward;
 in float outside_px;
 layout(location = 0) out vec4 color_srgb;
 
+// The pixels this far away are on one side of the limb.
+#if defined(FROM_SAMPLES)
+const float kAside_px = 1.5;
+#else
+const float kAside_px = 1.25;
+#endif
+
 vec4 at(float distance_px) {
   ivec2 here = ivec2(gl_FragCoord.xy);
   ivec2 p = ivec2(gl_FragCoord.xy + outward * (distance_px - outside_px));
@@ -20,5 +27,5 @@ void main() {
     color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
     return;
   }
-  color_srgb = mix(at(-1.25), at(1.25), clamp(0.5 + outside_px, 0.0, 1.0));
+  color_srgb = mix(at(-kAside_px), at(kAside_px), clamp(0.5 + outside_px, 0.0, 1.0));
 }

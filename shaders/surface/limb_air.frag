@@ -22,7 +22,11 @@ layout(location = 0) out vec4 color_srgb;
 
 const int kSlices = 4;                         // the pixel's square as strips along the limb
 const int kAside = 3;                          // pixels to each side along the limb that show a pixel's ground
+#if defined(FROM_SAMPLES)
+const float kInside_px = 0.9;                  // the square of a pixel this far inside or outside is on one side
+#else
 const float kInside_px = 0.22;                 // a pixel this far inside is ground, whatever the mesh's error
+#endif
 
 struct Air {
   float azimuth;
@@ -107,9 +111,12 @@ void main() {
   vec2 sides = abs(outward);
   float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
 #if defined(AIR)
-  const float kClear_px = 0.8;   // thick air differs from pixel to pixel, and a pixel outside the limb has only air
+  const float kClear_px = max(0.8, kInside_px);   // thick air differs from pixel to pixel, and a pixel outside the limb has only air
   Air air = air_here();
   vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);
+#elif defined(FROM_SAMPLES)
+  const float kClear_px = kInside_px;
+  Air air = Air(0.0, 1.0);
 #else
   const float kClear_px = 0.1;
   Air air = Air(0.0, 1.0);

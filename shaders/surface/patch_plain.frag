@@ -4,5 +4,5 @@ void main() {
   vec2 p = window_point;
   Cell cell = cell_at(p);
   vec2 a = dFdx(p) * (1.0 / 3.0), b = dFdy(p) * (1.0 / 3.0);
-  finish(seen((tap(cell, p - a) + tap(cell, p + b) + tap(cell, p + a - b)) * (1.0 / 3.0)));
+  finish(seen((precise_tap(cell, p - a) + precise_tap(cell, p + b) + precise_tap(cell, p + a - b)) * (1.0 / 3.0)));
 }

@@ -1,24 +1,23 @@
-// Pole bands, and with `exact` every patch: exact coordinates per fragment. Near a pole the pixel's footprint is long
-// in longitude. Up to 16 taps, each with its own cell, integrate it.
-
-// A lattice of n places in the pixel, evenly spaced along each side and without an offset: place i is (i, i times this
-// modulo n). From n = 7 on, this number and n have no common divisor.
-const int stride_of[17] = int[](1, 1, 1, 1, 1, 2, 1, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
-
+// Patches at a pole, and with `exact` every patch: exact coordinates per fragment. Near a pole the pixel's footprint is
+// long in longitude. Up to 16 taps integrate it.
 void main() {
   WindowPoint w = exact_window_point();
   vec2 high = vec2(window_size());
-  float scale = texels.x * texels.y;
-  float reach = sqrt(max(dot(w.dx, w.dx), dot(w.dy, w.dy))) * scale;
-  int n = int(clamp(ceil(0.9 * reach), 7.0, 16.0));
-  float step = 1.0 / float(n);
-  int stride = stride_of[n];
+  Cell cell = cell_at(w.p);
+  Lattice lattice = lattice_of(w.dx, w.dy, cell);
+  // Taps no further from the pixel's centre than a slot's gutter share the centre's cell. Others find their own.
+  vec2 reach_texels = (0.5 * texels.y) * (abs(w.dx) + abs(w.dy)) * cell.scale;
+  bool apart = max(reach_texels.x, reach_texels.y) > (0.5 - 0.5 * texels.x) * texels.y - 0.5;
+  int apart_taps = apart ? lattice.n : 0;
   Texels sum = Texels(0.0);
-  for (int i = 0; i < n; ++i) {
-    float s = float(i) + 0.5;
-    float t = float((i * stride) % n) + 0.5;
-    vec2 p = clamp(w.p + (s * step - 0.5) * w.dx + (t * step - 0.5) * w.dy, vec2(0.0), high);
+  for (int i = apart_taps; i < lattice.n; ++i) {
+    vec2 at = place(lattice, i);
+    sum += precise_tap(cell, clamp(w.p + at.x * w.dx + at.y * w.dy, vec2(0.0), high));
+  }
+  for (int i = 0; i < apart_taps; ++i) {
+    vec2 at = place(lattice, i);
+    vec2 p = clamp(w.p + at.x * w.dx + at.y * w.dy, vec2(0.0), high);
     sum += precise_tap(cell_at(p), p);
   }
-  finish(seen(sum * step));
+  finish(seen(sum * lattice.step));
 }

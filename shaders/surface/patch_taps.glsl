@@ -67,3 +67,30 @@ Texels mip_tap(Cell cell, vec2 p, float level) {
   return IMAGERY(textureLod(tiles_mipmapped, slot_point(cell, p), level));
 }
 #endif
+
+// Places of a long pixel's taps: a rank-1 lattice, evenly spaced along both sides and centred. Place i of n is i along
+// the one side and i times a stride modulo n along the other.
+struct Lattice {
+  int n;
+  float step;                    // 1/n
+  float stride;                  // over n
+};
+
+// Strides by n. 4 and 6 have no good one and take one place more.
+const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
+
+// Enough places for a pixel with the sides `a` and `b`, in cells: about one a texel.
+Lattice lattice_of(vec2 a, vec2 b, Cell cell) {
+  vec2 a_slot = a * cell.scale, b_slot = b * cell.scale;
+  float length_texels = sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
+  int n = int(clamp(ceil(0.9 * length_texels), 3.0, 16.0));
+  n += int(n == 4 || n == 6);
+  float step = 1.0 / float(n);
+  return Lattice(n, step, strides[n] * step);
+}
+
+// Place i, from -0.5 to 0.5 along the pixel's sides.
+vec2 place(Lattice lattice, int i) {
+  return vec2(float(i) * lattice.step, fract(float(i) * lattice.stride + 0.5 * lattice.step)) +
+         vec2(0.5 * lattice.step - 0.5, -0.5);
+}

@@ -17,6 +17,14 @@ namespace {
 
 using nlohmann::json;
 
+/// Names the objects of a feature by its number in the file, and gives them its properties.
+void name_feature(ObjectStyle& style, std::size_t index, const json& properties) {
+  auto feature = std::make_shared<ObjectFeature>();
+  feature->properties = properties.dump(-1, ' ', false, json::error_handler_t::replace);
+  style.point.of = style.line.of = style.polygon.of = style.label.of =
+      style.mesh.of = {.id = ObjectId{index + 1}, .feature = std::move(feature)};
+}
+
 /// Takes each feature out of the document as soon as it is complete. No more than one feature is held as JSON.
 class FeatureTaker {
  public:
@@ -25,6 +33,7 @@ class FeatureTaker {
 
   /// For JsonBuilder: keeps everything except features.
   bool keep(std::size_t depth, const std::string& member, const json& value) {
+    if (depth == 1 && member == "attribution") credit(value);
     if (depth == 1 && member == "metadata" && is_quake_catalogue(value)) quakes_ = true;
     if (depth != 2 || member != "features") return true;
     take(value, count_++);
@@ -42,6 +51,7 @@ class FeatureTaker {
     const auto properties = feature.find("properties");
     ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
     if (quakes_) style_quake(feature, style);
+    name_feature(style, index, properties == feature.end() ? json::object() : *properties);
     if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
     add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,
                  complain);
@@ -53,6 +63,11 @@ class FeatureTaker {
     } else {
       ++file_.complaints_left_out;
     }
+  }
+
+  void credit(const json& text) {
+    if (!text.is_string()) return complain_of("its \"attribution\" is not a text; it is left out");
+    file_.attribution = text.get<std::string>();
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }

@@ -21,15 +21,19 @@ inline constexpr std::size_t kMostComplaints = 100;
 /// Objects read from a file, and complaints about the rest.
 struct ObjectFile {
   ObjectScene scene;
+  std::string attribution = {};         ///< the document's "attribution"; may be empty
   std::vector<std::string> complaints;  ///< each names the file, the feature counted from 1, and the action taken
   std::size_t complaints_left_out = 0;
 };
 
 /// Reads the objects of GeoJSON (RFC 7946): all its geometries. Positions are longitude, latitude, and metres over the
 /// ellipsoid, negative below it.
-/// Properties are those of simplestyle 1.1.0 with its defaults. The description is dropped, and icons of marker-symbol
-/// are not supported. Further properties: radius_m makes a Point a sphere, model a glTF model; through_surface. See
-/// streaming/objects/README.md, also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
+/// Properties are those of simplestyle 1.1.0 with its defaults. Icons of marker-symbol are not supported. Further
+/// properties: radius_m makes a Point a sphere, model a glTF model; through_surface. See streaming/objects/README.md,
+/// also for catalogues of earthquakes, whose third coordinate is a depth in kilometres.
+///
+/// Each object has the id of its feature, which is the feature's number in the file, counted from 1, and the feature's
+/// properties as JSON text.
 ///
 /// A faulty geometry is skipped with a complaint. A faulty property counts as missing, with a complaint. If the text
 /// stops being valid JSON, the features before that point stay. Fails if nothing was read at all. `where` (a path)

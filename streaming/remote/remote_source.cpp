@@ -13,6 +13,7 @@
 #include "streaming/http/reply_queue.h"
 #include "streaming/remote/reply_rules.h"
 #include "streaming/remote/tile_fetcher.h"
+#include "tiles/late_workers.h"
 
 namespace terrella {
 namespace {
@@ -35,26 +36,26 @@ Encoded tile_of(CacheRecord&& record) {
   return EncodedTile{std::move(record.bytes)};
 }
 
-class RemoteSource : public TileSource, public RemoteTiles {
+/// The threads of a source, and what they use.
+class RemoteDesk : public RemoteTiles {
  public:
-  RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
+  RemoteDesk(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
       : set_(std::move(set)), cache_(std::move(cache)), fetcher_(set_, options, replies_) {
     start_answering();
   }
-  ~RemoteSource() override { replies_.close(); }
-  RemoteSource(const RemoteSource&) = delete;
-  RemoteSource& operator=(const RemoteSource&) = delete;
+  ~RemoteDesk() override { replies_.close(); }
+  RemoteDesk(const RemoteDesk&) = delete;
+  RemoteDesk& operator=(const RemoteDesk&) = delete;
 
-  [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
+  [[nodiscard]] const TileSetInfo& info() const { return set_.info; }
+  [[nodiscard]] const std::vector<std::jthread>& threads() const { return answerers_; }
 
-  [[nodiscard]] Encoded read(const TileId& id) override {
+  [[nodiscard]] Encoded read(const TileId& id) {
     if (!exists(set_.info.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     std::optional<CacheRecord> record = cached(id);
     if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
     return TileFailure{MissingKind::remote, {}};
   }
-
-  [[nodiscard]] RemoteTiles* remote() override { return this; }
 
   void fetch(const TileId& id, double priority, Done done) override {
     HttpRequest request;
@@ -230,11 +231,26 @@ class RemoteSource : public TileSource, public RemoteTiles {
   std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
 };
 
+class RemoteSource : public TileSource {
+ public:
+  explicit RemoteSource(std::unique_ptr<RemoteDesk> desk) : desk_(std::move(desk)) {}
+  ~RemoteSource() override { end_owner(std::move(desk_)); }
+  RemoteSource(const RemoteSource&) = delete;
+  RemoteSource& operator=(const RemoteSource&) = delete;
+
+  [[nodiscard]] const TileSetInfo& info() const override { return desk_->info(); }
+  [[nodiscard]] Encoded read(const TileId& id) override { return desk_->read(id); }
+  [[nodiscard]] RemoteTiles* remote() override { return desk_.get(); }
+
+ private:
+  std::unique_ptr<RemoteDesk> desk_;
+};
+
 }  // namespace
 
 std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
                                                const HttpOptions& options) {
-  return std::make_unique<RemoteSource>(std::move(set), std::move(cache), options);
+  return std::make_unique<RemoteSource>(std::make_unique<RemoteDesk>(std::move(set), std::move(cache), options));
 }
 
 }  // namespace terrella

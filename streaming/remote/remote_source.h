@@ -16,7 +16,8 @@ namespace terrella {
 ///   not cached: fetch() asks, and what comes is stored: a tile, or that it is absent, blank or broken, each with its
 ///   own life; what failed for now is not stored.
 /// Without a cache (nullptr) everything is fetched. A cache that cannot be read counts as empty for that tile: the
-/// network still serves. The cache may be slow: two threads of the source call it, never the network thread.
+/// network still serves. The cache may be slow: two threads of the source call it, never the network thread. The
+/// destructor waits for these threads, never for a server. An answer may release the last owner of the source.
 /// thread: any
 [[nodiscard]] std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
                                                              const HttpOptions& options);

@@ -13,6 +13,7 @@
 #include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_source.h"
 #include "streaming/remote_tiff/remote_pyramid.h"
+#include "tiles/late_workers.h"
 
 namespace terrella {
 namespace {
@@ -32,10 +33,11 @@ struct Wish {
   std::vector<std::uint64_t> numbers{};  ///< of spans that are requested
 };
 
-class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
+/// The threads of a raster, and what they use.
+class RemoteTiffDesk : public RemoteTiles {
  public:
-  RemoteTiffSource(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
-                   std::unique_ptr<TiffSource> decoder)
+  RemoteTiffDesk(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
+                 std::unique_ptr<TiffSource> decoder)
       : file_(std::move(file)), tables_(std::move(tables)), decoder_(std::move(decoder)) {
     if (file_->offline()) return;
     fetcher_ = std::make_unique<SpanFetcher>(file_->address(), file_->http(), answers_);
@@ -46,7 +48,7 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
       });
     }
   }
-  ~RemoteTiffSource() override {
+  ~RemoteTiffDesk() override {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
@@ -56,20 +58,19 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
     answers_.close();
     threads_.clear();
   }
-  RemoteTiffSource(const RemoteTiffSource&) = delete;
-  RemoteTiffSource& operator=(const RemoteTiffSource&) = delete;
 
-  [[nodiscard]] const RasterInfo& info() const override { return decoder_->info(); }
-  [[nodiscard]] RemoteTiles* remote() override { return fetcher_ ? this : nullptr; }
+  [[nodiscard]] const RasterInfo& info() const { return decoder_->info(); }
+  [[nodiscard]] const std::vector<std::jthread>& threads() const { return threads_; }
+  [[nodiscard]] RemoteTiles* remote() { return fetcher_ ? this : nullptr; }
 
-  [[nodiscard]] Encoded read(const TileId& block) override {
+  [[nodiscard]] Encoded read(const TileId& block) {
     if (!has_block(info(), block)) return TileFailure{MissingKind::absent, {}};
     auto pieces = cached_pieces(block);
     if (!pieces) return pieces.error();
     return tile_of(block, *std::move(pieces));
   }
 
-  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) {
     const RasterLevel& finest = info().levels.back();
     const TileId block{.level = static_cast<int>(info().levels.size()) - 1,
                        .x = column / finest.block_width_px,
@@ -81,7 +82,7 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
     return decoder_->value_at(column, row);
   }
 
-  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
+  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) {
     const auto found = tables_->spans(block);
     if (!found) {
       std::string fault = file_->take_fault();
@@ -262,6 +263,25 @@ class RemoteTiffSource : public RemoteTiff, public RemoteTiles {
   std::vector<std::jthread> threads_;     ///< last: use the rest
 };
 
+class RemoteTiffSource : public RemoteTiff {
+ public:
+  explicit RemoteTiffSource(std::unique_ptr<RemoteTiffDesk> desk) : desk_(std::move(desk)) {}
+  ~RemoteTiffSource() override { end_owner(std::move(desk_)); }
+
+  [[nodiscard]] const RasterInfo& info() const override { return desk_->info(); }
+  [[nodiscard]] RemoteTiles* remote() override { return desk_->remote(); }
+  [[nodiscard]] Encoded read(const TileId& block) override { return desk_->read(block); }
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
+    return desk_->value_at(column, row);
+  }
+  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
+    return desk_->spans(block);
+  }
+
+ private:
+  std::unique_ptr<RemoteTiffDesk> desk_;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile> file, TiffPyramid pyramid,
@@ -273,8 +293,8 @@ Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile>
     return fault.empty() ? tables.error() : Error{fault};
   }
   auto decoder = (*tables)->over(file->held());
-  return std::unique_ptr<RemoteTiff>(
-      std::make_unique<RemoteTiffSource>(std::move(file), *std::move(tables), std::move(decoder)));
+  return std::unique_ptr<RemoteTiff>(std::make_unique<RemoteTiffSource>(
+      std::make_unique<RemoteTiffDesk>(std::move(file), *std::move(tables), std::move(decoder))));
 }
 
 }  // namespace terrella

@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+
+#include "globe/data_files.h"
 
 namespace terrella::test {
 namespace {
@@ -38,6 +41,28 @@ class DataFolder {
  private:
   fs::path path_;
 };
+
+// A library knows no program, so an application names the folder.
+TEST(DataFiles, FillOptionsFromAFolderNamedAtRunTime) {
+  const DataFolder folder;
+  const fs::path path = std::getenv("TERRELLA_DATA");
+  GlobeOptions options;
+  const Status missing = add_data(options, path);
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find((path / "DejaVuSans.ttf").string()), std::string::npos);
+  folder.copy("fonts/DejaVuSans.ttf", "DejaVuSans.ttf");
+  ASSERT_TRUE(add_data(options, path)) << "a globe without a sky needs a font only";
+  EXPECT_FALSE(options.label_font.empty());
+  EXPECT_TRUE(options.stars.empty());
+  options.sky = true;
+  folder.copy("sky/stars.csv", "stars.csv");
+  EXPECT_FALSE(add_data(options, path)) << "no city lights";
+  EXPECT_TRUE(options.stars.empty()) << "half filled";
+  folder.copy("earth/night_lights.png", "night_lights.png");
+  ASSERT_TRUE(add_data(options, path));
+  EXPECT_EQ(options.stars.size(), 8874u);
+  EXPECT_EQ(options.night_lights.width_px, 2048);
+}
 
 TEST(SkyData, IsWhatTheProgramShips) {
   const auto stars = load_stars(kShipped / "sky" / "stars.csv");

@@ -37,39 +37,6 @@ ObjectScene spheres(int count, double radius_m, double lowest_m, double highest_
   return scene;
 }
 
-/// `count` areas of 6°, some over each other, on the northern half.
-ObjectScene areas(int count) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> south(0.0, 70.0), west(-180.0, 174.0);
-  const auto at = [](double lat, double lon) {
-    return Geodetic{.lat = Angle::degrees(lat), .lon = Angle::degrees(lon), .height_m = 0.0};
-  };
-  ObjectScene scene;
-  for (int k = 0; k < count; ++k) {
-    const double s = south(random), w = west(random);
-    scene.polygons.push_back({.rings = {{at(s, w), at(s, w + 6.0), at(s + 6.0, w + 6.0), at(s + 6.0, w)}}});
-  }
-  return scene;
-}
-
-/// What a marker costs that is set beside areas, and what fading them does: calls, without a frame.
-void print_changes(const std::string& tile_set, int count) {
-  const auto globe = bench::open_globe(tile_set, Texturing::automatic, false);
-  const auto layer = globe->add_objects(areas(count));
-  const auto marker = globe->add_objects({.points = {{}}});
-  if (!layer || !marker) return;
-  const auto print_call = [](const char* what, const auto& call) {
-    const auto start = Clock::now();
-    call();
-    glFinish();
-    fmt::print("{:<40} {:7.2f} ms\n", what, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-  };
-  fmt::print("beside {} areas of 6 degrees:\n", count);
-  print_call("  a marker is set", [&] { (void)globe->set_objects(*marker, {.points = {{}, {}}}); });
-  print_call("  the areas are faded", [&] { (void)globe->fade_objects(*layer, 0.5); });
-  print_call("  the areas are set anew", [&] { (void)globe->set_objects(*layer, areas(count)); });
-}
-
 struct Spread {
   double low, middle, high;
 };
@@ -127,7 +94,6 @@ int main(int argc, char** argv) {
   for (const double km : {5.0, 20.0, 40.0}) {
     add(fmt::format("and {} of {} km under it", count, km), 0.5, spheres(count, 1e3 * km, -700.0e3, -1.0e3));
   }
-  for (const int areas : {300, 2000}) print_changes(tile_set, areas);
   bench::time_frames(subjects, rounds);
   for (const Subject& subject : subjects) print(subject, subjects.front());
   return 0;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/gnuplot.h"
+#include "apps/bench/report_page.h"
 
 namespace terrella::bench {
 namespace {
@@ -44,6 +45,22 @@ TEST(ReportTest, TheTableHasUnitsFiguresAndFindings) {
        {"A small report", "renderer: none", "ms", "1.2", "does not hold", "no bound: 3", "finding: fail"}) {
     EXPECT_NE(text.find(said), std::string::npos) << said << '\n' << text;
   }
+}
+
+TEST(ReportTest, ThePageHasEachBenchmarkItsPlotsAndWhyOneIsMissing) {
+  Report broken = small_report();
+  broken.name = "broken";
+  const std::string page = as_page({{"cores", "2"}}, {{.report = small_report(), .svg = "<svg><g id=\"dots\"/></svg>"},
+                                                      {.report = broken, .failure = "no <planet>"}});
+  for (const char* said :
+       {"<td>cores</td><td>2</td>", "<h2>small</h2>", "<g id=\"dots\">", "<td>here</td><td></td>",
+        "<li class=\"broken\">slower than that: 2 ms (at most 1)</li>", "<h2>broken</h2>", "no &lt;planet&gt;"}) {
+    EXPECT_NE(page.find(said), std::string::npos) << said << '\n' << page;
+  }
+}
+
+TEST(GnuplotTest, AnSvgIsDrawnOnItsOwnTerminal) {
+  EXPECT_NE(gnuplot_script(small_report(), "small.svg").find("set terminal svg"), std::string::npos);
 }
 
 TEST(GnuplotTest, TheScriptHoldsTheData) {

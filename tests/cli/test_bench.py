@@ -5,6 +5,7 @@ import json
 import math
 import shutil
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 from program import DONE, FAILED, WRONG_USAGE, ProgramTest
 
@@ -22,10 +23,10 @@ BENCH_LIMIT_S = 250
 
 
 class Bench(ProgramTest):
-    def run_bench(self, name):
-        done = self.assert_done("bench", name, "--quick", "--json", "--out", "out", "--work", "work",
+    def run_benches(self):
+        done = self.assert_done("bench", "all", "--quick", "--json", "--out", "out", "--work", "work",
                                 time_limit_s=BENCH_LIMIT_S)
-        return json.loads(done.stdout)
+        return {result["bench"]: result for result in json.loads(done.stdout)}
 
     def check_files(self, name, result):
         with open(self.folder / "out" / f"{name}.csv", newline="", encoding="utf-8") as file:
@@ -49,10 +50,12 @@ class Bench(ProgramTest):
             self.assertTrue(picture.startswith(b"\x89PNG\r\n"))
         return result["rows"]
 
-    def test_each_writes_a_table_that_is_well_formed(self):
+    def test_all_write_tables_and_one_page(self):
+        results = self.run_benches()
+        self.assertEqual(set(results), set(BENCHES) | {"stability", "growth"})
         for name, (time, error) in BENCHES.items():
             with self.subTest(name):
-                rows = self.check_files(name, self.run_bench(name))
+                rows = self.check_files(name, results[name])
                 for row in rows:
                     self.assertGreater(row[time], 0.0, row)
                     # Looking down on the pole there are no mid latitudes.
@@ -60,18 +63,47 @@ class Bench(ProgramTest):
                     self.assertTrue(found and all(math.isfinite(e) and 0.0 <= e < 60.0 for e in found), row)
                 if name == "polar":
                     self.check_the_papers_sphere(rows)
+        self.check_the_self_test(results["stability"])
+        self.check_the_growth(results["growth"])
+        self.check_the_page(results)
+
+    def check_the_growth(self, result):
+        rows = self.check_files("growth", result)
+        sizes = {}
+        for row in rows:
+            self.assertGreater(row["time"], 0.0, row)
+            sizes.setdefault((row["series"], row["subject"]), []).append(row["size"])
+        self.assertEqual({series for series, _ in sizes}, {"depth", "window", "layers", "workers", "cache"})
+        self.assertLessEqual({"open", "look-up", "store and evict", "info", "merge", "frame"},
+                             {subject for _, subject in sizes})
+        for subject, grown in sizes.items():
+            self.assertEqual(grown, sorted(set(grown)), subject)
+            self.assertGreater(len(grown), 1, subject)
+
+    def check_the_page(self, results):
+        page = (self.folder / "out" / "index.html").read_text(encoding="utf-8")
+        body = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>")).find("body")
+        sections = body.findall("section")
+        self.assertEqual([section.find("h2").text for section in sections], list(results))
+        for section, result in zip(sections, results.values(), strict=True):
+            self.assertEqual(len(section.findall("details/table/tr")), 1 + len(result["rows"]))
+            if shutil.which("gnuplot"):
+                self.assertIsNotNone(section.find("{http://www.w3.org/2000/svg}svg"))
+        for said in ("processor", "cores", "terrella"):
+            self.assertIn(said, page)
 
     def check_the_papers_sphere(self, rows):
         plain = [row for row in rows if row["method"] == "sphere: plain"]
         self.assertEqual({row["triangles"] for row in plain}, {27648})
         self.assertEqual({row["ratio_plain"] for row in plain if row["anisotropy"] == 1}, {1.0})
 
-    def test_the_self_test_passes_and_fails(self):
-        rows = self.check_files("stability", self.run_bench("stability"))
-        for row in rows:
+    def check_the_self_test(self, result):
+        for row in self.check_files("stability", result):
             self.assertGreater(row["time"], 0.0, row)
             self.assertIsNotNone(row["error"], row)
             self.assertIn(row["passed"], ("pass", "-"), row)
+
+    def test_the_self_test_fails(self):
         # Mesa's software rasteriser has a coarse arc tangent: held to the limit it fails.
         result = json.loads(self.assert_done("bench", "stability", "--quick", "--json", "--only", "functions").stdout)
         if result["facts"]["functions the engine chooses here"] == "own":
@@ -89,6 +121,7 @@ class Bench(ProgramTest):
         self.assert_fails(WRONG_USAGE, "bench", "speed", says=["speed", "polar", "terrella bench --help"])
         self.assert_fails(WRONG_USAGE, "bench", says=["NAME"])
         self.assert_fails(WRONG_USAGE, "bench", "polar", "--quick", "--full", says=["--full", "--quick"])
+        self.assert_fails(WRONG_USAGE, "bench", "all", "--only", "pole", says=["--only"])
         self.assert_fails(FAILED, "bench", "stream", "--quick", "--only", "nowhere", "--work", "work", says=["nowhere"],
                           time_limit_s=BENCH_LIMIT_S)
 

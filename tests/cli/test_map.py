@@ -6,7 +6,7 @@ import sys
 import unittest
 
 from pictures import png as png_bytes
-from program import SOURCE, WRONG_USAGE, ProgramTest
+from program import FAILED, SOURCE, WRONG_USAGE, ProgramTest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
 import png  # noqa: E402
@@ -64,6 +64,42 @@ class MapTest(ProgramTest):
         told = [json.loads(self.assert_done("render", "-o", "m.png", *LOOK, "--json", *more).stdout)["attributions"]
                 for more in (["--map", "on"], [])]
         self.assertEqual(set(told[0]) - set(told[1]), {"Natural Earth", "GeoNames"})
+
+    def test_graticule_and_credits_are_drawn_at_any_size(self):
+        """Lines cross where latitudes and longitudes are round; credits stand in the upper right corner."""
+        for width, height in ((320, 240), (4096, 2048)):
+            view = ["--unlit", "--size", f"{width}x{height}", "--camera", "0,0,40000000"]
+            plain, lined, credited = (png.read(self.picture("g.png", *more, look=view))
+                                      for more in ([], ["--graticule"], ["--credits"]))
+            middle = (width // 2, height // 2)
+            self.assertGreater(max(difference(plain, lined, middle[0] + d, middle[1] + d) for d in (-1, 0)), 60)
+            beside = (middle[0] + height // 40, middle[1] + height // 40)
+            self.assertEqual(difference(plain, lined, *beside), 0)
+            rows = [y for y in range(height) if plain[2][y] != credited[2][y]]
+            self.assertLess(max(rows), height // 3)
+            differ = [x for x in range(width) if any(difference(plain, credited, x, y) for y in rows)]
+            self.assertGreater(min(differ), width // 100)
+            self.assertGreater(max(differ), width * 9 // 10)
+
+    def test_labels_are_legible_on_snow(self):
+        """On white ground each name and each label of the graticule has a dark edge."""
+        self.write("snow.png", png_bytes(64, 32, (255, 255, 255)))
+        view = ["snow.png", "--unlit", "--size", "320x240", "--camera", "47,8,900000"]
+        for layer in (["--map", "on"], ["--graticule"]):
+            _, _, rows = png.read(self.picture("s.png", *layer, look=view))
+            self.assertGreater(sum(max(row[i : i + 3]) < 90 for row in rows for i in range(0, len(row), 3)), 300, layer)
+
+    def test_credits_without_room_are_refused(self):
+        failed = self.assert_fails(FAILED, "render", "-o", "m.png", *LOOK, "--credits",
+                                   says=["m.png", "64 x 64", "no room for the sources", "larger"])
+        self.assertEqual(failed.stdout, "")
+        self.assertFalse((self.folder / "m.png").exists())
+
+    def test_objects_credit_their_source(self):
+        spot = {"type": "Point", "coordinates": [8, 47]}
+        self.write("o.geojson", json.dumps({**spot, "attribution": "Example Survey"}).encode())
+        told = json.loads(self.assert_done("render", "-o", "o.png", *LOOK, "--json", "--objects", "o.geojson").stdout)
+        self.assertIn("Example Survey", told["attributions"])
 
     def test_the_moon_has_no_map_but_names_from_a_file(self):
         self.write("moon.png", png_bytes(64, 32))

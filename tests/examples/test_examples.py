@@ -89,11 +89,29 @@ class WithoutWindow(ExampleTest):
         red = sum(1 for k in range(0, len(drawn.rgb), 3) if drawn.rgb[k] > 200 and drawn.rgb[k + 2] < 80)
         self.assertGreater(red, 200, "shallow earthquakes are red")
 
+    def test_aircraft(self):
+        picture = self.folder / "aircraft.png"
+        self.run_example("aircraft", EARTH, picture, "0.1")
+        drawn = Picture("convert", picture)
+        red = sum(1 for k in range(0, len(drawn.rgb), 3) if drawn.rgb[k] > 200 and drawn.rgb[k + 2] < 80)
+        self.assertGreater(red, 1000, "aircraft are red")
+
     def test_flight_frames(self):
         self.run_example("flight_frames", EARTH, self.folder, "0.2")
         frames = sorted(self.folder.iterdir())
         self.assertEqual([frame.name for frame in frames], [f"{k:04}.png" for k in range(6)])
         self.assertEqual(len({frame.read_bytes() for frame in frames}), 6, "each frame is another")
+
+
+    def test_overview(self):
+        file = self.folder / "overview.png"
+        self.run_example("overview", EARTH, file)
+        drawn = Picture("convert", file)
+        self.assertEqual((drawn.width, drawn.height), (640, 360))
+        corner = Picture("convert", file, "-crop", "160x90+0+270", "+repage")
+        above = Picture("convert", file, "-crop", "160x90+0+180", "+repage")
+        self.assertGreater(corner.colours(), 500, "the map has many colours")
+        self.assertNotEqual(corner.rgb, above.rgb)
 
 
 class InWindow(ExampleTest):

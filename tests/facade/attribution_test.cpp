@@ -68,14 +68,16 @@ TEST_F(Attributions, EachLayerTellsItsOwn) {
 
 TEST_F(Attributions, AreThoseOfLayersThatAreShownInTheirOrderAndOnce) {
   EXPECT_EQ(now(), Texts{});
-  const LayerId a = add(owed_to("A")), b = add(owed_to("B")), again = add(owed_to("A")), nobody = add(owed_to(""));
+  const ImageLook thin{.opacity = 0.5};
+  const LayerId a = add(owed_to("A")), b = add(owed_to("B"), thin), again = add(owed_to("A"), thin),
+                nobody = add(owed_to(""), thin);
   EXPECT_EQ(now(), (Texts{"A", "B"}));
   ASSERT_TRUE(globe_->set_look(b, {.shown = false}));
   EXPECT_EQ(globe_->attributions(), (Texts{"A", "B"})) << "of the last frame";
   EXPECT_EQ(now(), Texts{"A"});
   ASSERT_TRUE(globe_->set_look(b, {.opacity = 0.5}));
   ASSERT_TRUE(globe_->move(b, 0));
-  EXPECT_EQ(now(), (Texts{"B", "A"}));
+  EXPECT_EQ(now(), Texts{"A"}) << "hides B";
   ASSERT_TRUE(globe_->remove(a));
   ASSERT_TRUE(globe_->set_attribution(nobody, "N"));
   EXPECT_EQ(now(), (Texts{"B", "A", "N"}));
@@ -85,9 +87,37 @@ TEST_F(Attributions, AreThoseOfLayersThatAreShownInTheirOrderAndOnce) {
   EXPECT_FALSE(globe_->set_attribution(again, "gone"));
 }
 
-TEST_F(Attributions, LayersOutOfViewHaveNone) {
+// A layer over others hides them where it is opaque and has tiles.
+TEST_F(Attributions, LayersUnderAnOpaqueLayerHaveNone) {
+  add(owed_to("globe"));
+  const LayerId cover = add(owed_to("cover"));
+  EXPECT_EQ(now(), Texts{"cover"});
+  add(owed_to("film"), {.opacity = 0.3});
+  EXPECT_EQ(now(), (Texts{"cover", "film"}));
+  ASSERT_TRUE(globe_->set_look(cover, {.alpha = AlphaFrom::brightness}));
+  EXPECT_EQ(now(), (Texts{"globe", "cover", "film"}));
+  ASSERT_TRUE(globe_->set_look(cover, {}));
+  EXPECT_EQ(now(), (Texts{"cover", "film"}));
+  // Clear pixels anywhere in the layer may let those under it through.
+  ASSERT_TRUE(globe_->remove(cover));
+  auto holes = std::make_shared<LayerSource>(kOwedGrid, [](double lon, double) {
+    return Rgba{9, 9, 9, lon < 20 ? std::uint8_t{255} : std::uint8_t{0}};
+  });
+  holes->set_attribution("holes");
+  add(holes);
+  EXPECT_EQ(now(), (Texts{"globe", "film", "holes"}));
+}
+
+TEST_F(Attributions, AnOpaqueLayerWithBoundsHidesOnlyWhatLiesUnderIt) {
   add(owed_to("globe"));
   add(owed_to("Africa", bounded(-20, -35, 50, 35)));
+  EXPECT_EQ(of(camera_at(0, 20, 1.0e6)), Texts{"Africa"});
+  EXPECT_EQ(of(camera_at(0, 20, 2.0e7)), (Texts{"globe", "Africa"}));
+}
+
+TEST_F(Attributions, LayersOutOfViewHaveNone) {
+  add(owed_to("globe"));
+  add(owed_to("Africa", bounded(-20, -35, 50, 35)), {.opacity = 0.9});
   EXPECT_EQ(of(camera_at(0, 20, 1.0e6)), (Texts{"globe", "Africa"}));
   EXPECT_EQ(of(camera_at(0, 120, 1.0e6)), Texts{"globe"});
   EXPECT_EQ(of(camera_at(0, -160, 2.0e7)), Texts{"globe"}) << "behind the horizon";
@@ -109,7 +139,7 @@ TEST_F(Attributions, LevelsAndTilesThatAreLackingHaveNone) {
   missing->set_attribution("never came");
   add(missing);
   EXPECT_EQ(of(camera_at(0, 20, 3.0e7)), Texts{"globe"});
-  EXPECT_EQ(of(camera_at(0, 20, 5.0e5)), (Texts{"globe", "near"}));
+  EXPECT_EQ(of(camera_at(0, 20, 5.0e5)), Texts{"near"}) << "hides the globe";
 }
 
 /// Another's tiles, and whom they are owed to.

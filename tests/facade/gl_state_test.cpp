@@ -108,7 +108,7 @@ class ForeignState {
   void bind_textures(GLuint unit) {
     glActiveTexture(GL_TEXTURE0 + unit);
     for (const GLenum target : {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_3D, GL_TEXTURE_BUFFER,
-                                GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE}) {
+                                GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE, GL_TEXTURE_2D_MULTISAMPLE}) {
       if (random_() % 4 == 0) continue;
       glCreateTextures(target, 1, &textures_.emplace_back(0U));
       glBindTexture(target, textures_.back());
@@ -241,6 +241,28 @@ TEST_F(ForeignContext, RenderingLeavesTheStateAsItWas) {
         EXPECT_EQ(differences(before, dump_gl_state()), "");
       }
     }
+  }
+}
+
+TEST_F(ForeignContext, RenderingIntoSamplesLeavesTheStateAsItWas) {
+  const auto globe = full_globe();
+  ASSERT_TRUE(globe);
+  fill(*globe);
+  globe->set_camera(camera_at(0, 10, 1.0e7));
+  gl::Texture color = gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE), depth = gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE);
+  glTextureStorage2DMultisample(color.name(), 4, GL_RGBA8, kForeign.width_px, kForeign.height_px, GL_TRUE);
+  glTextureStorage2DMultisample(depth.name(), 4, GL_DEPTH_COMPONENT32F, kForeign.width_px, kForeign.height_px, GL_TRUE);
+  const gl::Framebuffer target = gl::make_framebuffer();
+  glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+  glNamedFramebufferTexture(target.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+  for (const unsigned seed : {91U, 92U}) {
+    const ForeignState foreign(seed);
+    const GlDump before = dump_gl_state();
+    globe->render(target.name(), kForeign);
+    EXPECT_TRUE(globe->status());
+    EXPECT_EQ(differences(before, dump_gl_state()), "");
+    EXPECT_TRUE(globe->copy_depth(target.name()));
+    EXPECT_EQ(differences(before, dump_gl_state()), "");
   }
 }
 

@@ -18,7 +18,7 @@ using std::chrono::steady_clock;
 constexpr Viewport kPicture{128, 128};
 constexpr Color kLand = {200, 180, 90};
 constexpr auto kPatience = std::chrono::seconds(60);  // a loaded machine with software GL
-const TileGrid kGrid{.tile_px = 64, .max_level = 4};
+const TileGrid kFourLevels{.tile_px = 64, .max_level = 4};
 
 /// Another source, with something done before each read.
 class Interposed : public TileSource {
@@ -54,7 +54,7 @@ std::shared_ptr<TileSource> slow(std::shared_ptr<TileSource> tiles, std::chrono:
 }
 
 std::shared_ptr<TileSource> hills() {
-  return painted_heights(kGrid,
+  return painted_heights(kFourLevels,
                          [](double lat, double lon) { return 2000.0 * std::sin(9.0 * lat) * std::cos(5.0 * lon); });
 }
 
@@ -95,7 +95,7 @@ TEST_F(TileLife, TilesThatFailForNowAreRequestedAgainWhateverTheirKind) {
   };
   GlobeOptions options = unlit_options();
   options.retry_after = std::chrono::milliseconds(200);
-  const auto spoiled = globe_of(options, failing_once(one_colour(kGrid, kLand)), failing_once(hills()));
+  const auto spoiled = globe_of(options, failing_once(one_colour(kFourLevels, kLand)), failing_once(hills()));
   int missing = 0;
   EXPECT_TRUE(frames_until(*spoiled, [&](const FrameStats& stats) {
     missing = std::max(missing, stats.heights_missing);
@@ -103,7 +103,7 @@ TEST_F(TileLife, TilesThatFailForNowAreRequestedAgainWhateverTheirKind) {
   })) << "tiles stay missing";
   EXPECT_GT(missing, 0) << "no tile of heights has failed: nothing was tested";
   const auto recovered = picture().rgba;
-  const auto whole = globe_of(unlit_options(), one_colour(kGrid, kLand), hills());
+  const auto whole = globe_of(unlit_options(), one_colour(kFourLevels, kLand), hills());
   settle(*whole, kPicture);
   EXPECT_EQ(recovered, picture().rgba);
 }
@@ -119,9 +119,9 @@ TEST_F(TileLife, AWaitForTilesTakesNoProcessorTimeWhateverTheirKind) {
     return std::pair{processor_s() - before, wall};
   };
   const auto [slow_heights, heights_wall] =
-      picture_of(one_colour(kGrid, kLand), slow(hills(), std::chrono::milliseconds(250)));
+      picture_of(one_colour(kFourLevels, kLand), slow(hills(), std::chrono::milliseconds(250)));
   const auto [slow_imagery, imagery_wall] =
-      picture_of(slow(one_colour(kGrid, kLand), std::chrono::milliseconds(1000)), hills());
+      picture_of(slow(one_colour(kFourLevels, kLand), std::chrono::milliseconds(1000)), hills());
   // A frame of this size takes some 10 ms of processor time: one for each tile that comes is a small part of the wait.
   EXPECT_GT(heights_wall, 2.0) << "too few tiles to wait for";
   EXPECT_LT(slow_heights, 0.3 * heights_wall);

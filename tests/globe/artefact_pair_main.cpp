@@ -34,7 +34,7 @@ std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
   auto elevation = value_of(open_elevation(scene));
   const Body body = value_of(scene_body(scene, imagery->info()));
   GlobeOptions options = globe_options(scene, body);
-  add_sky_data(options);
+  add_sky_data(options, options.time.has_value());
   auto globe = value_of(Globe::create(options, std::move(imagery), std::move(elevation)));
   Experiments::of(*globe).naive_translucency = naive;
   // Which of two mountains comes first is chance; in this order some of those behind do.

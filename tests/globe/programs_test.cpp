@@ -52,18 +52,29 @@ class Programs : public GlTest {
     for (const std::string& name : plain()) EXPECT_EQ(all.erase(name), 1U) << name;
     return all;
   }
-  static Names plain() {
-    return {"limb_air.frag", "patch_magnified.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"};
-  }
+  static Names plain() { return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag"}; }
 };
 
 TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
   EXPECT_EQ(of({}), plain());
   GlobeOptions options;
-  options.texturing = Texturing::vertex;
-  Names no_polar = plain();
-  no_polar.erase("patch_polar.frag");
-  EXPECT_EQ(of(options), no_polar);
+  options.texturing = Texturing::exact;
+  EXPECT_EQ(of(options), (Names{"limb_air.frag", "patch_polar.frag"}));
+}
+
+TEST_F(Programs, APatchProgramComesWithTheFirstPatchThatNeedsIt) {
+  const auto globe = make_globe({}, one_colour(kProgramsGrid, {200, 120, 40}));
+  const auto at = [&](double lat_deg, double height_m) {
+    globe->set_camera(camera_at(lat_deg, 20, height_m));
+    settle(*globe, kProgramsPicture);
+    return programs();
+  };
+  Names expected{"limb_air.frag", "patch_magnified.frag", "patch_plain.frag"};
+  EXPECT_EQ(at(10, 1.0e5), expected) << "neither a pole is in view, nor the limb";
+  expected.insert("patch_polar.frag");
+  EXPECT_EQ(at(90, 1.0e5), expected);
+  expected.insert("patch_oblique.frag");
+  EXPECT_EQ(at(10, 2.0e7), expected);
 }
 
 TEST_F(Programs, TranslucencyBringsADepthPassAndWithSomethingBelowTheInnerSphere) {
@@ -92,12 +103,12 @@ TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAga
     EXPECT_TRUE(globe->add_imagery(one_colour(kProgramsGrid, {200, 120, 40}), look));
     settle(*globe, kProgramsPicture);
     const auto all = all_programs();
-    return std::pair(all.count("patch_polar.frag"), all.size());
+    return std::pair(all.count("patch_plain.frag"), all.size());
   };
   const std::size_t alone = plain().size();
-  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 5)) << "and a flat one";
-  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 5)) << "no time";
-  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 9));
+  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 3)) << "and a flat one";
+  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 3)) << "no time";
+  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 5));
 }
 
 TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
@@ -112,16 +123,20 @@ TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
   const auto layer = globe->add_imagery(numbers, look);
   ASSERT_TRUE(layer);
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 5) << "four and a flat one";
+  EXPECT_EQ(all_programs().size(), alone + 3) << "two and a flat one";
   look.opacity = 1.0;
   ASSERT_TRUE(globe->set_look(*layer, look) && globe->move(*layer, 0));
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 13) << "as the base layer, and the picture over it";
+  EXPECT_EQ(all_programs().size(), alone + 7) << "as the base layer, and the picture over it";
 }
 
-TEST_F(Programs, TheSkyBringsStarsSunMoonAndAir) {
+TEST_F(Programs, TheSkyBringsAirWithStarsThoseAndWithATimeSunAndMoon) {
   GlobeOptions options;
   options.sky = true;
+  EXPECT_EQ(more(of(options)), (Names{"sky_air.frag"}));
+  options.stars = {Star{.direction_j2000 = {1.0F, 0.0F, 0.0F}, .magnitude = 1.0F, .color_linear = {1.0F, 1.0F, 1.0F}}};
+  EXPECT_EQ(more(of(options)), (Names{"sky_air.frag", "sky_star.frag"}));
+  options.time = *parse_utc("2026-06-21T12:00Z");
   EXPECT_EQ(more(of(options)), (Names{"sky_air.frag", "sky_moon.frag", "sky_star.frag", "sky_sun.frag"}));
 }
 

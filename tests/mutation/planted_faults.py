@@ -99,9 +99,9 @@ FAULTS = [
     Fault("retry: a tile that failed for now is missing for good", "engine/globe/tile_stream.h",
           "const bool for_now = failure.kind == MissingKind::failed;", "const bool for_now = false;",
           "facade_tests", "TileLife*"),
-    Fault("objects: each change tessellates every layer anew", "engine/globe/globe_objects.cpp",
-          "if (!layer.cut || layer.cut->step != step) {", "{",
-          "facade_tests", "ObjectLayers.OnlyALayer*"),
+    Fault("objects: a change of colour cuts an area anew", "engine/objects/layer_cuts.cpp",
+          "if ((!fill || area.asked_fill) && (!outline || area.asked_outline)) return;", "",
+          "facade_tests", "LivingObjects.OnlyAShape*"),
 ]
 
 

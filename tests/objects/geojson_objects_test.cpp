@@ -37,6 +37,18 @@ std::string collection(const std::string& features, const std::string& more = ""
 }
 const std::string kPoint = geometry("Point", "[8.5,47.25,-1200.5]");
 
+TEST(GeojsonObjects, ReadsTheAttributionOfTheDocument) {
+  const std::string inner = feature(kPoint, R"({"attribution":"of a feature"})");
+  EXPECT_EQ(good(collection(inner)).attribution, "");
+  EXPECT_EQ(good(collection(inner, R"("attribution":"Survey",)")).attribution, "Survey");
+  EXPECT_EQ(good(R"({"features":[)" + inner + R"(],"attribution":"after","type":"FeatureCollection"})").attribution,
+            "after");
+  EXPECT_EQ(good(R"({"attribution":"alone",)" + inner.substr(1)).attribution, "alone");
+  const ObjectFile odd = good(collection(inner, R"("attribution":7,)"));
+  EXPECT_EQ(odd.attribution, "");
+  EXPECT_THAT(odd.complaints, ElementsAre(HasSubstr("attribution")));
+}
+
 TEST(GeojsonObjects, ReadsEveryKindOfGeometryWithHeightsInMetres) {
   const ObjectFile file = good(collection(
       feature(kPoint) + "," + feature(geometry("MultiPoint", "[[1,2],[3,4,5]]")) + "," +
@@ -57,6 +69,20 @@ TEST(GeojsonObjects, ReadsEveryKindOfGeometryWithHeightsInMetres) {
   ASSERT_EQ(file.scene.polygons.size(), 3U);
   EXPECT_EQ(file.scene.polygons[0].rings.size(), 2U);
   EXPECT_EQ(file.scene.polygons[0].rings[0].size(), 3U);
+}
+
+TEST(GeojsonObjects, ObjectsHaveTheNumberAndThePropertiesOfTheirFeature) {
+  const ObjectFile file = good(collection(
+      feature(kPoint) + "," +
+      feature(geometry("MultiPoint", "[[1,2],[3,4]]"), R"({"title":"Zürich","people":[1,2.5],"description":"x"})")));
+  ASSERT_EQ(file.scene.points.size(), 3U);
+  EXPECT_EQ(file.scene.points[0].of.id, ObjectId{1});
+  EXPECT_EQ(file.scene.points[0].of.feature->properties, "{}");
+  ASSERT_EQ(file.scene.labels.size(), 2U);
+  for (const ObjectIdentity& of : {file.scene.points[1].of, file.scene.points[2].of, file.scene.labels[1].of}) {
+    EXPECT_EQ(of.id, ObjectId{2});
+    EXPECT_EQ(of.feature->properties, R"({"description":"x","people":[1,2.5],"title":"Zürich"})");
+  }
 }
 
 TEST(GeojsonObjects, ReadsAGeometryOrAFeatureThatIsTheWholeDocument) {

@@ -63,10 +63,14 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
-  pass_->set_objects(scene, ellipsoid_);
-  EXPECT_TRUE(pass_->set_labels(scene.labels, ellipsoid_));
-  EXPECT_TRUE(pass_->set_meshes(scene.meshes, ellipsoid_));
-  pass_->place_labels(view, label_sight_);
+  LayerObjects objects(scene, ellipsoid_, 1.0, kSelectedColor);
+  objects.place(cut_objects(objects.take_job(), false));
+  LayerBuffers buffers;
+  pass_->set_layers({{&objects, &buffers}});
+  EXPECT_TRUE(pass_->prepare());
+  pass_->upload();
+  ShownLabels shown;
+  pass_->place_labels(view, label_sight_, shown);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
     draw_calls_ += pass_->draw(part, frame, size_, state, ObjectChoice::all, hiding_radius_m_);
@@ -81,6 +85,7 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
     std::copy_n(bottom_up.data() + row * static_cast<std::size_t>(size_.height_px - 1 - y), row,
                 picture.rgba.data() + row * static_cast<std::size_t>(y));
   }
+  pass_->set_layers({});
   return picture;
 }
 

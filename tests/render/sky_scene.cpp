@@ -12,9 +12,8 @@ SkyScene::SkyScene(const Body& body, Viewport size, const std::vector<Star>& sta
   auto context = HeadlessContext::create();
   if (!context) throw std::runtime_error(context.error().message);
   context_ = std::move(*context);
-  auto sky = SkyPass::create(body, stars);
-  if (!sky) throw std::runtime_error(sky.error().message);
-  sky_ = std::move(*sky);
+  sky_ = std::make_unique<SkyPass>(body, stars);
+  sky_->keep_air_in(air_);
   color_ = gl::make_texture(GL_TEXTURE_2D);
   depth_ = gl::make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(color_.name(), 1, GL_RGBA8, size.width_px, size.height_px);
@@ -62,6 +61,7 @@ std::vector<std::uint8_t> SkyScene::draw(const Camera& camera, const SkyInput& i
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   mask_globe(at);
   upload_frame(at);
+  if (const Status made = sky_->prepare(input); !made) throw std::runtime_error(made.error().message);
   draw_calls_ = sky_->draw(at, input, {.stencil = StencilState{.reference = 0, .read_mask = 1}});
   const auto width = static_cast<std::size_t>(size_.width_px) * 4, height = static_cast<std::size_t>(size_.height_px);
   std::vector<std::uint8_t> rows(width * height), picture(width * height);

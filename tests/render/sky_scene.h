@@ -36,6 +36,7 @@ class SkyScene {
   Viewport size_;
   std::unique_ptr<HeadlessContext> context_;
   std::unique_ptr<SkyPass> sky_;
+  std::unique_ptr<AirTextures> air_;
   gl::Texture color_, depth_;
   gl::Framebuffer framebuffer_;
   gl::Buffer frame_;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "geo/body.h"
-#include "objects/object_batches.h"
+#include "objects/layer_objects.h"
 
 namespace terrella {
 namespace {
@@ -17,6 +17,12 @@ constexpr double kPlace_m = 1.0e-6;
 
 Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
   return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
+}
+
+LayerObjects cut(const ObjectScene& scene) {
+  LayerObjects objects(scene, earth().ellipsoid, 1.0, kSelectedColor);
+  objects.place(cut_objects(objects.take_job(), false));
+  return objects;
 }
 
 TEST(ObjectShapes, PiecesOfALineStayWithinTheirSagOfTheSurface) {
@@ -71,7 +77,7 @@ TEST(ObjectShapes, AnAreaThatTakesTooMuchIsLeftOutAndCounted) {
   const PolygonObject planet{.rings = {{at(-90, -180), at(-90, 180), at(90, 180), at(90, -180)}}};
   EXPECT_TRUE(fill_area(planet, earth().ellipsoid, 1000).indices.empty());
   const PolygonObject antipodal{.rings = {{at(0, 0), at(0, 180), at(50, 90)}}};
-  EXPECT_EQ(make_batches({.polygons = {antipodal}}, earth().ellipsoid).fills_dropped, 1U);
+  EXPECT_EQ(cut({.polygons = {antipodal}}).fills_dropped(), 1U);
 }
 
 TEST(ObjectBatches, WhatIsNotFiniteIsNoTrouble) {
@@ -79,7 +85,7 @@ TEST(ObjectBatches, WhatIsNotFiniteIsNoTrouble) {
     const std::vector<Geodetic> places{at(0, 0), at(bad, bad, bad), at(1, 1), at(0, bad)};
     const ObjectScene scene{
         .points = {{.place = places[1]}}, .lines = {{.places = places}}, .polygons = {{.rings = {places}}}};
-    EXPECT_EQ(make_batches(scene, earth().ellipsoid).fills_dropped, 1U);
+    EXPECT_EQ(cut(scene).fills_dropped(), 1U);
   }
 }
 
@@ -89,7 +95,9 @@ TEST(ObjectBatches, PartOpacityAndChoiceLieTogether) {
   under.place.height_m = -5.0;
   clear.color.alpha = 100;
   chosen.through_surface = true;
-  const auto spheres = make_batches({.points = {clear, chosen, under, over, chosen}}, earth().ellipsoid).spheres;
+  LayerObjects objects = cut({.points = {clear, chosen, under, over, chosen}});
+  objects.tidy();
+  const Batch<char>& spheres = objects.batches().spheres.ranges;
   EXPECT_EQ(spheres.range(ObjectPart::underground, true, ObjectChoice::all).count, 1U);
   EXPECT_EQ(spheres.range(ObjectPart::above_ground, true, ObjectChoice::all).count, 3U);
   EXPECT_EQ(spheres.range(ObjectPart::above_ground, true, ObjectChoice::chosen).count, 2U);

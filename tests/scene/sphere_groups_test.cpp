@@ -52,7 +52,7 @@ Batch<DotInstance> any_spheres(std::mt19937& random, std::size_t count) {
 }
 
 /// Where each sphere is drawn: 0 nowhere, 1 as a triangle, 2 as a point.
-std::vector<int> drawn(const SphereGroups& groups, const SphereSight& sight) {
+std::vector<int> drawn(SphereGroups& groups, const SphereSight& sight) {
   std::vector<int> how(groups.items().size(), 0);
   const SphereGroups::Seen seen = groups.seen({0, groups.items().size()}, sight);
   for (const auto& run : seen.triangles) {
@@ -87,7 +87,7 @@ std::vector<SphereSight> sights() {
 
 TEST(SphereGroups, WhatIsSeenIsDrawnOnceAndMuchOfTheRestIsNot) {
   std::mt19937 random(8);
-  const SphereGroups groups(any_spheres(random, 100'000));
+  SphereGroups groups(any_spheres(random, 100'000));
   for (const SphereSight& from : sights()) {
     const std::vector<int> how = drawn(groups, from);
     std::size_t seen = 0, all = 0;
@@ -110,7 +110,7 @@ TEST(SphereGroups, PointsAreSmallAndWhollyInThePicture) {
   std::mt19937 random(9);
   Batch<DotInstance> batch = any_spheres(random, 20'000);
   for (DotInstance& sphere : batch.items) sphere.size *= 0.2F;
-  const SphereGroups groups(batch);
+  SphereGroups groups(batch);
   std::size_t points = 0;
   for (const SphereSight& from : sights()) {
     const std::vector<int> how = drawn(groups, from);
@@ -133,9 +133,30 @@ TEST(SphereGroups, TranslucentSpheresKeepTheirOrderAndAreNoPoints) {
   std::mt19937 random(10);
   Batch<DotInstance> batch = any_spheres(random, 500);
   for (DotInstance& sphere : batch.items) sphere.color.alpha = 100;
-  const SphereGroups groups(batch);
+  const std::size_t translucent = Batch<DotInstance>::bucket(ObjectPart::above_ground, false, false);
+  std::fill(batch.first.begin(), batch.first.begin() + std::ptrdiff_t(translucent) + 1, 0);
+  SphereGroups groups(batch);
   for (std::size_t k = 0; k < batch.items.size(); ++k) ASSERT_EQ(groups.items()[k].high_m, batch.items[k].high_m);
   EXPECT_TRUE(groups.seen({0, batch.items.size()}, sights().front()).points.empty());
+}
+
+// A sphere that moves away is seen where it comes to, and its group's ball follows it.
+TEST(SphereGroups, AMovedSphereIsSeenWhereItIs) {
+  std::mt19937 random(12);
+  const Batch<DotInstance> before = any_spheres(random, 3000), after = any_spheres(random, 3000);
+  SphereGroups moved(before);
+  std::vector<DotInstance> spheres(3000);
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    EXPECT_EQ(moved.items()[k].high_m, before.items[moved.source(k)].high_m);
+    spheres[k] = after.items[moved.source(k)];
+    moved.set(k, spheres[k]);
+  }
+  for (const SphereSight& from : sights()) {
+    const std::vector<int> how = drawn(moved, from);
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+      ASSERT_TRUE(how[k] > 0 || !is_seen(spheres[k], from)) << k;
+    }
+  }
 }
 
 TEST(SphereGroups, ARangeIsItsOwnBuckets) {
@@ -143,7 +164,7 @@ TEST(SphereGroups, ARangeIsItsOwnBuckets) {
   Batch<DotInstance> batch = any_spheres(random, 100);
   const std::size_t chosen = Batch<DotInstance>::bucket(ObjectPart::above_ground, true, true);
   batch.first[chosen] = 37;
-  const SphereGroups groups(batch);
+  SphereGroups groups(batch);
   SphereSight everywhere = sights().front();
   everywhere.hiding_radius_m = 0.0F;
   for (const ObjectChoice choice : {ObjectChoice::all, ObjectChoice::others, ObjectChoice::chosen}) {

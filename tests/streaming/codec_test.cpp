@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "codecs/image.h"
+#include "codecs/png_codec.h"
 #include "streaming_test_support.h"
 
 namespace terrella {
@@ -60,15 +61,26 @@ TEST(Jpeg, ComesBackAlmostTheSame) {
 }
 
 TEST(Png, ComesBackExactly) {
-  Image image = gradient(61, 37);
-  const auto opaque = encode_png(image);
-  EXPECT_EQ(decode_image(*opaque)->rgba, image.rgba);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i);
-  const auto translucent = encode_png(image);
-  EXPECT_EQ(decode_image(*translucent)->rgba, image.rgba);
-  constexpr std::size_t kColorTypeAt = 25;  // in IHDR
-  EXPECT_EQ((*opaque)[kColorTypeAt], std::byte{PNG_COLOR_TYPE_RGB});
-  EXPECT_EQ((*translucent)[kColorTypeAt], std::byte{PNG_COLOR_TYPE_RGB_ALPHA});
+  for (const auto encode : {encode_png, encode_png_quickly}) {
+    Image image = gradient(61, 37);
+    const auto opaque = encode(image);
+    EXPECT_EQ(decode_image(*opaque)->rgba, image.rgba);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i);
+    const auto translucent = encode(image);
+    EXPECT_EQ(decode_image(*translucent)->rgba, image.rgba);
+    constexpr std::size_t kColorTypeAt = 25;  // in IHDR
+    EXPECT_EQ((*opaque)[kColorTypeAt], std::byte{PNG_COLOR_TYPE_RGB});
+    EXPECT_EQ((*translucent)[kColorTypeAt], std::byte{PNG_COLOR_TYPE_RGB_ALPHA});
+  }
+}
+
+TEST(Png, TilesHaveTheBytesOfLibpngsOwnWriter) {
+  const Image image = gradient(61, 37);
+  std::vector<std::uint8_t> rgb;
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    if (i % 4 != 3) rgb.push_back(image.rgba[i]);
+  }
+  EXPECT_EQ(*encode_png(image), png_in_format(61, 37, PNG_FORMAT_RGB, rgb.data()));
 }
 
 TEST(Png, GrayBecomesRgba) {

@@ -11,6 +11,11 @@ BUILD = pathlib.Path(os.environ['TERRELLA_BUILD'])
 FOLDERS = ('engine', 'streaming', 'apps', 'shaders')
 
 
+def installed(header):
+    """A header's name under include/terrella."""
+    return 'globe.h' if header == 'globe/globe.h' else header
+
+
 def _names(links):
     """The project's targets among links, those that are linked but not included from left out."""
     links = re.sub(r'\$<LINK_ONLY:[^>]*>', '', links)

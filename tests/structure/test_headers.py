@@ -43,7 +43,7 @@ class Headers(unittest.TestCase):
         text = ''
         for name in known.names():
             for header, path in known.headers(name):
-                installed = header.removeprefix('globe/')
+                installed = targets.installed(header)
                 for spelt in (f'<terrella/{installed}>', f'"{header}"', f'"{installed}"'):
                     if str(path) not in public:
                         text += f'#if __has_include({spelt})\n#error {spelt}\n#endif\n'
@@ -65,7 +65,7 @@ class Headers(unittest.TestCase):
         table = (SOURCE / 'engine/README.md').read_text().split('| header `<terrella/…>` |')[1].split('\n\n')[0]
         named = set(re.findall(r'`([\w/]+\.h)`', table))
         self.assertGreater(len(named), 10)
-        self.assertEqual(named - {re.sub('^engine/(globe/)?', '', header) for header in public_headers()}, set())
+        self.assertEqual(named - {targets.installed(header.removeprefix('engine/')) for header in public_headers()}, set())
 
     def test_each_declaration_says_which_thread_may_use_it(self):
         silent = []

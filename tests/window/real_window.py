@@ -1,5 +1,6 @@
 """Runs the viewer in a private display, and sends real key and pointer events to the viewer."""
 
+import json
 import operator
 import os
 import queue
@@ -62,6 +63,27 @@ class Display:
         self.server.wait()
 
 
+class Layout:
+    """Rectangles of panels and labels: left, top, right, bottom."""
+
+    OVER_OTHERS = re.compile(r"Menu|##Tooltip_|##Combo_|##Popup_")  # as long as they are open
+
+    def __init__(self, told):
+        self.panels = {name.split("##")[-1]: box for name, box in told["panels"].items()}
+        self.labels = told["labels"]
+        self.cut = [f"{name} is cut" for name in told["cut"]]
+        self.fixed = [(name, box) for name, box in told["panels"].items() if not self.OVER_OTHERS.match(name)]
+
+    def faults(self, width, height):
+        """Pairs that overlap, what leaves the window, and panels whose contents are cut."""
+        boxes = self.fixed + [(f"label {k}", box) for k, box in enumerate(self.labels)]
+        over = [(a, b) for k, a in enumerate(boxes) for b in boxes[:k]
+                if all(min(a[1][i + 2], b[1][i + 2]) - max(a[1][i], b[1][i]) > 0.5 for i in (0, 1))]
+        all_panels = [(name, box) for name, box in self.panels.items()]
+        beyond = [one for one in all_panels if min(one[1]) < 0 or one[1][2] > width + 0.5 or one[1][3] > height + 0.5]
+        return over + beyond + self.cut
+
+
 class Viewer:
     """The program in a window; what it prints of its camera."""
 
@@ -69,11 +91,13 @@ class Viewer:
         self.environment = display.environment
         self.size = size or SIZE
         sized = ["--size", f"{size[0]}x{size[1]}"] if size else []
-        command = [PROGRAM, "view", *sized, "--print-camera", *(["--map", "off"] if bare else []), *options]
+        command = [PROGRAM, "view", *sized, "--print-camera", "--print-panels", *(["--map", "off"] if bare else []),
+                   *options]
         self.program = subprocess.Popen(
             command, cwd=folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
         )
         self.lines = queue.Queue()
+        self.layout = Layout({"panels": {}, "labels": [], "cut": []})
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
         self.camera = None
@@ -82,7 +106,10 @@ class Viewer:
 
     def _read(self):
         for line in self.program.stdout:
-            self.lines.put(line.strip())
+            if line.startswith("{"):
+                self.layout = Layout(json.loads(line))
+            else:
+                self.lines.put(line.strip())
 
     def _find_window(self):
         found = self.xdotool("search", "--onlyvisible", "--name", "^Terrella", check=False).split()
@@ -147,6 +174,11 @@ class Viewer:
         start += 12 * colours
         return [memoryview(data[start + y * line : start + (y + 1) * line]).cast("I") for y in range(height)]
 
+    def save_grab(self, file):
+        """Keeps the picture for a person to look at."""
+        subprocess.run(["sh", "-c", 'xwd -silent -id "$1" | convert xwd:- "$2"', "sh", self.window, str(file)],
+                       env=self.environment, check=True, timeout=60)
+
     def clipboard(self):
         done = subprocess.run(["xclip", "-selection", "clipboard", "-o"], env=self.environment, capture_output=True,
                               text=True, timeout=60)
@@ -165,12 +197,12 @@ class Viewer:
         self.move(x, y)
         self.xdotool("click", "3")
 
-    def settled(self, rows=None):
+    def settled(self, rows=None, still_s=0.15):
         """The picture once tiles and panels stand still, in the first rows."""
 
         def same():
             one = self.grab()
-            time.sleep(0.15)
+            time.sleep(still_s)
             return one if differing(one, self.grab(), rows) == 0 else None
 
         return wait_until("a picture at rest", same, 20)

@@ -17,6 +17,7 @@ PLACE_ITEM, FIRST_ACTION, ACTION_STEP = 34, 162, 19  # pixels under the menu's u
 COLUMNS = (262, 470)  # pixels from the left, in the actions of the menu
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
+RESET = "reset the view: settings as at the start, whole globe"
 ROW_BUTTONS = 83  # row of pixels in the buttons of a measurement, over their texts
 
 
@@ -190,9 +191,7 @@ class Walk(WindowTest):
                 self.shown, lambda: key("Menu"), self.open_menu, none, self.close),
             "fly to a place": (self.moved, lambda: key("Menu", *["Down"] * 5, "Return"),
                                lambda: self.viewer.double_click(300, 200), none, none),
-            "reset the view: look of the start, whole globe": (
-                self.moved, lambda: key("r"), lambda: menu("reset the view: look of the start, whole globe"), self.away,
-                none),
+            RESET: (self.moved, lambda: key("r"), lambda: menu(RESET), self.away, none),
             "stereo: anaglyph, side by side, interlaced, off": (
                 self.shown, lambda: key("s"), lambda: menu("stereo: anaglyph, side by side, interlaced, off"), self.reset,
                 none),

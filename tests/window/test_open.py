@@ -62,6 +62,11 @@ class Open(WindowTest):
         viewer.key("Return")
         self.assertAlmostEqual(viewer.next_camera().lat, 46.0, delta=0.1)
 
+    def test_files_of_the_command_line_are_recent(self):
+        self.start("data/pictures/red.png", "--objects", "data/places.geojson", "--unlit", size=SIZE)
+        self.assertEqual(self.recent(),
+                         [str((self.data / name).resolve()) for name in ("pictures/red.png", "places.geojson")])
+
     def test_by_mouse_a_folder_and_a_picture(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit", size=SIZE)
         viewer.key("ctrl+o")

@@ -31,11 +31,11 @@ BookmarkWish draw_edit(BookmarkEdit& edit) {
     edit.number = 0;
   }
   if (ImGui::SmallButton("Up")) wish.ask = BookmarkAsk::raise;
-  tip("Lowers the number by one: keys 1 to 9 fly to the first bookmarks.");
-  ImGui::SameLine();
+  tip("Moves the bookmark up, to a lower number. Keys 1 to 9 fly to the first nine.");
+  beside_if_room("Down");
   if (ImGui::SmallButton("Down")) wish.ask = BookmarkAsk::lower;
-  tip("Raises the number by one.");
-  ImGui::SameLine();
+  tip("Moves the bookmark down, to a higher number.");
+  beside_if_room("Delete");
   if (ImGui::SmallButton("Delete")) wish.ask = BookmarkAsk::remove;
   tip("Deletes the bookmark. A button then restores it.");
   return wish;
@@ -54,7 +54,7 @@ BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit) 
     open_edit(edit, number, bookmark);
     if (open) edit.number = 0;
   }
-  tip("Name, order, delete.");
+  tip("Shows or hides the name, the order and Delete.");
   if (edit.number != number) return wish;
   BookmarkWish more = draw_edit(edit);
   return more.ask == BookmarkAsk::none ? wish : more;
@@ -77,8 +77,8 @@ BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, Bookm
   begin_panel(title);
   BookmarkWish wish;
   if (ImGui::Button("Save this view")) wish.ask = BookmarkAsk::save;
-  tip("Under the lowest free number. Ctrl with a digit chooses the number.");
-  if (removed) ImGui::SameLine();
+  tip("Saves the view under the lowest free number. Ctrl + 1 to 9 saves it under that number.");
+  if (removed) beside_if_room("Restore");
   if (removed && ImGui::Button("Restore")) wish.ask = BookmarkAsk::restore;
   for (const auto& [number, bookmark] : bookmarks.all()) {
     ImGui::PushID(number);

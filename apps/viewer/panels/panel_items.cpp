@@ -8,6 +8,7 @@ namespace terrella {
 namespace {
 
 constexpr float kLeastPanel = 4.0F;     // in text heights
+constexpr float kNarrowWindow = 18.0F;  // in text heights; panels of a narrower window also scroll sideways
 constexpr float kTipWidth = 18.0F;      // in text heights
 constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
@@ -31,7 +32,8 @@ bool cross_clicked = false;  // by the cross of the panel that is being drawn; t
 
 void begin_panel(const char* title) {
   bool open = true;
-  ImGui::Begin(title, &open, kPanelWindow);
+  const bool narrow = ImGui::GetIO().DisplaySize.x < kNarrowWindow * ImGui::GetFontSize();
+  ImGui::Begin(title, &open, kPanelWindow | (narrow ? int(ImGuiWindowFlags_HorizontalScrollbar) : 0));
   if (!open) cross_clicked = true;
 }
 
@@ -48,6 +50,37 @@ void place_panel(const UiBox& room) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
 }
 
+std::string wrapped(const std::string& text, float widest) {
+  const ImFont& font = *ImGui::GetFont();
+  const char *from = text.data(), *end = from + text.size();
+  std::string lines;
+  while (from < end) {
+    const char* to = font.CalcWordWrapPositionA(ImGui::GetFontSize() / font.FontSize, from, end, widest);
+    to = std::max(to, from + 1);
+    lines.append(lines.empty() ? "" : "\n").append(from, to);
+    from = std::find_if(to, end, [](char c) { return c != ' '; });
+  }
+  return lines;
+}
+
+std::string end_of(const std::string& text, float widest) {
+  const auto fits = [widest](const std::string& one) { return ImGui::CalcTextSize(one.c_str()).x <= widest; };
+  if (fits(text)) return text;
+  const auto is_inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  for (std::size_t from = 1; from < text.size(); ++from) {
+    if (is_inside(text[from])) continue;
+    if (const std::string end = "..." + text.substr(from); fits(end)) return end;
+  }
+  return "...";
+}
+
+void beside_if_room(const char* text) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float wide = ImGui::CalcTextSize(text).x + 2.0F * style.FramePadding.x;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + wide <= right) ImGui::SameLine();
+}
+
 void tip(const char* text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
@@ -57,9 +90,19 @@ void tip(const char* text) {
   const float side = left ? panel.x + ImGui::GetWindowWidth() : panel.x;
   const float room = left ? ImGui::GetIO().DisplaySize.x - side : side;
   const bool beside = room > kTipWidth * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+  const ImVec2 window = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
+  const float widest = std::min(kTipWidth * ImGui::GetFontSize(), window.x - 2.0F * padding.x);
+  if (!beside) {
+    const ImVec2 words = ImGui::CalcTextSize(text, nullptr, false, widest);
+    const ImVec2 size{words.x + 2.0F * padding.x, words.y + 2.0F * padding.y};
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float under = high.y + size.y <= window.y ? high.y : low.y - size.y;
+    if (under < 0.0F) return;  // no room under the item or above it
+    ImGui::SetNextWindowPos({std::clamp(low.x, 0.0F, std::max(0.0F, window.x - size.x)), under});
+  }
   if (beside) ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(kTipWidth * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();

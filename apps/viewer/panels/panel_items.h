@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 #include "apps/viewer/panels/ui.h"
 
@@ -33,6 +34,13 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
 /// Places the next panel at the room's upper edge with the room's width, as high as its contents, and at most as the
 /// room.
 void place_panel(const UiBox& room);
+
+/// The same text in lines of at most this width, for items that do not wrap by themselves.
+[[nodiscard]] std::string wrapped(const std::string& text, float widest);
+/// The end of a text that has room in this width, after dots; the whole text if it fits. For paths.
+[[nodiscard]] std::string end_of(const std::string& text, float widest);
+/// Puts the next button of a row, with this text, beside the last one if it has room; else under it.
+void beside_if_room(const char* text);
 
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
 void tip(const char* text);

@@ -15,6 +15,7 @@ constexpr float kMargin = 0.8F;          // in text heights, between panels and 
 constexpr float kUnderMessage = 0.4F;    // in text heights, between the message and the status line
 constexpr float kMessageHeight = 4.0F;   // in text heights, of most messages
 constexpr float kLeastMessage = 14.0F;   // in text heights, of a message beside panels
+constexpr float kColumnWidth = 3.0F;     // in text heights, of the buttons at the right edge, at most
 constexpr float kWidestMessage = 0.85F;  // of the window
 constexpr float kLeastHeight = 14.0F;    // in text heights, of a window with a scale bar
 constexpr float kNarrow = 50.0F;         // in text heights; the attribution takes the whole width of a narrower window
@@ -100,6 +101,9 @@ MessageRoom room_for_message(float foot) {
     if (static_cast<float>(box.bottom) < bottom - kMessageHeight * unit || top > bottom) return;
     0.5F * (left + right) < 0.5F * size.x ? beside.left = std::max(beside.left, right + 0.5F * margin())
                                           : beside.right = std::min(beside.right, left - 0.5F * margin());
+    if (!text && right - left < kColumnWidth * unit && left > 0.5F * size.x) {
+      above.right = std::min(above.right, left - 0.5F * margin());  // the buttons stay where they are
+    }
     if (text && top > 0.3F * size.y) above.bottom = std::min(above.bottom, top - 0.5F * margin());
   };
   for (const UiBox& box : Ui::panel_boxes()) avoid(box, true);
@@ -154,7 +158,7 @@ void draw_head(const PanelStatus& status) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), whole = size.x - 2.0F * gap - 2.0F * padding.x;
   const bool narrow = size.x < kNarrow * ImGui::GetFontSize();
-  draw_at_head("##attribution", {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
+  draw_at_head(kAttributionBox, {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
 }
 
 void draw_message(const PanelStatus& status, float foot) {

@@ -30,6 +30,9 @@ float draw_status(const PanelStatus& status, double unit_px);
 /// is room.
 void draw_message(const PanelStatus& status, float foot);
 
+/// Name of the panel that draw_head() draws.
+inline constexpr const char* kAttributionBox = "##attribution";
+
 /// Draws the attribution at the upper edge, wrapped, unless a tiny window has no room beside the message.
 void draw_head(const PanelStatus& status);
 

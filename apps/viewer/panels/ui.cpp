@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 namespace terrella {
 namespace {
@@ -224,6 +225,21 @@ std::optional<UiBox> Ui::panel_box(const char* title) {
 std::optional<UiBox> Ui::shown_box(const char* title) {
   const ImGuiWindow* window = ImGui::FindWindowByName(title);
   return window != nullptr && window->Active ? std::optional(box_of(*window)) : std::nullopt;
+}
+
+std::string Ui::boxes_text(const std::vector<UiBox>& labels) {
+  const auto numbers = [](const UiBox& box) { return nlohmann::json{box.left, box.top, box.right, box.bottom}; };
+  nlohmann::json all = {
+      {"panels", nlohmann::json::object()}, {"labels", nlohmann::json::array()}, {"cut", nlohmann::json::array()}};
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!is_panel(*window)) continue;
+    all["panels"][window->Name] = numbers(box_of(*window));
+    // Small panels beside the globe fit their contents a frame later.
+    const bool fits = (window->Flags & (ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar)) != 0;
+    if (!fits && window->ContentSizeIdeal.x > window->WorkRect.GetWidth() + 1.0F) all["cut"].push_back(window->Name);
+  }
+  for (const UiBox& label : labels) all["labels"].push_back(numbers(label));
+  return all.dump();
 }
 
 std::vector<UiBox> Ui::last_panels() {

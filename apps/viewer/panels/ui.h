@@ -3,6 +3,7 @@
 #include <deque>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/viewer/window.h"
@@ -69,6 +70,10 @@ class Ui {
   [[nodiscard]] static double text_height();
   /// Rectangles of the panels that this frame has so far, without tips, lists of choices and the menu; within a frame.
   [[nodiscard]] static std::vector<UiBox> panel_boxes();
+  /// Names and rectangles of all windows of Dear ImGui in this frame so far, tips and lists of choices too, as JSON;
+  /// the rectangles of labels; and the names of panels with mouse whose contents are cut at the right in the last
+  /// frame. Units of the window, from left, top to right, bottom.
+  [[nodiscard]] static std::string boxes_text(const std::vector<UiBox>& labels);
   /// Rectangles of the panels with mouse and keyboard that the last frame had; within a frame.
   [[nodiscard]] static std::vector<UiBox> last_panels();
   /// Rectangle of the panel with this title when it was last drawn; nullopt if it never was.

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <ctime>
+#include <utility>
 
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/parts/time_play.h"
@@ -151,13 +152,13 @@ void draw_stereo(StereoLook& stereo) {
 
 const Action* draw_buttons(std::span<const Action> actions) {
   const Action* clicked = nullptr;
+  bool first = true;
   for (const Action& action : actions) {
     if (action.button == nullptr) continue;
+    if (!std::exchange(first, false)) beside_if_room(action.button);
     if (ImGui::Button(action.button)) clicked = &action;
     tip(fmt::format("{}: {}", action.keys, action.what).c_str());
-    ImGui::SameLine();
   }
-  ImGui::NewLine();
   return clicked;
 }
 

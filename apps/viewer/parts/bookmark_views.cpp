@@ -36,14 +36,14 @@ void BookmarkViews::save(int number) {
 void BookmarkViews::save_as_next() {
   if (!load()) return;
   const auto number = bookmarks_.free_number();
-  if (!number)
-    return say(fmt::format("All {} bookmarks are in use; K opens the list, where one can go", Bookmarks::kMost));
+  if (!number) return say(fmt::format("All {} bookmarks are in use. Press K and delete one.", Bookmarks::kMost));
   save(*number);
 }
 
 void BookmarkViews::keep(const std::string& done) const {
   const auto file = bookmarks_file();
-  const Status saved = file ? bookmarks_.save(*file) : Status(Error{"Kept until the window closes: HOME is not set"});
+  const Status saved =
+      file ? bookmarks_.save(*file) : Status(Error{"Bookmarks last until the window closes, because HOME is not set"});
   say(saved ? done : saved.error().message);
 }
 

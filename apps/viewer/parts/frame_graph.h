@@ -15,6 +15,7 @@ class FrameGraph : public Part {
   void toggle() { on_ = !on_; }
   /// Notes the time of a frame.
   void note(double frame_ms);
+  [[nodiscard]] double last_ms() const { return double(frames_ms_[(next_ + kFrames - 1) % kFrames]); }
   /// Draws the figures in the lower right corner, above the `foot` units that the status line uses. Returns the units
   /// that are in use then.
   [[nodiscard]] float draw_above(float foot, const FrameStats& stats) const;

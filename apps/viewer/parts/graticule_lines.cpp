@@ -49,12 +49,16 @@ std::vector<UiBox> draw_graticule(const Graticule& graticule, const PicturePart&
 }
 
 std::vector<UiBox> GraticuleLines::draw_over(const View& view, double foot) const {
+  if (!on_) return {};
+  return draw_graticule(context_.globe, view, context_.window.pixels_per_unit().x, foot);
+}
+
+std::vector<UiBox> draw_graticule(const Globe& globe, const View& view, double unit_px, double foot) {
   std::vector<UiBox> boxes;
-  if (!on_) return boxes;
-  const Ellipsoid& body = context_.globe.options().body.ellipsoid;
-  const double unit_px = context_.window.pixels_per_unit().x, text_px = Ui::text_height() * unit_px;
+  const Ellipsoid& body = globe.options().body.ellipsoid;
+  const double text_px = Ui::text_height() * unit_px;
   const LabelSize label{.character_px = 0.62 * text_px, .line_px = 1.2 * text_px, .foot_px = foot * unit_px};
-  for (const auto& [eye, part] : eye_parts(context_.globe, view)) {
+  for (const auto& [eye, part] : eye_parts(globe, view)) {
     const auto drawn = draw_graticule(make_graticule(eye, body, label), part, unit_px, Ui::panel_boxes());
     boxes.insert(boxes.end(), drawn.begin(), drawn.end());
   }

@@ -13,6 +13,10 @@ namespace terrella {
 std::vector<UiBox> draw_graticule(const Graticule& graticule, const PicturePart& part, double unit_px,
                                   const std::vector<UiBox>& taken);
 
+/// The same for the globe of a view, with labels around the panels of the frame so far and above `foot` units of the
+/// window at the lower edge. In stereo for both eyes. thread: main
+std::vector<UiBox> draw_graticule(const Globe& globe, const View& view, double unit_px, double foot);
+
 /// Lines of latitude and longitude over the globe, with labels. Owns the switch. thread: main for every call
 class GraticuleLines : public Part {
  public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -30,16 +31,6 @@ Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, do
   camera.eye = {.lat = Angle::degrees(lat_deg), .lon = bounds.west + 0.5 * width_of(bounds)};
   camera.eye.height_m = std::max(kNearestLayer_m, 0.5 * span_m / std::tan(0.5 * fov_y.rad()));
   return camera;
-}
-
-/// Puts an opened file into the list of recent files.
-Status remember(const std::filesystem::path& opened) {
-  const auto file = recent_file();
-  if (!file) return Done{};
-  Result<RecentFiles> recent = RecentFiles::load(*file);
-  if (!recent) return recent.error();
-  recent->add(opened.string());
-  return recent->save(*file);
 }
 
 }  // namespace
@@ -82,13 +73,18 @@ void Layers::draw_open(float foot) {
   }
 }
 
-void Layers::draw_legend(float foot, bool before_panels) const {
+std::vector<LegendItem> Layers::legend() const {
   std::vector<LegendItem> items;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
     if (!row->numbers || !row->look.numbers || !row->look.shown) continue;
     items.push_back(
         {.title = legend_title(row->name, *row->numbers), .unit = row->numbers->unit, .look = *row->look.numbers});
   }
+  return items;
+}
+
+void Layers::draw_legend(float foot, bool before_panels) const {
+  const std::vector<LegendItem> items = legend();
   const double gap = kLegendGap * Ui::text_height(), bottom = window_height() - double(foot) - gap;
   const UiBox box = legend_box(items.size(), gap, bottom);
   const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
@@ -195,12 +191,12 @@ void Layers::add(OpenedFile file) {
       told = fmt::format("{}; {} faulty objects or properties were skipped", objects.complaints.front(),
                          objects.complaints.size() + objects.complaints_left_out);
     }
-    added = add_objects(std::move(objects.scene), row);
+    added = add_objects(std::move(objects), row);
   }
   if (!added) return say(row.name + ": " + added.error().message);
   if (row.bounds) look_at(*row.bounds);
   insert(std::move(row));
-  const Status kept = remember(file.path);
+  const Status kept = remember_opened(std::array{file.path.string()});
   say(kept ? told : kept.error().message);
 }
 
@@ -225,13 +221,14 @@ Status Layers::add_heights(const ElevationSource& heights, LayerRow& row) {
   return Done{};
 }
 
-Status Layers::add_objects(ObjectScene scene, LayerRow& row) {
+Status Layers::add_objects(ObjectFile file, LayerRow& row) {
   row.kind = LayerKind::objects;
-  row.bounds = bounds_of(scene);
-  const auto id = context_.globe.add_objects(std::move(scene));
+  row.bounds = bounds_of(file.scene);
+  row.attribution = file.attribution;
+  const auto id = context_.globe.add_objects(std::move(file.scene));
   if (!id) return id.error();
   row.id = *id;
-  return Done{};
+  return context_.globe.set_attribution(*id, std::move(file.attribution));
 }
 
 // Rows are sorted: heights, then imagery, then objects.

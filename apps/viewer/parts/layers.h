@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/viewer/panels/layer_panel.h"
+#include "apps/viewer/panels/legend.h"
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/tools/dropped_files.h"
 #include "apps/viewer/tools/value_query.h"
@@ -31,6 +32,8 @@ class Layers : public Panel {
   [[nodiscard]] std::string job() const override { return files_.text(); }
   [[nodiscard]] bool changed() const override;
   bool cancel() override;
+  /// The shown layers of numbers, the highest first.
+  [[nodiscard]] std::vector<LegendItem> legend() const;
   /// Draws the legend of the shown layers of numbers above the `foot` units at the lower edge. A high window shows the
   /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
   void draw_legend(float foot, bool before_panels) const;
@@ -47,7 +50,7 @@ class Layers : public Panel {
   void add(OpenedFile file);
   [[nodiscard]] Status add_tiles(ImageryLayer layer, LayerRow& row);
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
-  [[nodiscard]] Status add_objects(ObjectScene scene, LayerRow& row);
+  [[nodiscard]] Status add_objects(ObjectFile file, LayerRow& row);
   void insert(LayerRow row);
 
   std::vector<LayerRow> rows_;

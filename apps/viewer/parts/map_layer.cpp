@@ -7,6 +7,7 @@
 namespace terrella {
 namespace {
 
+constexpr double kSlowFrame_ms = 40.0;        // 25 frames a second
 constexpr std::chrono::seconds kMostWait(1);  // for the first pictures, if their tiles come slowly
 
 Result<std::unique_ptr<MapPainter>> load_painter(const Body& body, const std::filesystem::path& places) {
@@ -35,8 +36,9 @@ bool MapLayer::changed() const {
   return should_load() || (on_ && painter_ && moves_ && context_.navigator.at_rest());
 }
 
-void MapLayer::update() {
+void MapLayer::update(double last_frame_ms) {
   moves_ = !context_.navigator.at_rest();
+  slow_ = moves_ && (slow_ || last_frame_ms > kSlowFrame_ms);
   if (should_load()) {
     tried_ = true;
     loading_ = std::async(std::launch::async, [body = context_.globe.options().body, places = places_] {
@@ -61,9 +63,9 @@ void MapLayer::draw_lines(const View& view) const {
   painter_->draw_lines(context_.globe, view, context_.window.pixels_per_unit().x, detail());
 }
 
-void MapLayer::draw_names(const View& view, const std::vector<UiBox>& taken) const {
-  if (!on_ || !painter_) return;
-  painter_->draw_names(context_.globe, view, context_.window.pixels_per_unit().x, detail(), taken);
+std::vector<UiBox> MapLayer::draw_names(const View& view, const std::vector<UiBox>& taken) const {
+  if (!on_ || !painter_ || slow_) return {};
+  return painter_->draw_names(context_.globe, view, context_.window.pixels_per_unit().x, detail(), taken);
 }
 
 std::vector<std::string> MapLayer::attributions() const {

@@ -15,7 +15,7 @@ namespace terrella {
 
 /// Coastlines, borders, and names of countries and places over the globe. Owns the switch. The map is read on a worker
 /// after the first pictures are complete, so that it does not delay them. While the camera moves the map has less
-/// detail. thread: main for every call
+/// detail, and on a slow machine no names. thread: main for every call
 class MapLayer : public Part {
  public:
   /// `places`: GeoJSON file of named places on the globe's body; empty: the Earth's cities.
@@ -25,13 +25,16 @@ class MapLayer : public Part {
   [[nodiscard]] bool exists() const { return exists_; }
   [[nodiscard]] bool& is_on() { return on_; }
   void toggle();
-  /// Begins to read the map, or takes it. Call this once per frame, before drawing.
-  void update();
+  /// Begins to read the map, or takes it. Call this once per frame, before drawing. `last_frame_ms`: time of the last
+  /// frame.
+  void update(double last_frame_ms);
   [[nodiscard]] bool changed() const override;
   /// Draws lines and names under the panels, if on. Call these within a frame, after its panels; the names after
-  /// everything whose boxes `taken` has, in units of the window.
+  /// everything whose boxes `taken` has, in units of the window. They return their boxes.
   void draw_lines(const View& view) const;
-  void draw_names(const View& view, const std::vector<UiBox>& taken) const;
+  std::vector<UiBox> draw_names(const View& view, const std::vector<UiBox>& taken) const;
+  /// The map for other pictures; null if it is off or not yet read.
+  [[nodiscard]] MapPainter* painter() const { return on_ ? painter_.get() : nullptr; }
   /// Texts that credit what is drawn.
   [[nodiscard]] std::vector<std::string> attributions() const;
 
@@ -44,6 +47,7 @@ class MapLayer : public Part {
   bool exists_;
   bool on_ = false;
   bool tried_ = false;
+  bool slow_ = false;   ///< a frame of this motion was slow
   bool moves_ = false;  ///< the last frame was drawn in motion, with less detail
   std::optional<std::chrono::steady_clock::time_point> first_frame_;
   std::future<Loaded> loading_;

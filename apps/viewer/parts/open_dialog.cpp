@@ -30,7 +30,8 @@ bool begins_with(const std::string& name, const std::string& start) {
 /// A row of a list. A double click or Enter chooses it at once; a click only marks it.
 enum class Row { left_alone, marked, chosen };
 Row draw_row(const std::string& name, bool marked) {
-  const bool clicked = ImGui::Selectable(name.c_str(), marked, ImGuiSelectableFlags_AllowDoubleClick);
+  const std::string lines = wrapped(name, ImGui::GetContentRegionAvail().x);
+  const bool clicked = ImGui::Selectable(lines.c_str(), marked, ImGuiSelectableFlags_AllowDoubleClick);
   if (entered() || (clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) return Row::chosen;
   return clicked ? Row::marked : Row::left_alone;
 }
@@ -173,7 +174,9 @@ void OpenDialog::draw_recent() {
   for (std::size_t k = 0; k < recent_.size() && is_open(); ++k) {
     const std::string& path = recent_[k];
     const std::string name = is_address(path) ? path : fs::path(path).filename().string();
-    const Row row = draw_row(fmt::format("{}##recent{}", name, k), text_ == path);
+    ImGui::PushID(int(k));
+    const Row row = draw_row(name, text_ == path);
+    ImGui::PopID();
     tip(path.c_str());
     if (row == Row::marked) text_ = path;
     std::error_code unknown;
@@ -184,7 +187,7 @@ void OpenDialog::draw_recent() {
 }
 
 void OpenDialog::draw_entries(float height) {
-  group(folder_.string().c_str());
+  group(end_of(folder_.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::BeginChild("##entries", {0.0F, height}, false, ImGuiWindowFlags_NavFlattened);
   if (begins_.empty() && folder_.has_relative_path() && draw_row("../", false) == Row::chosen) {
     enter(folder_.parent_path());
@@ -208,12 +211,12 @@ void OpenDialog::draw_entries(float height) {
 void OpenDialog::draw_buttons() {
   if (ImGui::Button("Open")) take(text_);
   tip("Opens the file or the address above, or shows what is in the folder above.");
-  ImGui::SameLine();
+  beside_if_room("Open folder");
   if (is_open() && ImGui::Button("Open folder")) choose(marked_folder());
   tip("Opens a folder as one layer: a folder of rasters, or of tiles.");
-  ImGui::SameLine();
+  beside_if_room("Close");
   if (is_open() && ImGui::Button("Close")) toggle();
-  ImGui::SameLine();
+  beside_if_room("All files    ");  // with its box
   if (ImGui::Checkbox("All files", &all_)) list();
   tip("Lists files of other kinds too.");
 }

@@ -40,7 +40,7 @@ void Pictures::draw_open(float foot) {
   ImGui::SameLine();
   const bool leave = ImGui::Button("Close");
   ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextDisabled("Without panels. F12 saves a screenshot.");
+  ImGui::TextDisabled("Panels are left out. F12 saves the window as it is.");
   ImGui::PopTextWrapPos();
   ImGui::PopItemWidth();
   ImGui::End();
@@ -55,11 +55,22 @@ void Pictures::draw_fields(int most_px) {
     height_px_ = 2 * window.height_px;
   }
   ImGui::InputInt("Width", &width_px_, 64, 1024);
-  tip("In pixels. The height shows the window's view; the width shows as much as fits.");
+  tip("In pixels. The picture shows the window's view from top to bottom; a wide picture shows more at the sides.");
   ImGui::InputInt("Height", &height_px_, 64, 1024);
   tip("In pixels.");
   width_px_ = std::clamp(width_px_, 1, most_px);
   height_px_ = std::clamp(height_px_, 1, most_px);
+  ImGui::Checkbox("Map, graticule, legend", &with_map_);
+  tip("Draws those that the window shows now.");
+  ImGui::Checkbox("Sources", &with_credits_);
+  tip("Names the sources of imagery and map in the upper right corner.");
+}
+
+PictureOverlay Pictures::wanted_overlay() const {
+  PictureOverlay all = overlay_();
+  if (!with_map_) all = {.credits = std::move(all.credits)};
+  if (!with_credits_) all.credits.clear();
+  return all;
 }
 
 void Pictures::start() {
@@ -80,7 +91,7 @@ bool Pictures::cancel() {
 }
 
 void Pictures::draw_picture(Viewport framebuffer) {
-  job_->draw(context_.globe, framebuffer);
+  job_->draw(context_.globe, framebuffer, [this] { return wanted_overlay(); });
   const auto result = job_->result();
   if (result) end(*result ? "Saved " + job_->file().filename().string() : result->error().message);
 }

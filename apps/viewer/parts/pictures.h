@@ -1,17 +1,21 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/tools/picture_job.h"
 
 namespace terrella {
 
-/// Saves pictures: of any size without panels, or the window as it is. Owns the panel for the size and the picture in
-/// work. thread: main, with the context current
+/// Saves pictures: of any size without panels, with the map, graticule, legend and sources if wanted, or the window as
+/// it is. Owns the panel for the size and the picture in work. thread: main, with the context current
 class Pictures : public Panel {
  public:
-  explicit Pictures(const ViewerContext& context) : Panel(context, "Save picture") {}
+  /// `overlay` returns what the window shows over the globe, and the sources of the last frame.
+  Pictures(const ViewerContext& context, std::function<PictureOverlay()> overlay)
+      : Panel(context, "Save picture"), overlay_(std::move(overlay)) {}
 
   /// True while a picture is drawn in place of the globe.
   [[nodiscard]] bool is_drawing() const { return job_ != nullptr; }
@@ -32,6 +36,11 @@ class Pictures : public Panel {
   void start();
   void end(std::string message);
 
+  [[nodiscard]] PictureOverlay wanted_overlay() const;
+
+  std::function<PictureOverlay()> overlay_;
+  bool with_map_ = true;
+  bool with_credits_ = true;
   int width_px_ = 0, height_px_ = 0;  ///< 0: twice the window's size, set when the panel opens
   std::unique_ptr<PictureJob> job_;
   bool screenshot_wanted_ = false;

@@ -26,6 +26,13 @@ ImVec2 corner_of(const char* title, ImVec2 at) {
           std::max(margin, std::min(at.y, window.y - margin - float(size.y)))};
 }
 
+/// Width of the widest text; 0 without texts.
+float width_of(std::span<const Action* const> rows) {
+  float width = 0.0F;
+  for (const Action* row : rows) width = std::max(width, ImGui::CalcTextSize(menu_text(*row).c_str()).x);
+  return width;
+}
+
 }  // namespace
 
 void PlaceMenu::open_at(glm::dvec2 at_px) {
@@ -45,6 +52,8 @@ void PlaceMenu::draw_open(float) {
   ImGui::SetNextWindowPos(corner_of(panel(), {float(at.x), float(at.y)}));
   ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {size.x - 2.0F * margin, size.y - 2.0F * margin});
   ImGui::SetNextWindowBgAlpha(0.95F);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  widest_ = size.x - 2.0F * (margin + style.WindowPadding.x) - style.ScrollbarSize;
   const bool just_opened = take_just_opened();
   first_item_ = just_opened;
   if (just_opened) ImGui::SetNextWindowFocus();
@@ -61,8 +70,9 @@ void PlaceMenu::draw_open(float) {
 }
 
 // A choice closes the menu before it acts, so that the action may open it again.
-bool PlaceMenu::item(const char* text, bool enabled) {
-  const bool clicked = ImGui::Selectable(text, false, enabled ? 0 : int(ImGuiSelectableFlags_Disabled));
+bool PlaceMenu::item(const std::string& text, bool enabled) {
+  const int flags = enabled ? 0 : int(ImGuiSelectableFlags_Disabled);
+  const bool clicked = ImGui::Selectable(wrapped(text, widest_).c_str(), false, flags);
   if (enabled && std::exchange(first_item_, false)) {
     ImGui::SetItemDefaultFocus();
     Ui::show_focus();
@@ -85,7 +95,7 @@ void PlaceMenu::draw_place() {
   }
   if (item("Copy the view as --camera")) {
     context_.window.copy("--camera " + camera_text(navigator.camera()));
-    say("View copied: an option for view and render");
+    say("View copied. Paste it after terrella view or terrella render.");
   }
   if (item("Save the view as a bookmark")) calls_.bookmark();
   if (item("Measure from here", place_.has_value())) calls_.measure_from(at_px_);
@@ -99,11 +109,14 @@ void PlaceMenu::draw_actions() {
     if (in_menu(action)) rows.push_back(&action);
   }
   const std::size_t half = (rows.size() + 1) / 2;
-  if (!ImGui::BeginTable("actions", 2)) return;
-  for (std::size_t i = 0; i < 2 * half; ++i) {
+  const std::span<const Action* const> all(rows);
+  const float both = width_of(all.first(half)) + width_of(all.subspan(half)) + 4.0F * ImGui::GetStyle().CellPadding.x;
+  const std::size_t columns = both <= widest_ ? 2 : 1, count = columns == 2 ? half : rows.size();
+  if (!ImGui::BeginTable("actions", int(columns))) return;
+  for (std::size_t i = 0; i < columns * count; ++i) {
     ImGui::TableNextColumn();
-    const std::size_t row = i / 2 + (i % 2) * half;
-    if (row < rows.size() && item(menu_text(*rows[row]).c_str())) calls_.run(*rows[row]);
+    const std::size_t row = i / columns + (i % columns) * count;
+    if (row < rows.size() && item(menu_text(*rows[row]))) calls_.run(*rows[row]);
   }
   ImGui::EndTable();
 }

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "apps/viewer/action.h"
@@ -18,8 +19,8 @@ struct PlaceMenuCalls {
   std::function<void()> bookmark;
 };
 
-/// The menu of a place: its coordinates, the view, and all actions of the list. While it is open, a click beside it
-/// closes it and does nothing else. thread: main
+/// The menu of a place: its coordinates, the view, and all actions of the list, in two columns if they have room. While
+/// it is open, a click beside it closes it and does nothing else. thread: main
 class PlaceMenu : public Panel {
  public:
   PlaceMenu(const ViewerContext& context, std::span<const Action> actions, PlaceMenuCalls calls)
@@ -33,12 +34,13 @@ class PlaceMenu : public Panel {
   void draw_open(float foot) override;
   void draw_place();
   void draw_actions();
-  [[nodiscard]] bool item(const char* text, bool enabled = true);
+  [[nodiscard]] bool item(const std::string& text, bool enabled = true);
 
   std::span<const Action> actions_;
   PlaceMenuCalls calls_;
   glm::dvec2 at_px_{0.0};
   std::optional<Geodetic> place_;  ///< nullopt beside the globe
+  float widest_ = 0.0F;            ///< of an item's text; a longer one is wrapped
   bool first_item_ = false;        ///< the next item gets the keyboard
   bool chosen_ = false;            ///< an item of this frame was chosen
 };

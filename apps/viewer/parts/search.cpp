@@ -99,11 +99,13 @@ std::optional<NamedPlace> Search::draw_found(bool entered) const {
   std::optional<NamedPlace> chosen;
   const auto found = places_->find(text_, kMostFound);
   for (std::size_t k = 0; k < found.size(); ++k) {
-    if (ImGui::Selectable(fmt::format("{}##{}", full_name(*found[k]), k).c_str())) chosen = *found[k];
+    const std::string name = wrapped(full_name(*found[k]), ImGui::GetContentRegionAvail().x);
+    if (ImGui::Selectable(fmt::format("{}##{}", name, k).c_str())) chosen = *found[k];
   }
   if (found.empty() && !text_.empty()) {
-    ImGui::TextDisabled("%s", places_->size() == 0 ? "No list of places for this body: give one with --places"
-                                                   : "No place has this name");
+    const bool none = places_->size() == 0;
+    ImGui::TextWrapped("%s",
+                       none ? "No list of places for this body: give one with --places" : "No place has this name");
   }
   if (entered && !found.empty()) chosen = *found.front();
   return chosen;

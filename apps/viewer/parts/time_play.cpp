@@ -28,7 +28,7 @@ void TimePlay::play(bool on) {
   }
   playing_ = on;
   stepped_ = Input::now();
-  say(on ? fmt::format("Time plays at {:.0f}x", speed_) : "Time paused");
+  say(on ? fmt::format("Time runs at {:.0f}x", speed_) : "Time paused");
 }
 
 void TimePlay::advance(Seconds now) {

@@ -104,8 +104,8 @@ void MapPainter::fit_to_font() {
   labels_.emplace(std::move(fitting), ellipsoid_);
 }
 
-void MapPainter::draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
-                            const std::vector<UiBox>& taken) {
+std::vector<UiBox> MapPainter::draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
+                                          const std::vector<UiBox>& taken) {
   if (!labels_) fit_to_font();
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const Ground ground = globe.ground();
@@ -122,6 +122,7 @@ void MapPainter::draw_names(const Globe& globe, const View& view, double unit_px
   }
   // Both eyes see the same names.
   const std::vector<ShownName> shown = labels_->place(eyes.front().view, ground, page);
+  std::vector<UiBox> boxes;
   for (const auto& [eye, part] : eyes) {
     push_clip(list, part, unit_px);
     for (const ShownName& name : shown) {
@@ -130,11 +131,15 @@ void MapPainter::draw_names(const Globe& globe, const View& view, double unit_px
       if (!px) continue;
       const ImVec2 at = to_ui(glm::dvec2(part.left_px, 0) + *px, unit_px), text = to_ui(name.text_px, unit_px);
       if (!what.is_area) draw_dot(list, at, part.tint);
-      shaded_text(list, {std::round(at.x + text.x), std::round(at.y + text.y)}, what.text.c_str(),
-                  tinted(what.is_area ? kCountry : kPlace, part.tint, 255), detail == MapDetail::in_motion);
+      const ImVec2 from{std::round(at.x + text.x), std::round(at.y + text.y)};
+      const ImVec2 size = ImGui::CalcTextSize(what.text.c_str());
+      boxes.push_back({from.x, from.y, from.x + size.x, from.y + size.y});
+      shaded_text(list, from, what.text.c_str(), tinted(what.is_area ? kCountry : kPlace, part.tint, 255),
+                  detail == MapDetail::in_motion);
     }
     list->PopClipRect();
   }
+  return boxes;
 }
 
 }  // namespace terrella

@@ -22,9 +22,9 @@ class MapPainter {
   MapPainter(MapData data, const Ellipsoid& ellipsoid);
 
   void draw_lines(const Globe& globe, const View& view, double unit_px, MapDetail detail) const;
-  /// Draws the names around the boxes of `taken`, in units of the window.
-  void draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
-                  const std::vector<UiBox>& taken);
+  /// Draws the names around the boxes of `taken`, in units of the window, and returns the boxes of the names.
+  std::vector<UiBox> draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
+                                const std::vector<UiBox>& taken);
   [[nodiscard]] const std::vector<std::string>& attributions() const { return attributions_; }
 
  private:

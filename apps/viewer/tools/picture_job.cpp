@@ -51,21 +51,27 @@ Result<std::unique_ptr<PictureJob>> PictureJob::start(const Globe& globe, const 
   return job;
 }
 
-bool PictureJob::draw(Globe& globe, Viewport window) {
+bool PictureJob::draw(Globe& globe, Viewport window, const std::function<PictureOverlay()>& overlay) {
   if (!drawn()) {
     stats_ = globe.render(target_->framebuffer(), size_);
-    if (!globe.status()) written_ = std::async(std::launch::deferred, [failed = globe.status()] { return failed; });
-    if (globe.settled()) {
-      Image image{.width_px = size_.width_px, .height_px = size_.height_px, .rgba = target_->read()};
-      written_ = std::async(std::launch::async, [file = file_, image = std::move(image)]() mutable {
-        Status status = write_picture(file, std::move(image));
-        glfwPostEmptyEvent();
-        return status;
-      });
-    }
+    Status status = globe.status();
+    if (status && globe.settled()) status = finish(overlay());
+    if (!status) written_ = std::async(std::launch::deferred, [status] { return status; });
   }
   show(window);
   return drawn();
+}
+
+// Draws what is over the globe, and begins to write the picture.
+Status PictureJob::finish(const PictureOverlay& overlay) {
+  if (Status over = draw_over_picture(globe_, target_->framebuffer(), size_, overlay); !over) return over;
+  Image image{.width_px = size_.width_px, .height_px = size_.height_px, .rgba = target_->read()};
+  written_ = std::async(std::launch::async, [file = file_, image = std::move(image)]() mutable {
+    Status status = write_picture(file, std::move(image));
+    glfwPostEmptyEvent();
+    return status;
+  });
+  return Done{};
 }
 
 // Shows the picture centred, as large as fits.

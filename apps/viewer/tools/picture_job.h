@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "apps/viewer/tools/picture_ui.h"
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
 
@@ -22,9 +24,9 @@ class PictureJob {
   [[nodiscard]] static Result<std::unique_ptr<PictureJob>> start(const Globe& globe, const std::filesystem::path& file,
                                                                  Viewport size);
 
-  /// Draws a frame and shows it, reduced, in the window's framebuffer. Returns true once the complete picture is being
-  /// written.
-  bool draw(Globe& globe, Viewport window);
+  /// Draws a frame and shows it, reduced, in the window's framebuffer. `overlay` is called once all tiles are there.
+  /// Returns true once the complete picture is being written. Not within a frame of Dear ImGui.
+  bool draw(Globe& globe, Viewport window, const std::function<PictureOverlay()>& overlay);
   [[nodiscard]] bool drawn() const { return written_.valid(); }
   [[nodiscard]] bool ready() const;  ///< true if draw() or result() has work to do
   /// Result of writing, once finished.
@@ -36,6 +38,7 @@ class PictureJob {
   PictureJob(const Globe& globe, std::filesystem::path file, Viewport size)
       : globe_(globe), file_(std::move(file)), size_(size) {}
   void show(Viewport window) const;
+  [[nodiscard]] Status finish(const PictureOverlay& overlay);
 
   const Globe& globe_;
   std::filesystem::path file_;

@@ -3,11 +3,14 @@
 #include <epoxy/gl.h>
 // epoxy comes before other headers of OpenGL
 #include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 
+#include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
+#include "apps/viewer/parts/graticule_lines.h"
 
 namespace terrella {
 namespace {
@@ -15,14 +18,16 @@ namespace {
 /// Pictures up to this height have text of the window's size; taller ones have larger text.
 constexpr float kPlainHeight_px = 1024.0F;
 constexpr float kMost = 8.0F;
+constexpr double kGap = 0.8;  // in text heights, to the picture's edge
 
-/// A context of Dear ImGui without a window.
+/// A context of Dear ImGui of its own, beside that of a window.
 class PictureUi {
  public:
-  PictureUi() { ImGui::CreateContext(); }
+  PictureUi() : before_(ImGui::GetCurrentContext()), own_(ImGui::CreateContext()) { ImGui::SetCurrentContext(own_); }
   ~PictureUi() {
     if (drawn_) ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
+    ImGui::DestroyContext(own_);
+    ImGui::SetCurrentContext(before_);
   }
   PictureUi(const PictureUi&) = delete;
   PictureUi& operator=(const PictureUi&) = delete;
@@ -37,24 +42,45 @@ class PictureUi {
   }
 
  private:
+  ImGuiContext* before_;
+  ImGuiContext* own_;
   bool drawn_ = false;
 };
 
+/// Lines first, then texts, and names where the texts leave room. False if the credits have none.
+bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overlay) {
+  const View view = globe.view(size);
+  if (overlay.map != nullptr) overlay.map->draw_lines(globe, view, 1.0, MapDetail::full);
+  const double gap = kGap * Ui::text_height();
+  draw_legend(overlay.legend, gap, size.height_px - gap);
+  PanelStatus status;
+  status.attribution = fmt::format("{}", fmt::join(overlay.credits, "   "));
+  draw_head(status);
+  std::vector<UiBox> taken = Ui::panel_boxes();
+  if (overlay.graticule) {
+    const std::vector<UiBox> labels = draw_graticule(globe, view, 1.0, 0.0);
+    taken.insert(taken.end(), labels.begin(), labels.end());
+  }
+  if (overlay.map != nullptr) overlay.map->draw_names(globe, view, 1.0, MapDetail::full, taken);
+  return overlay.credits.empty() || Ui::shown_box(kAttributionBox).has_value();
+}
+
 }  // namespace
 
-Status draw_over_picture(unsigned framebuffer, Viewport size, const std::function<void()>& draw) {
+Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size, const PictureOverlay& overlay) {
+  if (overlay.empty()) return Done{};
   PictureUi ui;
-  if (!ui.open(size)) {
-    return Error{"legend and map cannot be drawn: libGL is missing; leave --legend and --map out, or install it"};
-  }
+  if (!ui.open(size)) return Error{"texts and lines cannot be drawn over the picture: libGL is missing; install it"};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, size.width_px, size.height_px);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  draw();
+  const bool credited = draw_overlay(globe, size, overlay);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  return Done{};
+  if (credited) return Done{};
+  return Error{fmt::format("{} x {} pixels have no room for the sources: choose a larger picture, or leave them out",
+                           size.width_px, size.height_px)};
 }
 
 }  // namespace terrella

@@ -1,15 +1,29 @@
 #pragma once
 
-#include <functional>
+#include <string>
+#include <vector>
 
+#include "apps/viewer/panels/legend.h"
+#include "apps/viewer/tools/map_painter.h"
 #include "base/result.h"
-#include "geo/camera.h"
+#include "globe/globe.h"
 
 namespace terrella {
 
-/// Draws over a framebuffer with Dear ImGui, as the window does: `draw` is called within a frame whose units are
-/// pixels. Fails if Dear ImGui finds no OpenGL. Call it without a window, at most one at a time. thread: that of the
-/// OpenGL context
-[[nodiscard]] Status draw_over_picture(unsigned framebuffer, Viewport size, const std::function<void()>& draw);
+/// What a picture shows over the globe.
+struct PictureOverlay {
+  bool graticule = false;
+  MapPainter* map = nullptr;              ///< null: no map
+  std::vector<LegendItem> legend = {};    ///< at the lower left corner
+  std::vector<std::string> credits = {};  ///< sources, at the upper right corner
+
+  [[nodiscard]] bool empty() const { return !graticule && map == nullptr && legend.empty() && credits.empty(); }
+};
+
+/// Draws over the globe's picture in a framebuffer, as the window does. Texts are larger in higher pictures. Fails if
+/// Dear ImGui finds no OpenGL, or if the picture has no room for the credits. Not within a frame of a window; at most
+/// one call at a time. thread: that of the OpenGL context
+[[nodiscard]] Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size,
+                                       const PictureOverlay& overlay);
 
 }  // namespace terrella

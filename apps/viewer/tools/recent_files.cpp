@@ -41,6 +41,19 @@ void RecentFiles::add(const std::string& opened) {
   if (all_.size() > kMost) all_.resize(kMost);
 }
 
+Status remember_opened(std::span<const std::string> opened) {
+  const auto file = recent_file();
+  if (!file || opened.empty()) return Done{};
+  Result<RecentFiles> recent = RecentFiles::load(*file);
+  if (!recent) return recent.error();
+  for (auto one = opened.rbegin(); one != opened.rend(); ++one) {
+    std::error_code unknown;
+    const bool address = one->find("://") != one->npos;
+    recent->add(address ? *one : std::filesystem::absolute(*one, unknown).lexically_normal().string());
+  }
+  return recent->save(*file);
+}
+
 std::optional<std::filesystem::path> recent_file() {
   const auto folder = user_folder("XDG_STATE_HOME", ".local/state");
   return folder ? std::optional(*folder / "recent.json") : std::nullopt;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ class RecentFiles {
  private:
   std::vector<std::string> all_;
 };
+
+/// Puts what was opened into the list of recent files, the first one first. Paths become absolute. thread: one
+[[nodiscard]] Status remember_opened(std::span<const std::string> opened);
 
 /// recent.json in $XDG_STATE_HOME/terrella or ~/.local/state/terrella; nullopt without such a folder.
 [[nodiscard]] std::optional<std::filesystem::path> recent_file();

@@ -1,5 +1,7 @@
 #include "render/gl/frame_targets.h"
 
+#include <utility>
+
 namespace terrella {
 namespace {
 
@@ -10,34 +12,67 @@ gl::Texture make_picture(GLenum format, Viewport size) {
   return texture;
 }
 
+gl::Texture make_samples(GLenum format, const FrameTargets::Form& form) {
+  gl::Texture texture = gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE);
+  glTextureStorage2DMultisample(texture.name(), form.samples, format, form.size.width_px, form.size.height_px, GL_TRUE);
+  return texture;
+}
+
+gl::Framebuffer make_target(const gl::Texture& color, const gl::Texture& depth, bool has_stencil) {
+  gl::Framebuffer target = gl::make_framebuffer();
+  glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+  glNamedFramebufferTexture(target.name(), has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                            depth.name(), 0);
+  return target;
+}
+
 }  // namespace
 
-void FrameTargets::fit(Viewport size, bool with_stencil) {
-  if (size_ == size && has_stencil_ == with_stencil) return;
-  size_ = size;
-  has_stencil_ = with_stencil;
-  color_ = make_picture(GL_RGBA8, size);
-  depth_ = make_picture(with_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, size);
+void FrameTargets::fit(const Form& form) {
+  if (form_ == form) return;
+  form_ = form;
+  const GLenum depth_format = form.has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
+  color_ = make_picture(GL_RGBA8, form.size);
+  depth_ = make_picture(depth_format, form.size);
   beside_ = {};
-  framebuffer_ = gl::make_framebuffer();
-  glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
-  glNamedFramebufferTexture(framebuffer_.name(), with_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
-                            depth_.name(), 0);
+  framebuffer_ = make_target(color_, depth_, form.has_stencil);
+  color_samples_ = {};
+  depth_samples_ = {};
+  resolved_ = {};
+  if (form.samples == 0) return;
+  color_samples_ = make_samples(GL_RGBA8, form);
+  depth_samples_ = make_samples(depth_format, form);
+  resolved_ = std::exchange(framebuffer_, make_target(color_samples_, depth_samples_, form.has_stencil));
 }
 
 FrameTargets::Beside FrameTargets::beside() {
   if (!beside_) {
-    beside_ = make_picture(GL_RGBA8, size_);
+    beside_ = make_picture(GL_RGBA8, form_.size);
     beside_framebuffer_ = gl::make_framebuffer();
     glNamedFramebufferTexture(beside_framebuffer_.name(), GL_COLOR_ATTACHMENT0, beside_.name(), 0);
   }
   return {beside_framebuffer_.name(), beside_.name()};
 }
 
+void FrameTargets::resolve_color(const Beside& beside) const {
+  if (form_.samples == 0) return;
+  resolve(GL_COLOR_BUFFER_BIT, resolved_.name());
+  resolve(GL_COLOR_BUFFER_BIT, beside.framebuffer);
+}
+
+void FrameTargets::resolve_depth() const {
+  if (form_.samples > 0) resolve(GL_DEPTH_BUFFER_BIT, resolved_.name());
+}
+
+void FrameTargets::resolve(GLbitfield what, GLuint into) const {
+  const auto [width, height] = form_.size;
+  glBlitNamedFramebuffer(framebuffer_.name(), into, 0, 0, width, height, 0, 0, width, height, what, GL_NEAREST);
+}
+
 void FrameTargets::copy_to(GLuint framebuffer, glm::ivec2 corner_px) const {
-  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, size_.width_px, size_.height_px, corner_px.x,
-                         corner_px.y, corner_px.x + size_.width_px, corner_px.y + size_.height_px, GL_COLOR_BUFFER_BIT,
-                         GL_NEAREST);
+  const auto [width, height] = form_.size;
+  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, width, height, corner_px.x, corner_px.y,
+                         corner_px.x + width, corner_px.y + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace terrella

@@ -8,29 +8,43 @@
 namespace terrella {
 
 /// The picture into which the passes draw before it is copied to the caller's framebuffer. It has depth and, if a frame
-/// needs it, stencil. thread: main
+/// needs it, stencil. With samples, color() and depth() are textures of one value a pixel beside the picture itself;
+/// resolve_color() and resolve_depth() fill them. thread: main
 class FrameTargets {
  public:
-  /// Makes the textures for this size. Keeps those that already fit.
-  void fit(Viewport size, bool with_stencil);
+  struct Form {
+    Viewport size{0, 0};
+    bool has_stencil = false;
+    int samples = 0;  ///< of a pixel; 0: the picture is not multisampled
+    bool operator==(const Form&) const = default;
+  };
+  /// Makes the textures for this form. Keeps those that already fit.
+  void fit(const Form& form);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] GLuint color() const { return color_.name(); }
   [[nodiscard]] GLuint depth() const { return depth_.name(); }
-  [[nodiscard]] Viewport size() const { return size_; }
-  [[nodiscard]] bool has_stencil() const { return has_stencil_; }
+  [[nodiscard]] GLuint color_samples() const { return color_samples_.name(); }
+  [[nodiscard]] GLuint depth_samples() const { return depth_samples_.name(); }
+  [[nodiscard]] Viewport size() const { return form_.size; }
+  [[nodiscard]] bool has_stencil() const { return form_.has_stencil; }
+  [[nodiscard]] int samples() const { return form_.samples; }
   /// Returns a second picture of the same size, for passes that read and write the picture. Its content is undefined.
   struct Beside {
     GLuint framebuffer, texture;
   };
   [[nodiscard]] Beside beside();
-  /// Copies the picture to a framebuffer, with its lower left corner at `corner_px`.
+  /// Copies the means of the samples to color() and to a picture beside it. Does nothing without samples.
+  void resolve_color(const Beside& beside) const;
+  void resolve_depth() const;  ///< copies one sample of each pixel to depth(); does nothing without samples
+  /// Copies a picture without samples to a framebuffer, with its lower left corner at `corner_px`.
   void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:
-  gl::Texture color_, depth_, beside_;
-  gl::Framebuffer framebuffer_, beside_framebuffer_;
-  Viewport size_{0, 0};
-  bool has_stencil_ = false;
+  void resolve(GLbitfield what, GLuint into) const;
+
+  gl::Texture color_, depth_, beside_, color_samples_, depth_samples_;
+  gl::Framebuffer framebuffer_, beside_framebuffer_, resolved_;
+  Form form_;
 };
 
 }  // namespace terrella

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <numeric>
+#include <iterator>
 
 #include "geo/split_position.h"
-#include "objects/label_layout.h"
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 
@@ -21,6 +20,18 @@ constexpr GLint kLabelViewportUniform = 0;
 constexpr GLint kLabelBiasUniform = 1;
 
 }  // namespace
+
+std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const {
+  std::vector<std::uint32_t> found;
+  if (viewport != picture) return found;
+  const glm::vec2 p(pixel_px);
+  for (const Label& label : labels) {
+    const glm::vec2 &low = label.box.low_px, &high = label.box.high_px;
+    const bool inside = p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y;
+    if (inside && label.layer == layer.serial()) found.push_back(label.index);
+  }
+  return found;
+}
 
 Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
   std::unique_ptr<LabelPass> pass(new LabelPass);
@@ -52,23 +63,24 @@ void LabelPass::set_up_array() {
   glVertexArrayBindingDivisor(array, 0, 1);
 }
 
-void LabelPass::set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid) {
-  std::vector<std::size_t> order(labels.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order,
-                           [&labels](std::size_t a, std::size_t b) { return labels[a].priority > labels[b].priority; });
-  order.resize(std::min(order.size(), kMostLabels));
-  labels_.clear();
-  for (const std::size_t k : order) {
-    const LabelObject& label = labels[k];
-    std::u32string text = code_points(label.text);
-    if (text.size() > kMostCharacters) {
-      text.resize(kMostCharacters);
-      text.back() = U'…';
+// Each layer keeps its labels in order. They are merged again only if labels come or go.
+void LabelPass::merge(std::span<const DrawnLayer> layers) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> now;
+  for (const DrawnLayer& layer : layers) now.emplace_back(layer.objects->serial(), layer.objects->label_version());
+  if (now == merged_) return;
+  merged_ = std::move(now);
+  order_.clear();
+  const auto before = [](const LabelRef& a, const LabelRef& b) {
+    return a.layer->labels()[a.index].object.priority > b.layer->labels()[b.index].object.priority;
+  };
+  for (const DrawnLayer& layer : layers) {
+    const auto old = std::ssize(order_);
+    for (const std::uint32_t k : layer.objects->label_order()) {
+      if (!layer.objects->labels()[k].removed) order_.push_back({layer.objects, k});
     }
-    labels_.push_back({ellipsoid.to_ecef(label.place).xyz_m, std::move(text), label.radius_m, label.size_px,
-                       label.color, is_underground(label), label.through_surface});
+    std::inplace_merge(order_.begin(), order_.begin() + old, order_.end(), before);
   }
+  order_.resize(std::min(order_.size(), kMostLabels));
 }
 
 LabelPass::Line LabelPass::line_of(const std::u32string& text) {
@@ -84,34 +96,38 @@ LabelPass::Line LabelPass::line_of(const std::u32string& text) {
   return line;
 }
 
-bool LabelPass::in_sight(const Label& label, const View& view, const LabelSight& sight) {
-  if (!sight.shown) return false;
-  if (!label.underground && !sight.above_ground && !(label.chosen && sight.chosen_above_ground)) return false;
+bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSight& sight) {
+  if (!sight.shown || !label.visible) return false;
+  const bool chosen = label.object.through_surface && sight.chosen_above_ground;
+  if (!is_underground(label.object) && !sight.above_ground && !chosen) return false;
   return !is_behind(label.place_m, view.eye.xyz_m, sight.hiding_half_axes_m);
 }
 
-void LabelPass::place(const View& view, const LabelSight& sight) {
+void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers,
+                      ShownLabels& shown) {
+  merge(layers);
   LabelRoom room(view.viewport);
   for (auto& characters : characters_) characters.clear();
-  shown_ = 0;
+  shown = {.picture = view.viewport};
   const double focal_px = view.pixels_per_radian();
-  for (const Label& label : labels_) {
+  for (const LabelRef& ref : order_) {
+    const KeptLabel& label = ref.layer->labels()[ref.index];
     const auto at = project(view, Ecef{label.place_m});
     if (!at || at->x < -0.5 * view.viewport.width_px || at->x > view.viewport.width_px || at->y < 0.0 ||
         at->y > view.viewport.height_px || !in_sight(label, view, sight)) {
       continue;
     }
     const double away_m = glm::length(label.place_m - view.eye.xyz_m);
-    const auto radius_px = static_cast<float>(label.radius_m / away_m * focal_px);
-    const float right_px = std::round(std::max(0.5F * label.size_px, radius_px)) + kGap_px;
+    const auto radius_px = static_cast<float>(label.object.radius_m / away_m * focal_px);
+    const float right_px = std::round(std::max(0.5F * label.object.size_px, radius_px)) + kGap_px;
     const Line line = line_of(label.text);
     const glm::vec2 from = glm::vec2(*at) + glm::vec2(right_px, 0.0F);
     const float half_px = 0.5F * float(atlas_->ascent_px() + atlas_->descent_px());
+    const LabelBox text{from - glm::vec2(0.0F, half_px), from + glm::vec2(line.width_px, half_px)};
     const glm::vec2 margin(kMargin_px);
-    if (!room.take({from - glm::vec2(0.0F, half_px) - margin, from + glm::vec2(line.width_px, half_px) + margin}))
-      continue;
-    put(label, line, right_px);
-    ++shown_;
+    if (!room.take({text.low_px - margin, text.high_px + margin})) continue;
+    put(label, ref.layer->drawn(label.object.color, label), line, right_px);
+    shown.labels.push_back({ref.layer->serial(), ref.index, text});
   }
   std::vector<Character> all;
   for (std::size_t k = 0; k < characters_.size(); ++k) {
@@ -122,15 +138,15 @@ void LabelPass::place(const View& view, const LabelSight& sight) {
   buffer_.fill(all.data(), all.size() * sizeof(Character));
 }
 
-void LabelPass::put(const Label& label, const Line& line, float right_px) {
+void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, float right_px) {
   const SplitPosition p = split_position(label.place_m);
-  auto& characters = characters_[(label.underground ? 0U : 2U) + (label.chosen ? 1U : 0U)];
+  auto& characters = characters_[(is_underground(label.object) ? 0U : 2U) + (label.object.through_surface ? 1U : 0U)];
   // Centres a small letter vertically on the place.
   const float pen_y_px = -std::round(0.35F * float(kText_px));
   for (const auto& [glyph, pen_px] : line.glyphs) {
     if (glyph.width == 0) continue;
     const glm::vec2 offset(std::round(right_px + pen_px) + glyph.left, pen_y_px + glyph.top - glyph.height);
-    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, label.color});
+    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color});
   }
 }
 

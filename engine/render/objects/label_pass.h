@@ -4,15 +4,19 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "geo/camera.h"
 #include "geo/objects.h"
+#include "objects/label_layout.h"
 #include "objects/object_batches.h"
 #include "render/gl/stream_buffer.h"
 #include "render/objects/glyph_atlas.h"
+#include "render/objects/layer_buffers.h"
 #include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
@@ -26,6 +30,20 @@ struct LabelSight {
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
 
+/// The labels that a frame of one view showed. A plain value.
+struct ShownLabels {
+  struct Label {
+    std::uint64_t layer;  ///< LayerObjects::serial()
+    std::uint32_t index;
+    LabelBox box;
+  };
+  Viewport picture{0, 0};
+  std::vector<Label> labels = {};
+
+  /// Returns the labels of a layer whose texts cover a pixel, if the frame had this size.
+  [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
+};
+
 /// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. If
 /// labels would overlap, only the label with the highest priority is drawn. The choice is made once per frame, so
 /// that both eyes show the same labels. Text runs left to right with kerning, without shaping. thread: main
@@ -33,16 +51,14 @@ class LabelPass {
  public:
   /// Limits: labels looked at, highest priority first, and characters per label.
   static constexpr std::size_t kMostLabels = 100'000;
-  static constexpr std::size_t kMostCharacters = 96;
+  static constexpr std::size_t kMostCharacters = kMostLabelCharacters;
 
   [[nodiscard]] static Result<std::unique_ptr<LabelPass>> create(DepthMode depth, std::vector<std::byte> font);
 
-  void set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid);
-  /// Chooses the labels of the frame.
-  void place(const View& view, const LabelSight& sight);
+  /// Chooses the labels of the frame: by priority over all layers; on a tie, by the order of layers.
+  void place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers, ShownLabels& shown);
   /// Returns the draw calls made.
   [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
-  [[nodiscard]] std::size_t shown() const { return shown_; }
 
  private:
   struct Character {
@@ -55,29 +71,27 @@ class LabelPass {
     std::vector<std::pair<Glyph, float>> glyphs;  ///< glyphs, each with the pen's position
     float width_px = 0.0F;
   };
-  struct Label {
-    glm::dvec3 place_m;
-    std::u32string text;
-    double radius_m;
-    float size_px;
-    ObjectColor color;
-    bool underground, chosen;
+  /// A label of a layer.
+  struct LabelRef {
+    const LayerObjects* layer;
+    std::uint32_t index;
   };
 
   LabelPass() = default;
   void set_up_array();
   [[nodiscard]] Line line_of(const std::u32string& text);
-  [[nodiscard]] static bool in_sight(const Label& label, const View& view, const LabelSight& sight);
-  void put(const Label& label, const Line& line, float right_px);
+  [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
+  void merge(std::span<const DrawnLayer> layers);
+  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, float right_px);
 
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::vector<Label> labels_;  ///< in the order of placing
+  std::vector<LabelRef> order_;                                  ///< of placing
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;
   std::array<std::size_t, 5> first_{};  ///< first character of each of those four ranges, and the end
-  std::size_t shown_ = 0;
 };
 
 }  // namespace terrella

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 
-#include "geo/split_position.h"
 #include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 
@@ -26,18 +25,6 @@ gl::Texture texture_of(const std::uint8_t* rgba, int width_px, int height_px) {
   glGenerateTextureMipmap(texture.name());
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   return texture;
-}
-
-/// Returns the directions of a model's x (left), y (up) and z (forward) at its place. Each is as long as a metre of the
-/// model.
-std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
-  const double sin_lat = std::sin(mesh.place.lat.rad()), cos_lat = std::cos(mesh.place.lat.rad());
-  const double sin_lon = std::sin(mesh.place.lon.rad()), cos_lon = std::cos(mesh.place.lon.rad());
-  const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat), east(-sin_lon, cos_lon, 0.0);
-  const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
-  const double s = std::sin(mesh.heading.rad()), c = std::cos(mesh.heading.rad());
-  const glm::dvec3 forward = s * east + c * north, left = s * north - c * east;
-  return {glm::vec3(mesh.scale * left), glm::vec3(mesh.scale * up), glm::vec3(mesh.scale * forward)};
 }
 
 }  // namespace
@@ -72,11 +59,12 @@ MeshPass::Part MeshPass::upload(const MeshPart& part) {
   gl::float_attribute(array, 1, 0, 3, offsetof(MeshVertex, normal));
   gl::float_attribute(array, 2, 0, 2, offsetof(MeshVertex, uv));
   gl::float_attribute(array, 3, 0, 4, offsetof(MeshVertex, color_linear));
-  gl::float_attribute(array, 4, kStandBinding, 3, offsetof(Stand, high_m));
-  gl::float_attribute(array, 5, kStandBinding, 3, offsetof(Stand, low_m));
+  gl::float_attribute(array, 4, kStandBinding, 3, offsetof(MeshStand, high_m));
+  gl::float_attribute(array, 5, kStandBinding, 3, offsetof(MeshStand, low_m));
   for (GLuint k = 0; k < 3; ++k) {
-    gl::float_attribute(array, 6 + k, kStandBinding, 3, offsetof(Stand, ecef_from_model) + k * sizeof(glm::vec3));
+    gl::float_attribute(array, 6 + k, kStandBinding, 3, offsetof(MeshStand, ecef_from_model) + k * sizeof(glm::vec3));
   }
+  gl::color_attribute(array, 9, kStandBinding, offsetof(MeshStand, tint));
   glVertexArrayVertexBuffer(array, 0, made.vertices.name(), 0, sizeof(MeshVertex));
   glVertexArrayBindingDivisor(array, kStandBinding, 1);
   glVertexArrayElementBuffer(array, made.indices.name());
@@ -101,77 +89,59 @@ MeshPass::Model MeshPass::upload(std::shared_ptr<const MeshModel> model) {
   return made;
 }
 
-void MeshPass::Model::stand_at(const std::array<std::vector<Stand>, Batch<char>::kBuckets>& buckets) {
-  std::vector<Stand> all;
-  for (std::size_t k = 0; k < buckets.size(); ++k) {
-    ranges.first[k] = all.size();
-    all.insert(all.end(), buckets[k].begin(), buckets[k].end());
-  }
-  ranges.first.back() = all.size();
-  stands = buffer_of(all);
-  for (const Part& part : parts) {
-    glVertexArrayVertexBuffer(part.array.name(), kStandBinding, stands.name(), 0, sizeof(Stand));
-  }
-}
-
-void MeshPass::set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid) {
-  std::map<const MeshModel*, std::array<std::vector<Stand>, Batch<char>::kBuckets>> stands_of;
-  std::vector<Model> models;
-  for (const MeshObject& mesh : meshes) {
-    if (!mesh.model) continue;
-    const auto [stands, first] = stands_of.try_emplace(mesh.model.get());
-    if (first) {
-      const auto known = std::ranges::find(models_, mesh.model, &Model::model);
-      models.push_back(known != models_.end() ? std::move(*known) : upload(mesh.model));
+void MeshPass::upload(std::span<const DrawnLayer> layers) {
+  for (auto& [model, made] : models_) made.used = false;
+  for (const DrawnLayer& layer : layers) {
+    for (const ModelStands& stands : layer.objects->batches().models) {
+      const auto [found, first] = models_.try_emplace(stands.model.get());
+      if (first) found->second = upload(stands.model);
+      found->second.used = true;
     }
-    const ObjectPart part = is_underground(mesh) ? ObjectPart::underground : ObjectPart::above_ground;
-    const SplitPosition p = split_position(ellipsoid.to_ecef(mesh.place).xyz_m);
-    stands->second[Batch<char>::bucket(part, true, mesh.through_surface)].push_back({p.high, p.low, axes_of(mesh)});
   }
-  for (Model& model : models) model.stand_at(stands_of.at(model.model.get()));
-  models_ = std::move(models);
+  std::erase_if(models_, [](const auto& model) { return !model.second.used; });
 }
 
-bool MeshPass::has(ObjectPart part) const {
-  for (const Model& model : models_) {
-    if (model.ranges.range(part, true, ObjectChoice::all).count > 0) return true;
-  }
-  return false;
-}
-
-int MeshPass::draw(const ObjectDraw& draw) const {
+int MeshPass::draw(const DrawnLayer& layer, const ObjectDraw& draw) const {
   glProgramUniform1f(program_.name(), kMeshBiasUniform, draw.depth_bias);
   DrawState state = draw.state.with(program_.name());
   int calls = 0;
-  for (const Model& model : models_) {
-    const auto range = model.ranges.range(draw.part, true, draw.choice);
-    if (range.count == 0) continue;
-    if (draw.opaque) {
-      calls += draw_parts(model, range.first, range.count, true, state);
-      continue;
-    }
-    // Faces away from the eye are drawn first. For convex models this is back to front for every order of triangles.
-    for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
-      state.cull = left_out;
-      calls += draw_parts(model, range.first, range.count, false, state);
+  const auto [first, end] = buckets_of(draw.part, true, draw.choice);  // each part of a model states its own opacity
+  const std::vector<ModelStands>& models = layer.objects->batches().models;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const Model& model = models_.at(models[k].model.get());
+    for (std::size_t bucket = first; bucket < end; ++bucket) {
+      const std::size_t count = models[k].stands.bucket(bucket).items.size();
+      if (count == 0) continue;
+      const Places places{layer.buffers->stands[k][bucket].name(), static_cast<GLsizei>(count),
+                          static_cast<float>(layer.objects->opacity())};
+      if (draw.opaque) {
+        calls += draw_parts(model, places, true, state);
+        continue;
+      }
+      // Faces away from the eye are drawn first. For convex models this is back to front for every order of triangles.
+      for (const GLenum left_out : {GL_FRONT, GL_BACK}) {
+        state.cull = left_out;
+        calls += draw_parts(model, places, false, state);
+      }
     }
   }
   return calls;
 }
 
-int MeshPass::draw_parts(const Model& model, std::size_t first, std::size_t count, bool opaque,
-                         const DrawState& state) const {
+int MeshPass::draw_parts(const Model& model, const Places& places, bool opaque, const DrawState& state) {
   int calls = 0;
   apply(state);
   for (const Part& part : model.parts) {
-    if (part.translucent == opaque) continue;
-    glUniform4f(kMeshColorUniform, part.color_linear.x, part.color_linear.y, part.color_linear.z, part.color_linear.w);
-    glUniform2f(kMeshCutoffUniform, part.cutoff, part.translucent ? 1.0F : 0.0F);
+    const bool translucent = part.translucent || places.opacity < 1.0F;
+    if (translucent == opaque) continue;
+    const glm::vec4& color = part.color_linear;
+    glUniform4f(kMeshColorUniform, color.x, color.y, color.z, color.w * places.opacity);
+    glUniform2f(kMeshCutoffUniform, part.cutoff * places.opacity, translucent ? 1.0F : 0.0F);
     glBindTextureUnit(0, part.texture);
     glBindSampler(0, 0);
+    glVertexArrayVertexBuffer(part.array.name(), kStandBinding, places.buffer, 0, sizeof(MeshStand));
     glBindVertexArray(part.array.name());
-    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, part.count, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(count),
-                                        static_cast<GLuint>(first));
+    glDrawElementsInstanced(GL_TRIANGLES, part.count, GL_UNSIGNED_INT, nullptr, places.count);
     ++calls;
   }
   return calls;

@@ -50,10 +50,4 @@ gl::Buffer buffer_of(const std::vector<T>& items) {
   return buffer;
 }
 
-/// Returns a batch without its elements, which are on the GPU.
-template <class T>
-Batch<char> ranges_of(const Batch<T>& batch) {
-  return {{}, batch.first};
-}
-
 }  // namespace terrella

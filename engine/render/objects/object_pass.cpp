@@ -1,5 +1,6 @@
 #include "render/objects/object_pass.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "render/gl/shader_library.h"
@@ -54,57 +55,62 @@ void ObjectPass::set_up_arrays() {
   gl::color_attribute(lines, 9, 1, offsetof(LineVertex, color));
 }
 
-void ObjectPass::set_objects(const ObjectBatches& batches) {
-  fill_vertices_ = buffer_of(batches.fill_vertices);
-  fill_indices_ = buffer_of(batches.fill_indices.items);
-  spheres_->set_spheres(batches.spheres);
-  lines_ = buffer_of(batches.lines.items);
-  markers_ = buffer_of(batches.markers.items);
-  fill_ranges_ = ranges_of(batches.fill_indices);
-  line_ranges_ = ranges_of(batches.lines);
-  marker_ranges_ = ranges_of(batches.markers);
-  glVertexArrayVertexBuffer(fill_array_.name(), 0, fill_vertices_.name(), 0, sizeof(FillVertex));
-  glVertexArrayElementBuffer(fill_array_.name(), fill_indices_.name());
-  glVertexArrayVertexBuffer(marker_array_.name(), 0, markers_.name(), 0, sizeof(DotInstance));
-  for (GLuint k = 0; k < 4; ++k) {
-    glVertexArrayVertexBuffer(line_array_.name(), k, lines_.name(), static_cast<GLintptr>(k * sizeof(LineVertex)),
-                              sizeof(LineVertex));
-  }
+void ObjectPass::set_layers(std::vector<DrawnLayer> layers) {
+  layers_ = std::move(layers);
+  planned_.clear();
 }
 
-Status ObjectPass::set_labels(const std::vector<LabelObject>& labels, const Ellipsoid& ellipsoid) {
-  has_labels_above_ = has_labels_underground_ = false;
-  if (font_.empty() || (labels.empty() && !labels_)) return Done{};
-  if (!labels_) {
-    auto made = LabelPass::create(depth_, font_);
-    if (!made) return made.error();
-    labels_ = std::move(*made);
+Status ObjectPass::prepare() {
+  for (const DrawnLayer& layer : layers_) {
+    if (!labels_ && !font_.empty() && !layer.objects->labels().empty()) {
+      auto made = LabelPass::create(depth_, font_);
+      if (!made) return made.error();
+      labels_ = std::move(*made);
+    }
+    if (!meshes_ && !layer.objects->batches().models.empty()) {
+      auto made = MeshPass::create(depth_);
+      if (!made) return made.error();
+      meshes_ = std::move(*made);
+    }
   }
-  for (const LabelObject& label : labels) (is_underground(label) ? has_labels_underground_ : has_labels_above_) = true;
-  labels_->set_labels(labels, ellipsoid);
   return Done{};
 }
 
-Status ObjectPass::set_meshes(const std::vector<MeshObject>& meshes, const Ellipsoid& ellipsoid) {
-  if (meshes.empty() && !meshes_) return Done{};
-  if (!meshes_) {
-    auto made = MeshPass::create(depth_);
-    if (!made) return made.error();
-    meshes_ = std::move(*made);
+void ObjectPass::upload() {
+  for (const DrawnLayer& layer : layers_) layer.buffers->follow(*layer.objects);
+  if (meshes_) meshes_->upload(layers_);
+  plan_fills();
+}
+
+// Areas of all layers are drawn from the lowest to the highest, so that translucent areas seen from above are blended
+// in the right order. Areas of equal height keep the order of their layers.
+void ObjectPass::plan_fills() {
+  std::vector<std::uint64_t> versions;
+  for (const DrawnLayer& layer : layers_) versions.push_back(layer.objects->batches().fill_version);
+  if (versions == planned_) return;
+  planned_ = std::move(versions);
+  for (std::size_t bucket = 0; bucket < fills_.size(); ++bucket) {
+    std::vector<FillDraw> all;
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+      for (const FillRun& run : layers_[k].objects->batches().fill_runs[bucket]) all.push_back({k, run});
+    }
+    std::ranges::stable_sort(all, {}, [](const FillDraw& draw) { return draw.run.height_m; });
+    std::vector<FillDraw>& fills = fills_[bucket];
+    fills.clear();
+    for (const FillDraw& draw : all) {
+      const bool goes_on = !fills.empty() && fills.back().layer == draw.layer &&
+                           fills.back().run.first + fills.back().run.count == draw.run.first;
+      if (goes_on) {
+        fills.back().run.count += draw.run.count;
+      } else {
+        fills.push_back(draw);
+      }
+    }
   }
-  meshes_->set_meshes(meshes, ellipsoid);
-  return Done{};
 }
 
 bool ObjectPass::has(ObjectPart part) const {
-  if (part == ObjectPart::above_ground ? has_labels_above_ : has_labels_underground_) return true;
-  if (meshes_ && meshes_->has(part)) return true;
-  for (const bool opaque : {true, false}) {
-    for (const Ranges* ranges : {&fill_ranges_, &spheres_->ranges(), &line_ranges_, &marker_ranges_}) {
-      if (ranges->range(part, opaque, ObjectChoice::all).count > 0) return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(layers_, [part](const DrawnLayer& layer) { return layer.objects->has(part); });
 }
 
 int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
@@ -123,43 +129,61 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
   // Areas lie on the ground: everything else is over them.
   int calls = draw_fills(opaque) + draw_fills(translucent);
   for (const ObjectDraw& draw : {opaque, translucent}) {
-    if (meshes_) calls += meshes_->draw(draw);
-    calls += spheres_->draw(draw, frame, viewport, hiding_radius_m);
-    calls += draw_lines(draw);
-    calls += draw_markers(draw);
+    for (const DrawnLayer& layer : layers_) calls += meshes_ ? meshes_->draw(layer, draw) : 0;
+    for (const DrawnLayer& layer : layers_) calls += spheres_->draw(layer, draw, frame, viewport, hiding_radius_m);
+    for (const DrawnLayer& layer : layers_) calls += draw_lines(layer, draw);
+    for (const DrawnLayer& layer : layers_) calls += draw_markers(layer, draw);
   }
   return labels_ ? calls + labels_->draw(translucent, viewport) : calls;
 }
 
 int ObjectPass::draw_fills(const ObjectDraw& draw) const {
-  const auto range = fill_ranges_.range(draw.part, draw.opaque, draw.choice);
-  if (range.count == 0) return 0;
-  apply(draw.state.with(fill_.name()));
-  glBindVertexArray(fill_array_.name());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(range.first * sizeof(std::uint32_t)));
-  return 1;
+  int calls = 0;
+  const auto [first, end] = buckets_of(draw.part, draw.opaque, draw.choice);
+  for (std::size_t bucket = first; bucket < end; ++bucket) {
+    for (const auto& [layer, run] : fills_[bucket]) {
+      const LayerBuffers& buffers = *layers_[layer].buffers;
+      if (calls++ == 0) apply(draw.state.with(fill_.name()));
+      glBindVertexArray(fill_array_.name());
+      glVertexArrayVertexBuffer(fill_array_.name(), 0, buffers.fill_vertices[bucket].name(), 0, sizeof(FillVertex));
+      glVertexArrayElementBuffer(fill_array_.name(), buffers.fill_indices[bucket].name());
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(run.first * sizeof(std::uint32_t)));
+    }
+  }
+  return calls;
 }
 
-int ObjectPass::draw_markers(const ObjectDraw& draw) const {
-  const auto range = marker_ranges_.range(draw.part, draw.opaque, draw.choice);
-  if (range.count == 0) return 0;
-  apply(draw.state.with(marker_.name()));
-  glBindVertexArray(marker_array_.name());
-  glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(range.count),
-                                    static_cast<GLuint>(range.first));
-  return 1;
+int ObjectPass::draw_markers(const DrawnLayer& layer, const ObjectDraw& draw) const {
+  int calls = 0;
+  const auto [first, end] = buckets_of(draw.part, draw.opaque, draw.choice);
+  for (std::size_t bucket = first; bucket < end; ++bucket) {
+    const std::size_t count = layer.objects->batches().markers.bucket(bucket).items.size();
+    if (count == 0) continue;
+    if (calls++ == 0) apply(draw.state.with(marker_.name()));
+    glBindVertexArray(marker_array_.name());
+    glVertexArrayVertexBuffer(marker_array_.name(), 0, layer.buffers->markers[bucket].name(), 0, sizeof(DotInstance));
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count));
+  }
+  return calls;
 }
 
-int ObjectPass::draw_lines(const ObjectDraw& draw) const {
+int ObjectPass::draw_lines(const DrawnLayer& layer, const ObjectDraw& draw) const {
   constexpr std::size_t kVerticesOfAPiece = 4;
-  const auto range = line_ranges_.range(draw.part, draw.opaque, draw.choice);
-  if (range.count < kVerticesOfAPiece) return 0;
-  apply(draw.state.with(line_.name()));
-  glBindVertexArray(line_array_.name());
-  glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(range.count - kVerticesOfAPiece + 1),
-                                    static_cast<GLuint>(range.first));
-  return 1;
+  int calls = 0;
+  const auto [first, end] = buckets_of(draw.part, draw.opaque, draw.choice);
+  for (std::size_t bucket = first; bucket < end; ++bucket) {
+    const std::size_t count = layer.objects->batches().lines.bucket(bucket).items.size();
+    if (count < kVerticesOfAPiece) continue;
+    if (calls++ == 0) apply(draw.state.with(line_.name()));
+    glBindVertexArray(line_array_.name());
+    for (GLuint k = 0; k < kVerticesOfAPiece; ++k) {
+      glVertexArrayVertexBuffer(line_array_.name(), k, layer.buffers->lines[bucket].name(),
+                                static_cast<GLintptr>(k * sizeof(LineVertex)), sizeof(LineVertex));
+    }
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count - kVerticesOfAPiece + 1));
+  }
+  return calls;
 }
 
 }  // namespace terrella

@@ -52,20 +52,16 @@ Result<std::unique_ptr<SpherePass>> SpherePass::create(DepthMode depth) {
   return pass;
 }
 
-void SpherePass::set_spheres(const Batch<DotInstance>& spheres) {
-  groups_ = SphereGroups(spheres);
-  ranges_ = ranges_of(spheres);
-  spheres_ = buffer_of(groups_.items());
-  for (const gl::VertexArray* array : {&triangle_array_, &point_array_}) {
-    glVertexArrayVertexBuffer(array->name(), 0, spheres_.name(), 0, sizeof(DotInstance));
-  }
-}
-
-int SpherePass::draw(const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport, double hiding_radius_m) {
-  const auto range = ranges_.range(draw.part, draw.opaque, draw.choice);
+int SpherePass::draw(const DrawnLayer& layer, const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport,
+                     double hiding_radius_m) {
+  SphereBatch& spheres = layer.objects->batches().spheres;
+  const auto range = spheres.ranges.range(draw.part, draw.opaque, draw.choice);
   if (range.count == 0) return 0;
+  for (const gl::VertexArray* array : {&triangle_array_, &point_array_}) {
+    glVertexArrayVertexBuffer(array->name(), 0, layer.buffers->spheres.name(), 0, sizeof(DotInstance));
+  }
   const SphereGroups::Seen seen =
-      groups_.seen({range.first, range.count}, sight_of(frame, viewport, hiding_radius_m, largest_point_px_));
+      spheres.groups.seen({range.first, range.count}, sight_of(frame, viewport, hiding_radius_m, largest_point_px_));
   for (const gl::Program* program : {&triangle_, &point_}) {
     set_object_uniforms(*program, viewport, draw.depth_bias, hiding_radius_m);
   }

@@ -8,6 +8,7 @@
 #include "render/gl/frame_block.h"
 #include "render/gl/gl_handle.h"
 #include "render/gl/stream_buffer.h"
+#include "render/objects/layer_buffers.h"
 #include "render/objects/object_common.h"
 #include "view/render_modes.h"
 
@@ -19,11 +20,9 @@ class SpherePass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<SpherePass>> create(DepthMode depth);
 
-  /// Replaces all spheres.
-  void set_spheres(const Batch<DotInstance>& spheres);
-  /// As ObjectPass::draw(). Returns the draw calls made: at most one for triangles and one for points.
-  int draw(const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport, double hiding_radius_m);
-  [[nodiscard]] const Batch<char>& ranges() const { return ranges_; }
+  /// As ObjectPass::draw(), for one layer. Returns the draw calls made: at most one for triangles and one for points.
+  int draw(const DrawnLayer& layer, const ObjectDraw& draw, const FrameBlock& frame, Viewport viewport,
+           double hiding_radius_m);
 
  private:
   SpherePass() = default;
@@ -32,10 +31,7 @@ class SpherePass {
 
   gl::Program triangle_, point_;
   gl::VertexArray triangle_array_, point_array_;
-  gl::Buffer spheres_;
   StreamBuffer commands_;
-  SphereGroups groups_;
-  Batch<char> ranges_;
   float largest_point_px_ = 0.0F;
 };
 

@@ -5,6 +5,7 @@
 #include <future>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 #include <vector>
 
 #include "geo/scaled_space.h"
@@ -59,7 +60,8 @@ double sun_cosine(const Body& body, const View& view, const EcefDir& sun) {
                   scaled_direction(body.ellipsoid, sun.xyz));
 }
 
-AirTextures::AirTextures(const Body& body, const Atmosphere& air) : body_(body), tables_(air, body.ellipsoid.a_m()) {}
+AirTextures::AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables)
+    : body_(body), air_(air), tables_(std::move(tables)) {}
 
 bool AirTextures::fit(const View& view, const EcefDir& sun) {
   const Ellipsoid& e = body_.ellipsoid;
@@ -69,11 +71,11 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
   const AirEye eye{std::max(length, 1.0 + 1e-9), sun_cosine(body_, view, sun)};
   axes_ = horizon_axes(from_center / length, scaled_direction(e, sun.xyz));
   // Added to the eye's height, so that small changes near the ground do not compute the air again.
-  const double scale = 0.05 * (tables_.top() - 1.0);
+  const double scale = 0.05 * (tables().top() - 1.0);
   const double moved = std::abs(eye.radius - eye_.radius) / (eye.radius - 1.0 + scale);
-  const bool crossed = (eye.radius > tables_.top()) != sky_.outside;
+  const bool crossed = (eye.radius > tables().top()) != sky_.outside;
   const double pixel =
-      eye.radius > tables_.top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
+      eye.radius > tables().top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
   const bool same_pixel = std::abs(pixel - pixel_) <= 0.003 * pixel_;
   if (!crossed && same_pixel && moved < kHeightStep && std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep) return true;
   eye_ = eye;
@@ -84,8 +86,8 @@ bool AirTextures::fit(const View& view, const EcefDir& sun) {
 
 void AirTextures::upload() {
   std::future<GroundColors> ground_colors =
-      std::async(std::launch::async, [this] { return make_ground_colors(tables_, eye_); });
-  sky_ = make_sky_colors(tables_, eye_, pixel_);
+      std::async(std::launch::async, [this] { return make_ground_colors(tables(), eye_); });
+  sky_ = make_sky_colors(tables(), eye_, pixel_);
   sky_light_ = make_table(sky_.columns, sky_.rows, sky_.light_srgb);
   std::vector<glm::vec4> rows;
   for (std::size_t k = 0; k < sky_.through.size(); ++k) {

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <future>
 #include <glm/mat3x3.hpp>
+#include <memory>
 #include <optional>
 
 #include "geo/body.h"
 #include "geo/camera.h"
 #include "render/gl/gl_handle.h"
 #include "sky/air_colors.h"
+#include "sky/air_tables.h"
 #include "sky/almanac.h"
 
 namespace terrella {
@@ -15,12 +18,13 @@ namespace terrella {
 /// sphere of radius 1; the axes of the horizon are x towards the Sun's azimuth and z up. thread: main
 class AirTextures {
  public:
-  AirTextures(const Body& body, const Atmosphere& air);
+  /// `tables` are those of `air`; fit() waits for them.
+  AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables);
 
   /// Computes the air again if the eye or the Sun has moved. False if the eye is at the planet's centre.
   bool fit(const View& view, const EcefDir& sun);
 
-  [[nodiscard]] const Atmosphere& air() const { return tables_.air(); }
+  [[nodiscard]] const Atmosphere& air() const { return air_; }
   [[nodiscard]] const SkyColors& sky() const { return sky_; }
   /// Turns a direction or an offset from the eye, metres, into the axes of the horizon, in scaled space.
   [[nodiscard]] glm::dmat3 horizon_from_ecef() const;
@@ -37,9 +41,11 @@ class AirTextures {
 
  private:
   void upload();
+  [[nodiscard]] const AirTables& tables() const { return tables_.get(); }
 
   Body body_;
-  AirTables tables_;
+  Atmosphere air_;
+  std::shared_future<AirTables> tables_;  ///< the same for all eyes
   AirEye eye_{.radius = 0.0};
   double pixel_ = 0.0;
   glm::dmat3 axes_{1.0};

@@ -66,27 +66,33 @@ Columns columns_in_view(const View& view, const AirTextures& air) {
 
 }  // namespace
 
-Result<std::unique_ptr<SkyPass>> SkyPass::create(const Body& body, const std::vector<Star>& stars) {
-  std::unique_ptr<SkyPass> pass(new SkyPass(body));
-  if (const auto air = atmosphere_of(body)) pass->air_.emplace(body, *air);
-  if (const Status built = pass->build_programs(); !built) return built.error();
-  pass->empty_array_ = gl::make_vertex_array();
-  pass->load_stars(stars);
-  return pass;
+SkyPass::SkyPass(const Body& body, const std::vector<Star>& stars)
+    : body_(body), atmosphere_(atmosphere_of(body)), empty_array_(gl::make_vertex_array()) {
+  if (atmosphere_) {
+    tables_ = std::async(std::launch::async, [air = *atmosphere_, radius_m = body.ellipsoid.a_m()] {
+                return AirTables(air, radius_m);
+              }).share();
+  }
+  load_stars(stars);
 }
 
-Status SkyPass::build_programs() {
-  const auto build = [](gl::Program& into, std::string_view vertex, std::string_view fragment) {
+void SkyPass::keep_air_in(std::unique_ptr<AirTextures>& place) {
+  if (atmosphere_ && !place) place = std::make_unique<AirTextures>(body_, *atmosphere_, tables_);
+  air_ = place.get();
+}
+
+Status SkyPass::prepare(const SkyInput& input) {
+  const auto build = [](bool needed, gl::Program& into, std::string_view vertex, std::string_view fragment) -> Status {
+    if (!needed || into) return Done{};
     return build_into(into,
                       {{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
                        {GL_FRAGMENT_SHADER, {"frame.glsl", "air.glsl", "sky_color.glsl", "regolith.glsl", fragment}}},
                       {});
   };
-  if (Status s = build(star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
-  if (Status s = build(sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
-  if (Status s = build(moon_program_, "sky_disc.vert", "sky_moon.frag"); !s) return s;
-  if (!air_) return Done{};
-  return build(air_program_, "sky_air.vert", "sky_air.frag");
+  if (Status s = build(input.stars && star_count_ > 0, star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
+  if (Status s = build(input.sun, sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
+  if (Status s = build(has_moon(input), moon_program_, "sky_disc.vert", "sky_moon.frag"); !s) return s;
+  return build(input.atmosphere && atmosphere_, air_program_, "sky_air.vert", "sky_air.frag");
 }
 
 void SkyPass::load_stars(const std::vector<Star>& stars) {
@@ -105,7 +111,7 @@ void SkyPass::load_stars(const std::vector<Star>& stars) {
 int SkyPass::draw_stars(const View& view, const SkyInput& input, DrawState state) const {
   if (star_count_ == 0) return 0;
   const double height_m = body_.ellipsoid.to_geodetic(view.eye).height_m;
-  const double visibility = air_ && input.atmosphere
+  const double visibility = air_ != nullptr && input.atmosphere
                                 ? star_visibility(air_->air(), height_m, sun_cosine(body_, view, input.almanac.sun))
                                 : 1.0;
   if (visibility < 1e-3) return 0;
@@ -173,7 +179,7 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
 }
 
 const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
-  return input.atmosphere && air_ && air_->fit(view, input.almanac.sun) ? &*air_ : nullptr;
+  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun) ? air_ : nullptr;
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {
@@ -181,7 +187,7 @@ int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {
   int calls = 0;
   if (input.stars) calls += draw_stars(view, input, state);
   if (input.sun) calls += draw_sun(view, input, state);
-  if (input.moon && body_.name == earth().name) calls += draw_moon(view, input, state);
+  if (has_moon(input)) calls += draw_moon(view, input, state);
   if (fit_air(view, input) != nullptr) calls += draw_air(view, state);
   return calls;
 }

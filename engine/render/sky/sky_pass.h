@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,11 +29,17 @@ struct SkyInput {
 /// stencil tests of the caller decide where the sky is drawn: where nothing is in front of it. thread: main
 class SkyPass {
  public:
-  /// `stars` may be empty. A body without an atmosphere needs no program for it.
-  [[nodiscard]] static Result<std::unique_ptr<SkyPass>> create(const Body& body, const std::vector<Star>& stars);
+  /// `stars` may be empty.
+  SkyPass(const Body& body, const std::vector<Star>& stars);
 
-  /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. The frame's uniform block
-  /// must be bound and of this view. Returns the draw calls made. Changes vertex array and texture units 0 and 1.
+  /// Builds the programs for what is on, each once.
+  Status prepare(const SkyInput& input);
+  /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before draw()
+  /// and fit_air().
+  void keep_air_in(std::unique_ptr<AirTextures>& place);
+  /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. Needs prepare(). The
+  /// frame's uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and
+  /// texture units 0 and 1.
   int draw(const View& view, const SkyInput& input, DrawState state);
   /// Returns the air of the view for the passes that draw ground and limb; null without air. Valid until the next call.
   [[nodiscard]] const AirTextures* fit_air(const View& view, const SkyInput& input);
@@ -44,8 +51,7 @@ class SkyPass {
     double radius_rad;
   };
 
-  explicit SkyPass(const Body& body) : body_(body) {}
-  Status build_programs();
+  [[nodiscard]] bool has_moon(const SkyInput& input) const { return input.moon && body_.name == earth().name; }
   void load_stars(const std::vector<Star>& stars);
   int draw_stars(const View& view, const SkyInput& input, DrawState state) const;
   int draw_sun(const View& view, const SkyInput& input, DrawState state) const;
@@ -54,7 +60,9 @@ class SkyPass {
   void place_disc(const View& view, const Disc& disc, double square) const;
 
   Body body_;
-  std::optional<AirTextures> air_;
+  std::optional<Atmosphere> atmosphere_;
+  std::shared_future<AirTables> tables_;  ///< computed on other threads, if there is an atmosphere
+  AirTextures* air_ = nullptr;            ///< of the view that is drawn; null: none
   gl::Program star_program_, sun_program_, moon_program_, air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;

@@ -41,12 +41,12 @@ LimbPass::LimbPass() : vertex_array_(gl::make_vertex_array()), vertices_(gl::mak
   gl::float_attribute(array, 2, 0, 1, offsetof(LimbVertex, distance_px));
 }
 
-Status LimbPass::prepare(LimbLook look) {
-  gl::Program& program = programs_[static_cast<std::size_t>(look)];
+Status LimbPass::prepare(LimbLook look, bool from_samples) {
+  gl::Program& program = programs_[from_samples ? 1 : 0][static_cast<std::size_t>(look)];
   if (program) return Done{};
   const std::string_view fragment = look == LimbLook::imagery ? "limb.frag" : "limb_air.frag";
   return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {fragment}}},
-                    {look == LimbLook::in_air ? "AIR" : "NO_AIR"});
+                    {look == LimbLook::in_air ? "AIR" : "NO_AIR", from_samples ? "FROM_SAMPLES" : "FROM_CENTRES"});
 }
 
 bool LimbPass::fit(const View& view, const Ellipsoid& ellipsoid) {
@@ -62,7 +62,7 @@ void LimbPass::draw(const View& view, const LimbPicture& picture, LimbLook look,
                     DrawState state) const {
   state.depth.reset();
   state.cull.reset();
-  apply(state.with(programs_[static_cast<std::size_t>(look)].name()));
+  apply(state.with(programs_[picture.from_samples ? 1 : 0][static_cast<std::size_t>(look)].name()));
   glUniform1i(0, picture.rows_apart);
   glUniform4i(1, picture.left_px, 0, picture.left_px + view.viewport.width_px - 1, view.viewport.height_px - 1);
   if (look == LimbLook::in_air) set_air(view, *air);

@@ -15,6 +15,7 @@ struct LimbPicture {
   int left_px = 0;
   /// 2: only every other row belongs to this view; 0: the picture already contains the limb.
   int rows_apart = 1;
+  bool from_samples = false;  ///< a pixel of the picture is the mean over its square, not the colour at its centre
 };
 
 /// The content of the ground's colours at the limb.
@@ -30,7 +31,7 @@ class LimbPass {
   LimbPass();
 
   /// Builds the program of a look unless it exists.
-  Status prepare(LimbLook look);
+  Status prepare(LimbLook look, bool from_samples);
   /// Fits the ribbon to the limb of a view. False if no limb is in view.
   bool fit(const View& view, const Ellipsoid& ellipsoid);
   /// Blends the limb into the bound framebuffer with the stencil test and color mask of `state`, without a depth test.
@@ -38,7 +39,7 @@ class LimbPass {
   void draw(const View& view, const LimbPicture& picture, LimbLook look, const AirTextures* air, DrawState state) const;
 
  private:
-  gl::Program programs_[3];  ///< by LimbLook
+  gl::Program programs_[2][3];  ///< by LimbPicture::from_samples and LimbLook
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
   GLsizei count_ = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "render/gl/gl_handle.h"
 #include "render/surface/number_colors.h"
@@ -9,13 +8,13 @@
 
 namespace terrella {
 
-/// The GPU data from which the patches of one image layer are drawn. PatchPass makes it, and fills it once per frame.
-/// thread: main
+/// The GPU data from which the patches of one image layer in one view are drawn. PatchPass makes it, and fills it once
+/// per frame. thread: main
 struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, oblique, polar, paper, kPrograms };
 
-  std::optional<NumberColors> numbers;     ///< none: a layer of pictures
+  const NumberColors* numbers = nullptr;   ///< null: a layer of pictures
   std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the base layer
   gl::Buffer draws, commands, cells;
   gl::Buffer frame_block;  ///< used for upper layers

@@ -26,6 +26,10 @@ struct DrawCommand {
 
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
+// In the pole bands (PatchSelectionOptions::band) pixels are long without a slant. Three taps would leave more error
+// there than elsewhere.
+constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
+constexpr double kBesidePole_texels = 5.0;
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
@@ -45,24 +49,19 @@ void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
 
 }  // namespace
 
-Result<std::unique_ptr<PatchPass>> PatchPass::create(const RenderOptions& options, bool has_relief) {
+std::unique_ptr<PatchPass> PatchPass::create(const RenderOptions& options, bool has_relief) {
   std::unique_ptr<PatchPass> pass(new PatchPass(options, has_relief));
-  if (!options.functions && options.texturing != Texturing::vertex) {  // only if coordinates are computed per fragment
-    const Result<ShaderFunctions> chosen = choose_shader_functions();
-    if (!chosen) return chosen.error();
-    pass->options_.functions = *chosen;
-  }
-  if (const Status built = pass->prepare(LayerRole::base, false); !built) return built.error();
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
 }
 
-Status PatchPass::prepare(LayerRole role, bool numbers) {
+Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches) {
   ProgramSet& set = sets_[set_index(role, numbers)];
-  if (!set.made) {
-    if (Status built = build_programs(set.programs, role, numbers); !built) return built;
-    set.made = true;
+  for (const SelectedPatch& patch : patches) {
+    const PatchLayer::Program which = program_for(patch);
+    if (set.programs[which]) continue;
+    if (Status made = make_program(set.programs[which], which, role, numbers); !made) return made;
   }
   if (role == LayerRole::base || flat_program_) return Done{};
   return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
@@ -88,28 +87,25 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
                      kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
 
-Status PatchPass::build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const {
-  using enum PatchLayer::Program;
-  const auto make = [&](PatchLayer::Program which, std::string_view file) {
+Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, LayerRole role, bool numbers) {
+  constexpr std::string_view kFiles[kPrograms] = {"patch_magnified.frag", "patch_plain.frag", "patch_oblique.frag",
+                                                  "patch_polar.frag", "patch_paper.frag"};
+  const std::string_view file = kFiles[which];
+  if (which != PatchLayer::polar && which != PatchLayer::paper) {
     return build(
-        programs[which],
+        place,
         {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
         role, numbers);
-  };
-  const auto make_exact = [&](PatchLayer::Program which, std::string_view file) {
-    return build(programs[which],
-                 {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl",
-                  "patch_taps.glsl", "patch_exact_point.glsl", file},
-                 role, numbers);
-  };
-  if (options_.texturing == Texturing::exact || options_.texturing == Texturing::automatic) {
-    Status s = make_exact(polar, "patch_polar.frag");
-    if (!s || options_.texturing == Texturing::exact) return s;
   }
-  if (Status s = make(magnified, "patch_magnified.frag"); !s) return s;
-  if (Status s = make(plain, "patch_plain.frag"); !s) return s;
-  if (Status s = make(oblique, "patch_oblique.frag"); !s) return s;
-  return options_.texturing == Texturing::paper ? make_exact(paper, "patch_paper.frag") : Done{};
+  if (!options_.functions) {  // coordinates are computed per fragment
+    const Result<ShaderFunctions> chosen = choose_shader_functions();
+    if (!chosen) return chosen.error();
+    options_.functions = *chosen;
+  }
+  return build(place,
+               {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
+                "patch_exact_point.glsl", file},
+               role, numbers);
 }
 
 void PatchPass::set_up_vertex_array() {
@@ -158,7 +154,10 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       break;
   }
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
-  return patch.footprint_texels > plain_footprint_texels_ ? oblique : plain;
+  const bool beside_pole = patch.node->min_colatitude_rad < kBesidePole_rad;
+  const double plain_texels =
+      beside_pole ? std::min(kBesidePole_texels, plain_footprint_texels_) : plain_footprint_texels_;
+  return patch.footprint_texels > plain_texels ? oblique : plain;
 }
 
 void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
@@ -217,8 +216,7 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts) const {
-  const ProgramSet& set = sets_[set_index(role, layer.numbers.has_value())];
-  assert(set.made);
+  const ProgramSet& set = sets_[set_index(role, layer.numbers != nullptr)];
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
@@ -226,12 +224,13 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
-  if (layer.numbers) layer.numbers->bind();
+  if (layer.numbers != nullptr) layer.numbers->bind();
   bind_vertices(layer, vertices);
   for (int p = 0; p < kPrograms; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
     const GLuint program = set.programs[p].name();
-    if (layer.numbers) {
+    assert(program != 0);
+    if (layer.numbers != nullptr) {
       glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
     }
     apply(state.with(program));

@@ -61,15 +61,14 @@ enum class LayerRole {
 class PatchPass {
  public:
   /// `has_relief`: the patches have heights.
-  [[nodiscard]] static Result<std::unique_ptr<PatchPass>> create(const RenderOptions& options, bool has_relief);
-  [[nodiscard]] bool is_of_current_context() const { return glIsVertexArray(vertex_array_.name()) == GL_TRUE; }
+  [[nodiscard]] static std::unique_ptr<PatchPass> create(const RenderOptions& options, bool has_relief);
   /// Sees the ground through this air from now on; null: without air.
   void set_air(const AirTextures* air) { air_ = air; }
   /// Draws in this light from now on.
   void set_light(const PatchLight& light) { light_ = light; }
-  /// Builds the programs that draw a layer of pictures or numbers in the present air and light, once; for upper layers
-  /// also that of draw_flat(). Call after set_air() and set_light().
-  Status prepare(LayerRole role, bool numbers);
+  /// Builds the programs that draw these patches of a layer of pictures or numbers in the present air and light, each
+  /// once; for upper layers also that of draw_flat(). Call after set_air(), set_light() and set_plain_footprint().
+  Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
 
@@ -103,7 +102,7 @@ class PatchPass {
     const std::size_t layers = 2 * static_cast<std::size_t>(role) + (numbers ? 1 : 0);
     return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light_.index());
   }
-  Status build_programs(gl::Program (&programs)[kPrograms], LayerRole role, bool numbers) const;
+  Status make_program(gl::Program& place, PatchLayer::Program which, LayerRole role, bool numbers);
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
                bool numbers) const;
   void set_up_vertex_array();
@@ -116,10 +115,9 @@ class PatchPass {
 
   RenderOptions options_;
   bool has_relief_;
-  /// The programs of a role, for pictures or numbers, by which() air, in a light.
+  /// The programs of a role, for pictures or numbers, by which() air, in a light; those that some patch has needed.
   struct ProgramSet {
     gl::Program programs[kPrograms];
-    bool made = false;
   };
   static constexpr std::size_t kRoles = 3, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];

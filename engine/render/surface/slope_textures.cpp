@@ -21,11 +21,7 @@ void send(gl::Buffer& buffer, const std::vector<T>& data) {
 }  // namespace
 
 SlopeTextures::SlopeTextures(const TileGrid& grid) : grid_(grid), sampler_(gl::make_sampler()) {
-  GLint most = 256;
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
-  const std::size_t layer_bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(slot_px() * slot_px());
-  most_layers_ =
-      static_cast<int>(std::clamp<std::size_t>(kBudget_bytes / layer_bytes, 64, static_cast<std::size_t>(most)));
+  set_views(1);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
     glSamplerParameteri(sampler_.name(), filter, GL_LINEAR);
   }
@@ -33,6 +29,15 @@ SlopeTextures::SlopeTextures(const TileGrid& grid) : grid_(grid), sampler_(gl::m
     glSamplerParameteri(sampler_.name(), wrap, GL_CLAMP_TO_EDGE);
   }
   static_cast<void>(grow());
+}
+
+void SlopeTextures::set_views(int views) {
+  GLint most = 256;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+  const std::size_t layer_bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(slot_px() * slot_px());
+  const std::size_t wanted = static_cast<std::size_t>(views) * kBudget_bytes / layer_bytes;
+  most_layers_ =
+      std::max(layers_, static_cast<int>(std::clamp<std::size_t>(wanted, 64, static_cast<std::size_t>(most))));
 }
 
 bool SlopeTextures::grow() {

@@ -16,8 +16,8 @@ namespace terrella {
 
 /// The slopes of loaded heights in slots of an array texture, for programs built with RELIEF
 /// (shaders/surface/patch_relief.glsl). A slot has a texel per height, and a gutter for filtering. Slot 0 is level. The
-/// slopes are not exaggerated. At most 64 MiB on the GPU, or the tiles of one frame if they are more than that and the
-/// driver has room for them. thread: main
+/// slopes are not exaggerated. At most 64 MiB on the GPU for each view, or the tiles of one frame if they are more than
+/// that and the driver has room for them. thread: main
 class SlopeTextures {
  public:
   static constexpr GLuint kUnit = 9, kCellsUnit = 10;  ///< texture units that the shaders read
@@ -25,6 +25,8 @@ class SlopeTextures {
 
   explicit SlopeTextures(const TileGrid& grid);
 
+  /// Sets the number of views that are drawn in turn.
+  void set_views(int views);
   /// Uploads the windows of a layer's patches, and the slopes of tiles that are new or whose heights have changed.
   void upload(PatchLayer& layer, const Relief& relief, const PatchTree& tree, const std::vector<SelectedPatch>& patches,
               std::uint64_t frame);
@@ -48,7 +50,7 @@ class SlopeTextures {
   [[nodiscard]] bool grow();
 
   TileGrid grid_;
-  int most_layers_;
+  int most_layers_ = 0;
   int layers_ = 0, used_ = 1;
   gl::Texture texture_;
   gl::Sampler sampler_;

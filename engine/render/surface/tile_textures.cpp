@@ -11,7 +11,8 @@
 namespace terrella {
 namespace {
 
-constexpr int kFirstSlots = 128;
+// Enough for the first view of a planet; a driver in software zeroes all of them.
+constexpr int kFirstSlots = 64;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
 /// How OpenGL stores the texels of a layout, and takes them.

@@ -50,7 +50,8 @@ class TileTextures {
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   [[nodiscard]] int mips() const { return mips_; }
-  [[nodiscard]] int capacity() const { return most_slots_; }  ///< number of tiles that fit in the budget
+  [[nodiscard]] int capacity() const { return most_slots_; }            ///< number of tiles that fit in the budget
+  [[nodiscard]] int free_slots() const { return most_slots_ - used_; }  ///< tiles that fit without evicting one
   [[nodiscard]] std::size_t slot_bytes() const;
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
 

@@ -10,12 +10,12 @@
 namespace terrella {
 namespace {
 
-// A bent patch may have coordinates per fragment if it reaches at most this many bands far: each of its pixels pays.
-constexpr double kMostOverBand = 4.0;
-// A bent patch that reaches this far is split if it is large on the screen: a fragment of the polar program costs more
-// than a twelfth of a triangle.
-constexpr double kFarOverBand = 2.5;
+// A patch at a pole is split if a triangle has more pixels than this: pixels there need coordinates of their own, which
+// cost more than a triangle for every twelve of them.
 constexpr double kPixelsATriangle = 12.0;
+// Beside a pole texels are narrow, but imagery has no finer detail there than elsewhere. A pixel that is short along
+// the meridian needs taps for at most this many times its length there.
+constexpr double kMostOverMeridian = 4.0;
 // Texels this many times as large as a pixel show the loss of detail by squeezing.
 constexpr double kMagnified = 2.0;
 // A patch whose axis is further than this, in nearest distances, asks for one level less in its middle than near the
@@ -67,27 +67,34 @@ SelectedPatch ImageryFit::choose_level(const PatchNode& node, const PatchSight& 
   const PatchTree& tree = *imagery_.tree;
   const TileGrid& grid = tree.grid();
   const Footprint pixel = footprint(node, sight);
-  const double texel0_m = this->texel0_m(node);
-  const double sine = std::sin(std::max(node.min_colatitude_rad, 1e-3));
   const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
-  SelectedPatch patch{.node = &node, .in_band = in_band(node) && is_bent(node, sight), .pixel_m = pixel_m(sight)};
-  patch.tile_level =
-      std::clamp(wanted_level(texel0_m * imagery_.texels_per_pixel, patch.pixel_m), grid.min_level, finest_level_);
+  SelectedPatch patch{.node = &node, .pixel_m = pixel_m(sight)};
+  patch.tile_level = std::clamp(wanted_level(texel0_m(node) * imagery_.texels_per_pixel, patch.pixel_m), grid.min_level,
+                                finest_level_);
   for (;; --patch.tile_level) {
     const double columns = span_deg / tile_span_deg(grid, patch.tile_level);
-    const double texel_m = std::ldexp(texel0_m, -patch.tile_level);
     // Squeezed tiles of the finest level have less detail than the picture: magnified, its loss would show.
-    patch.squeezed = patch.tile_level < finest_level_ || texel_m < kMagnified * patch.pixel_m ||
+    patch.squeezed = patch.tile_level < finest_level_ || texel_m(node, patch) < kMagnified * patch.pixel_m ||
                      columns > options_.max_polar_columns;
     patch.squeeze = patch.squeezed ? tree.window_squeeze(node, patch.tile_level) : 0;
-    // Texels are narrow along the parallel unless they are squeezed: there a pixel is long.
-    const double narrow = std::min(std::ldexp(sine, patch.squeeze), 1.0);
-    patch.footprint_texels = std::max(pixel.east_m / narrow, pixel.north_m) / texel_m;
+    patch.footprint_texels = longest_texels(node, pixel, patch, std::max(node.min_colatitude_rad, 1e-3));
     // At a finer level a pixel would be longer than the taps and the gutter reach, or a pole's window too wide.
     const bool fits = in_band(node) ? std::ldexp(columns, -patch.squeeze) <= options_.max_polar_columns
                                     : patch.footprint_texels <= options_.max_footprint_texels;
-    if (fits || patch.tile_level == grid.min_level) return patch;
+    if (fits || patch.tile_level == grid.min_level) break;
   }
+  if (!in_band(node)) return patch;
+  patch.in_band =
+      patch.footprint_texels > options_.max_footprint_texels || (touches_pole(node) && is_bent(node, sight));
+  patch.footprint_texels = std::min(patch.footprint_texels, kMostOverMeridian * pixel.north_m / texel_m(node, patch));
+  return patch;
+}
+
+// Texels are narrow along the parallel unless they are squeezed: there a pixel is long.
+double ImageryFit::longest_texels(const PatchNode& node, const Footprint& pixel, const SelectedPatch& patch,
+                                  double colatitude_rad) const {
+  const double narrow = std::min(std::ldexp(std::sin(colatitude_rad), patch.squeeze), 1.0);
+  return std::max(pixel.east_m / narrow, pixel.north_m) / texel_m(node, patch);
 }
 
 bool ImageryFit::is_bent(const PatchNode& node, const PatchSight& sight) const {
@@ -96,13 +103,16 @@ bool ImageryFit::is_bent(const PatchNode& node, const PatchSight& sight) const {
 }
 
 bool ImageryFit::needs_split(const PatchNode& body, const PatchSight& sight, const SelectedPatch& patch) const {
-  if (is_bent(*patch.node, sight) && (!patch.in_band || reaches_far_over_the_band(body, sight))) return true;
+  if (is_bent(*patch.node, sight) && (!patch.in_band || is_worth_a_split(body, sight, patch))) return true;
   return window_too_wide(patch) || reaches_to_the_eye(sight, patch);
 }
 
-bool ImageryFit::reaches_far_over_the_band(const PatchNode& body, const PatchSight& sight) const {
-  if (body.max_colatitude_rad <= kFarOverBand * band_rad_) return false;
-  if (body.max_colatitude_rad > kMostOverBand * band_rad_) return true;
+// True if the patch is large on the screen, and its half away from the pole does without coordinates per fragment.
+bool ImageryFit::is_worth_a_split(const PatchNode& body, const PatchSight& sight, const SelectedPatch& patch) const {
+  const PatchNode& node = *patch.node;
+  const double outer_texels =
+      longest_texels(node, footprint(node, sight), patch, 0.5 * (node.min_colatitude_rad + node.max_colatitude_rad));
+  if (outer_texels > options_.max_footprint_texels) return false;
   const double across_px = 2.0 * body.sphere.radius_m / (sight.distance_m * meter_.radians_per_pixel());
   const double pixels = across_px * across_px * std::abs(glm::dot(sight.to_eye, body.normal)) / sight.distance_m;
   const double segments = imagery_.tree->segments();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "surface/plan/patch_selection.h"
 #include "surface/plan/patch_sight.h"
 
@@ -30,8 +32,16 @@ class ImageryFit {
   [[nodiscard]] bool is_bent(const PatchNode& node, const PatchSight& sight) const;
   [[nodiscard]] bool in_band(const PatchNode& node) const { return node.min_colatitude_rad < band_rad_; }
   [[nodiscard]] double texel0_m(const PatchNode& node) const { return equator_texel0_m_ * node.row_stretch; }
+  /// Height of a texel of the patch's level.
+  [[nodiscard]] double texel_m(const PatchNode& node, const SelectedPatch& patch) const {
+    return std::ldexp(texel0_m(node), -patch.tile_level);
+  }
+  /// Longest extent of a pixel, in texels of the patch's level at a colatitude.
+  [[nodiscard]] double longest_texels(const PatchNode& node, const Footprint& pixel, const SelectedPatch& patch,
+                                      double colatitude_rad) const;
   [[nodiscard]] static int wanted_level(double texel0_m, double pixel_m);
-  [[nodiscard]] bool reaches_far_over_the_band(const PatchNode& body, const PatchSight& sight) const;
+  [[nodiscard]] static bool touches_pole(const PatchNode& node) { return node.min_colatitude_rad == 0.0; }
+  [[nodiscard]] bool is_worth_a_split(const PatchNode& body, const PatchSight& sight, const SelectedPatch& patch) const;
   [[nodiscard]] bool reaches_to_the_eye(const PatchSight& sight, const SelectedPatch& patch) const;
   [[nodiscard]] bool window_too_wide(const SelectedPatch& patch) const;
 

@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 /// Largest distance of a part from the pixels of the first part, pixels: the error of coordinates with six decimals.
-constexpr double kAlignment_px = 0.01;
+constexpr double kGridAlignment_px = 0.01;
 
 /// Position of a part, in columns and rows of parts or of pixels.
 struct Cell {
@@ -123,15 +123,15 @@ Result<Cell> pixel_of(const std::vector<MosaicPart>& parts, std::size_t index) {
   const auto off = [](double a, double b, std::int64_t pixels) {
     return std::abs(a / b - 1.0) * static_cast<double>(pixels);
   };
-  if (off(place.pixel_width_deg, origin.pixel_width_deg, parts[index].width_px) > kAlignment_px ||
-      off(place.pixel_height_deg, origin.pixel_height_deg, parts[index].height_px) > kAlignment_px) {
+  if (off(place.pixel_width_deg, origin.pixel_width_deg, parts[index].width_px) > kGridAlignment_px ||
+      off(place.pixel_height_deg, origin.pixel_height_deg, parts[index].height_px) > kGridAlignment_px) {
     return Error{fmt::format("{}: its pixels are {:.9g}x{:.9g} degrees, those of {} {:.9g}x{:.9g}; resample it",
                              named(parts[index], index), place.pixel_width_deg, place.pixel_height_deg,
                              named(parts[0], 0), origin.pixel_width_deg, origin.pixel_height_deg)};
   }
   const double x = (place.west_deg - origin.west_deg) / origin.pixel_width_deg;
   const double y = (origin.north_deg - place.north_deg) / origin.pixel_height_deg;
-  if (std::abs(x - std::round(x)) > kAlignment_px || std::abs(y - std::round(y)) > kAlignment_px) {
+  if (std::abs(x - std::round(x)) > kGridAlignment_px || std::abs(y - std::round(y)) > kGridAlignment_px) {
     return Error{fmt::format("{}: lies {:.3f} and {:.3f} pixels off the pixels of {}; resample it",
                              named(parts[index], index), x - std::round(x), y - std::round(y), named(parts[0], 0))};
   }
@@ -201,7 +201,7 @@ Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& part
         said.west_deg -= static_cast<double>(x) * said.pixel_width_deg;
         said.north_deg += static_cast<double>(y) * said.pixel_height_deg;
         if (!origin) origin = said;
-        const double slack = kAlignment_px * origin->pixel_width_deg;
+        const double slack = kGridAlignment_px * origin->pixel_width_deg;
         const double west_off = std::remainder(said.west_deg - origin->west_deg, 360.0);
         if (std::abs(west_off) > slack || std::abs(said.north_deg - origin->north_deg) > slack) {
           return Error{
@@ -223,7 +223,7 @@ Result<MosaicLayout> with_said_place(MosaicLayout layout, const std::vector<Mosa
   if (!origin) return origin.error();
   if (!*origin) return layout;
   const Placement by_name = layout.place.value_or(**origin);
-  const double slack = kAlignment_px * (*origin)->pixel_width_deg;
+  const double slack = kGridAlignment_px * (*origin)->pixel_width_deg;
   if (std::abs(std::remainder(by_name.west_deg - (*origin)->west_deg, 360.0)) > slack ||
       std::abs(by_name.north_deg - (*origin)->north_deg) > slack) {
     return Error{fmt::format(

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/objects.h"
+
+// thread: any, for all of this header
+namespace terrella {
+
+/// Moves the points, labels and models of a feature. Its lines and areas stay.
+struct ObjectMove {
+  ObjectId id = ObjectId::none;
+  Geodetic place = {};
+};
+
+/// Changes how a feature looks. Values that are not set stay as they are. Nothing is tessellated, except an area or
+/// line that had been without colour.
+struct ObjectChange {
+  ObjectId id = ObjectId::none;
+  std::optional<bool> visible = {};       ///< false: neither drawn nor picked
+  std::optional<bool> selected = {};      ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
+  std::optional<ObjectColor> color = {};  ///< of points, lines, labels and the strokes of areas
+  std::optional<ObjectColor> fill = {};   ///< of areas
+  std::optional<float> size_px = {};      ///< diameter of markers, width of lines and strokes; positive
+  std::optional<Angle> heading = {};      ///< of models
+  std::optional<std::string> text = {};   ///< of labels
+};
+
+/// Edits of one object layer, made together in this order. Their cost follows from what they name, and not from what
+/// else the layer or the globe has.
+struct ObjectEdits {
+  std::vector<ObjectId> remove = {};
+  ObjectScene add = {};  ///< an id that the layer has gets further parts
+  std::vector<ObjectMove> moves = {};
+  std::vector<ObjectChange> changes = {};
+  std::optional<ObjectColor> selected_color = {};  ///< of the layer's selected objects from now on; its alpha is unused
+};
+
+/// Colour of selected objects until an edit sets another.
+inline constexpr ObjectColor kSelectedColor{255, 220, 40};
+
+}  // namespace terrella

@@ -1,0 +1,108 @@
+#include "globe/object_layer.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "tiles/late_workers.h"
+
+namespace terrella {
+
+ObjectLayer::Cutting::Cutting(CutJob job, const std::shared_ptr<ArrivalBell>& bell)
+    : size_(job.size()),
+      worker_(std::async(std::launch::async, [job = std::move(job), shared = shared_, bell]() mutable {
+        shared->cut = cut_objects(std::move(job), shared->stop);
+        bell->ring();
+      })) {}
+
+ObjectLayer::Cutting::~Cutting() {
+  if (!worker_.valid()) return;
+  shared_->stop = true;
+  end_late(std::move(worker_));
+}
+
+bool ObjectLayer::Cutting::is_done() const {
+  return worker_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::size_t ObjectLayer::cut(Version& version) {
+  CutJob job = version.objects.take_job();
+  if (job.empty()) return 0;
+  if (job.is_large()) {
+    version.cutting.emplace_back(std::move(job), bell_);
+    return 0;
+  }
+  const std::size_t size = job.size();
+  version.objects.place(cut_objects(std::move(job), false));
+  return size;
+}
+
+std::size_t ObjectLayer::set(ObjectScene scene, const Ellipsoid& ellipsoid) {
+  next_ = std::make_unique<Version>(LayerObjects(std::move(scene), ellipsoid, opacity_, selected_color_));
+  const std::size_t size = cut(*next_);
+  if (next_->cutting.empty()) {
+    now_ = std::exchange(next_, nullptr);
+    replaced_ = true;
+  }
+  return size;
+}
+
+std::size_t ObjectLayer::edit(ObjectEdits edits, std::vector<ObjectId>& unknown) {
+  Version& version = next_ ? *next_ : *now_;
+  LayerObjects& objects = version.objects;
+  if (edits.selected_color) objects.set_selected_color(selected_color_ = *edits.selected_color);
+  for (const ObjectId gone : edits.remove) {
+    if (!objects.remove(gone)) unknown.push_back(gone);
+  }
+  if (!edits.add.empty()) objects.add(std::move(edits.add));
+  for (const ObjectMove& move : edits.moves) {
+    if (!objects.move(move)) unknown.push_back(move.id);
+  }
+  for (const ObjectChange& change : edits.changes) {
+    if (!objects.change(change)) unknown.push_back(change.id);
+  }
+  return cut(version);
+}
+
+void ObjectLayer::set_opacity(double opacity) {
+  opacity_ = opacity;
+  for (Version* version : {now_.get(), next_.get()}) {
+    if (version != nullptr) version->objects.set_opacity(opacity);
+  }
+}
+
+std::size_t ObjectLayer::take_cuts(Version& version) {
+  std::size_t size = 0;
+  for (Cutting& cutting : version.cutting) {
+    if (!cutting.is_done()) continue;
+    size += cutting.size();
+    version.objects.place(cutting.take());
+  }
+  std::erase_if(version.cutting, [](const Cutting& cutting) { return cutting.is_done(); });
+  return size;
+}
+
+std::size_t ObjectLayer::take_cuts() {
+  std::size_t size = now_ ? take_cuts(*now_) : 0;
+  if (!next_) return size;
+  size += take_cuts(*next_);
+  if (next_->cutting.empty()) {
+    now_ = std::exchange(next_, nullptr);
+    replaced_ = true;
+  }
+  return size;
+}
+
+bool ObjectLayer::has_news() const {
+  return std::ranges::any_of(std::array{now_.get(), next_.get()}, [](const Version* version) {
+    return version != nullptr && std::ranges::any_of(version->cutting, &Cutting::is_done);
+  });
+}
+
+bool ObjectLayer::waits() const {
+  if (!shown || opacity_ <= 0.0) return false;
+  return next_ || (now_ && !now_->cutting.empty());
+}
+
+}  // namespace terrella

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "globe/globe.h"
+#include "render/objects/layer_buffers.h"
+#include "tiles/arrival_bell.h"
+
+namespace terrella {
+
+/// An object layer of a globe. Large cuts are made by workers. A new scene is drawn once its cuts are there; the
+/// earlier scene is drawn until then. thread: main
+class ObjectLayer {
+ public:
+  ObjectLayer(LayerId layer, bool is_shown, std::shared_ptr<ArrivalBell> rung)
+      : id(layer), shown(is_shown), bell_(std::move(rung)) {}
+
+  LayerId id;
+  bool shown;
+  std::string attribution = {};
+
+  /// Replaces the scene. Returns the number of objects that were cut at once.
+  std::size_t set(ObjectScene scene, const Ellipsoid& ellipsoid);
+  /// Makes edits. Appends the ids that the layer does not have. Returns the number of objects that were cut at once.
+  std::size_t edit(ObjectEdits edits, std::vector<ObjectId>& unknown);
+  void set_opacity(double opacity);
+  [[nodiscard]] double opacity() const { return opacity_; }
+
+  /// Takes the cuts that workers have finished. Returns the number of objects.
+  std::size_t take_cuts();
+  [[nodiscard]] bool has_news() const;  ///< a worker has finished
+  [[nodiscard]] bool waits() const;     ///< the layer is drawn, and a worker has not finished
+
+  [[nodiscard]] bool is_drawn() const { return shown && opacity_ > 0.0 && now_ && !now_->objects.empty(); }
+  /// What is drawn. Only if is_drawn().
+  [[nodiscard]] DrawnLayer drawn() const { return {&now_->objects, &now_->buffers}; }
+  /// True once after another scene is drawn than before.
+  [[nodiscard]] bool take_replaced() { return std::exchange(replaced_, false); }
+
+ private:
+  /// A worker's job. The destructor stops the job and does not wait for it.
+  class Cutting {
+   public:
+    Cutting(CutJob job, const std::shared_ptr<ArrivalBell>& bell);
+    ~Cutting();
+    Cutting(Cutting&&) = default;
+    Cutting& operator=(Cutting&&) = default;
+    [[nodiscard]] bool is_done() const;
+    [[nodiscard]] CutObjects take() { return std::move(shared_->cut); }
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+   private:
+    struct Shared {
+      std::atomic<bool> stop = false;
+      CutObjects cut;
+    };
+    std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
+    std::size_t size_;
+    std::future<void> worker_;
+  };
+  /// A scene and its edits.
+  struct Version {
+    LayerObjects objects;
+    LayerBuffers buffers = {};
+    std::vector<Cutting> cutting = {};
+  };
+  std::size_t cut(Version& version);
+  static std::size_t take_cuts(Version& version);
+
+  std::shared_ptr<ArrivalBell> bell_;
+  double opacity_ = 1.0;
+  ObjectColor selected_color_ = kSelectedColor;
+  std::unique_ptr<Version> now_;   ///< what is drawn
+  std::unique_ptr<Version> next_;  ///< what will be drawn, once it is cut
+  bool replaced_ = false;
+};
+
+}  // namespace terrella

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "globe/globe.h"
+#include "globe/height_layer.h"
+#include "globe/layer_view.h"
+#include "render/gl/gl_state.h"
+#include "render/globe_renderer.h"
+#include "surface/plan/frame_plan.h"
+#include "view/stereo.h"
+
+namespace terrella {
+
+/// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
+using GlScope = std::unique_ptr<GlState>;
+
+/// Says when a frame draws its picture, after it has taken and requested tiles.
+enum class Draw { always, when_settled };
+
+/// The state of a GlobeView. Functions of Globe and GlobeView call may_call() or may_draw() first. `call` is the name
+/// of the call for messages. thread: main
+struct GlobeView::Impl {
+  Impl(Globe::Impl& of, ViewId name) : globe(&of), id(name) {}
+
+  /// Fails if a call comes from another thread than the globe's, or if the globe is gone.
+  [[nodiscard]] Status may_call(const char* call) const;
+  /// The same for a call that uses OpenGL; see Globe::Impl::may_draw().
+  [[nodiscard]] Result<GlScope> may_draw(const char* call) const;
+
+  void set_camera(const Camera& to);
+  void set_stereo(const StereoLook& look);
+  FrameStats render(const char* call, unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px);
+  bool render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
+                            std::chrono::steady_clock::time_point deadline);
+  Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);
+  void set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw);
+  [[nodiscard]] bool settled() const;
+  [[nodiscard]] bool needs_frame() const;
+  [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
+  [[nodiscard]] std::vector<std::string> attributions() const;
+  [[nodiscard]] std::optional<double> finest_texel_m() const;
+  [[nodiscard]] View eye_view(Viewport viewport) const;
+  [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
+  [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
+
+  // A frame.
+  FrameStats draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when);
+  void draw_picture(unsigned framebuffer, const FrameInput& input);
+  void tell_settled();
+  void stack_layers();
+  [[nodiscard]] Viewport eye_picture(Viewport viewport) const;
+  void look(Viewport viewport);
+  [[nodiscard]] PatchSelectionOptions selection_options() const;
+  [[nodiscard]] FrameSnapshot snapshot();
+  void execute(FramePlan& plan);
+  void plan(Viewport viewport);
+  void count();
+  [[nodiscard]] std::vector<HeightLayer::Viewer> viewers() const;
+  void take_heights();
+  [[nodiscard]] FrameInput frame_input(Viewport viewport, glm::ivec2 corner_px);
+  [[nodiscard]] std::optional<SkyInput> sky() const;
+  [[nodiscard]] glm::dvec3 sun() const;
+  [[nodiscard]] bool shows(const ImageLayer& layer, const Geodetic& place) const;
+  [[nodiscard]] bool is_hidden(std::size_t layer) const;
+  void restore_detail();
+
+  Globe::Impl* globe;  ///< null: the globe is gone
+  ViewId id;
+  const std::thread::id thread = std::this_thread::get_id();
+  Camera camera;
+  StereoLook stereo;
+  std::vector<LayerView*> stack;  ///< layers that the last frame drew: the opaque base layer, upper layers
+  PictureMemory memory;
+  View view;  ///< view for selection: the eye's, or both eyes'
+  std::optional<EyePair> eyes;
+  std::uint64_t frame = 0;  ///< number of the last frame; 0: none
+  Viewport drawn;           ///< viewport of the last frame
+  unsigned drawn_into = 0;  ///< framebuffer of the last frame
+  bool changed = true;      ///< something changed since the last frame
+  bool was_settled = false;
+  StreamCounts heights_seen;  ///< at the last frame
+  std::function<void()> on_settled;
+  std::function<void(DrawStage, const FrameMatrices&)> on_draw;
+  FramePlan last_plan;  ///< the next plan uses its memory again
+  FrameStats stats;
+  Status status = Done{};  ///< of the last frame
+};
+
+}  // namespace terrella

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <utility>
+
+#include "objects/layer_objects.h"
+
+// The lines and areas of a layer: what is to be cut, and what was.
+namespace terrella {
+namespace {
+
+void add_run(std::vector<FillRun>& runs, const FillRun& run) {
+  if (run.count == 0) return;
+  if (!runs.empty() && runs.back().height_m == run.height_m && runs.back().first + runs.back().count == run.first) {
+    runs.back().count += run.count;
+    return;
+  }
+  const auto at = std::upper_bound(runs.begin(), runs.end(), run,
+                                   [](const FillRun& a, const FillRun& b) { return a.height_m < b.height_m; });
+  runs.insert(at, run);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> LayerObjects::own_triangles(const LayerBatches& batches, const KeptArea& area) {
+  const auto indices = batches.fill_indices.at(area.triangles);
+  std::vector<std::uint32_t> triangles(indices.begin(), indices.end());
+  for (std::uint32_t& index : triangles) index -= area.fill.first;
+  return triangles;
+}
+
+// The triangles name the fill's own vertices.
+void LayerObjects::put_fill(KeptArea& area, std::span<const FillVertex> fill, std::vector<std::uint32_t> triangles) {
+  const std::size_t bucket = fill_bucket(area);
+  area.fill = batches_.fill_vertices.add(bucket, fill);
+  for (std::uint32_t& index : triangles) index += area.fill.first;
+  area.triangles = batches_.fill_indices.add(bucket, triangles);
+  add_run(batches_.fill_runs[bucket], {area.height_m, area.triangles.first, area.triangles.count});
+  ++batches_.fill_version;
+}
+
+void LayerObjects::ask_for(std::uint32_t index, KeptLine& line) {
+  if (line.asked || line.object->color.alpha == 0 || !(line.object->width_px > 0.0F)) return;
+  line.asked = true;
+  job_.lines.push_back({index, line.object});
+}
+
+// An outline lies at the height of the fill, so both are cut together.
+void LayerObjects::ask_for(std::uint32_t index, KeptArea& area) {
+  const PolygonObject& object = *area.object;
+  const bool fill = object.fill.alpha > 0, outline = object.stroke.alpha > 0 && object.stroke_width_px > 0.0F;
+  if ((!fill || area.asked_fill) && (!outline || area.asked_outline)) return;
+  area.asked_fill = area.asked_fill || fill;
+  area.asked_outline = area.asked_outline || outline;
+  job_.areas.push_back({index, area.object, area.asked_fill, area.asked_outline, area.height_m});
+}
+
+CutJob LayerObjects::take_job() {
+  job_.step = line_step(length_);
+  job_.most_triangles = kMostFillTriangles - std::min(triangles_, kMostFillTriangles);
+  jobs_out_ += job_.empty() ? 0U : 1U;
+  return std::exchange(job_, CutJob{.ellipsoid = ellipsoid_});
+}
+
+void LayerObjects::place(CutObjects cut) {
+  --jobs_out_;
+  for (LineCut& line : cut.lines) place(line);
+  for (AreaCut& area : cut.areas) place(area);
+}
+
+void LayerObjects::place(LineCut& cut) {
+  KeptLine& line = lines_[cut.index];
+  if (line.removed) return;
+  line.slot = batches_.lines.add(bucket_of(line), cut.vertices);
+  draw(line);
+}
+
+void LayerObjects::place(AreaCut& cut) {
+  KeptArea& area = areas_[cut.index];
+  if (area.removed) return;
+  batches_.lines.drop(area.outline);
+  batches_.fill_vertices.drop(area.fill);
+  triangles_ += cut.triangles.size() / 3;
+  triangles_ -= area.triangles.count / 3;
+  fills_dropped_ += cut.dropped ? 1U : 0U;
+  area.outline = batches_.lines.add(outline_bucket(area), cut.outline);
+  put_fill(area, cut.fill, std::move(cut.triangles));
+  draw(area);
+}
+
+// Makes the batches anew from their own items: nothing is cut again.
+void LayerObjects::place_all_again() {
+  LayerBatches old = std::exchange(batches_, LayerBatches{});
+  batches_.fill_version = old.fill_version + 1;
+  for (KeptPoint& point : points_) {
+    point.slot = {};
+    if (!point.removed) draw(point);
+  }
+  for (KeptMesh& mesh : meshes_) {
+    mesh.slot = {};
+    if (!mesh.removed) draw(mesh);
+  }
+  for (KeptLine& line : lines_) {
+    if (line.removed) continue;
+    line.slot = batches_.lines.add(bucket_of(line), old.lines.at(line.slot));
+    draw(line);
+  }
+  for (KeptArea& area : areas_) {
+    if (area.removed) continue;
+    area.outline = batches_.lines.add(outline_bucket(area), old.lines.at(area.outline));
+    put_fill(area, old.fill_vertices.at(area.fill), own_triangles(old, area));
+    draw(area);
+  }
+}
+
+}  // namespace terrella

@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include "objects/label_layout.h"
+#include "objects/layer_objects.h"
+
+// Edits of a layer's features.
+namespace terrella {
+
+bool LayerObjects::move(const ObjectMove& move) {
+  const auto found = parts_.find(static_cast<std::uint64_t>(move.id));
+  if (found == parts_.end()) return false;
+  const glm::dvec3 place_m = ellipsoid_.to_ecef(move.place).xyz_m;
+  for (PartRef part = found->second; part; part = kept(part).next) {
+    if (part.kind == ObjectKind::label) {
+      KeptLabel& label = labels_[part.index];
+      --label_counts_[is_underground(label.object) ? 1 : 0];
+      label.object.place = move.place;
+      ++label_counts_[is_underground(label.object) ? 1 : 0];
+      label.place_m = place_m;
+      continue;
+    }
+    if (part.kind == ObjectKind::point) {
+      points_[part.index].object.place = move.place;
+      points_[part.index].place_m = place_m;
+    } else if (part.kind == ObjectKind::mesh) {
+      meshes_[part.index].object.place = move.place;
+      meshes_[part.index].place_m = place_m;
+    } else {
+      continue;
+    }
+    draw_again(part);
+    if (index_) index_part(part);
+  }
+  return true;
+}
+
+bool LayerObjects::change(const ObjectChange& change) {
+  const auto found = parts_.find(static_cast<std::uint64_t>(change.id));
+  if (found == parts_.end()) return false;
+  for (PartRef part = found->second; part; part = kept(part).next) {
+    Kept& object = kept(part);
+    object.visible = change.visible.value_or(object.visible);
+    object.selected = change.selected.value_or(object.selected);
+    change_part(part, change);
+    draw_again(part);
+  }
+  return true;
+}
+
+void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
+  if (change.size_px) most_reach_px_ = std::max(most_reach_px_, 0.5 * double(*change.size_px));
+  if (part.kind == ObjectKind::point) {
+    PointObject& point = points_[part.index].object;
+    point.color = change.color.value_or(point.color);
+    point.size_px = change.size_px.value_or(point.size_px);
+  } else if (part.kind == ObjectKind::line) {
+    KeptLine& line = lines_[part.index];
+    line.object->color = change.color.value_or(line.object->color);
+    line.object->width_px = change.size_px.value_or(line.object->width_px);
+    ask_for(part.index, line);
+  } else if (part.kind == ObjectKind::polygon) {
+    KeptArea& area = areas_[part.index];
+    area.object->stroke = change.color.value_or(area.object->stroke);
+    area.object->fill = change.fill.value_or(area.object->fill);
+    area.object->stroke_width_px = change.size_px.value_or(area.object->stroke_width_px);
+    ask_for(part.index, area);
+  } else if (part.kind == ObjectKind::mesh) {
+    meshes_[part.index].object.heading = change.heading.value_or(meshes_[part.index].object.heading);
+  } else {
+    KeptLabel& label = labels_[part.index];
+    label.object.color = change.color.value_or(label.object.color);
+    label.object.size_px = change.size_px.value_or(label.object.size_px);
+    if (!change.text) return;
+    label.object.text = *change.text;
+    label.text = label_text(*change.text);
+  }
+}
+
+void LayerObjects::draw_again(PartRef part) {
+  switch (part.kind) {
+    case ObjectKind::point:
+      return draw(points_[part.index]);
+    case ObjectKind::line:
+      return draw(lines_[part.index]);
+    case ObjectKind::polygon:
+      return draw(areas_[part.index]);
+    case ObjectKind::mesh:
+      return draw(meshes_[part.index]);
+    case ObjectKind::label:
+      return;  // labels are placed anew in each frame
+  }
+}
+
+}  // namespace terrella

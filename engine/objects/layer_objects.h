@@ -1,0 +1,128 @@
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "geo/object_edits.h"
+#include "objects/cut_objects.h"
+#include "objects/kept_objects.h"
+#include "objects/layer_batches.h"
+#include "objects/object_index.h"
+
+namespace terrella {
+
+/// The objects of one layer, kept in the layout for the GPU. An edit costs what it changes. Lines and areas are cut by
+/// jobs, which any thread may do, and are drawn once place() has their cuts. thread: any, but one call at a time
+class LayerObjects {
+ public:
+  LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color);
+
+  void add(ObjectScene scene);
+  /// Removes all parts of a feature; false if there is none.
+  bool remove(ObjectId id);
+  bool move(const ObjectMove& move);
+  bool change(const ObjectChange& change);
+  void set_selected_color(ObjectColor color);
+  /// Sets the factor of alpha of all objects.
+  void set_opacity(double opacity);
+
+  /// Returns the lines and areas to be cut that no job had before.
+  [[nodiscard]] CutJob take_job();
+  void place(CutObjects cut);
+
+  [[nodiscard]] bool empty() const { return live_ == 0; }
+  [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
+  /// Gives the memory of removed objects back, if it is much, and sorts spheres. Call it before drawing.
+  void tidy();
+  [[nodiscard]] LayerBatches& batches() { return batches_; }
+
+  [[nodiscard]] bool has(ObjectPart part) const;  ///< of what is cut; true if there is something to draw
+
+  [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
+
+  // Labels.
+  [[nodiscard]] const std::vector<KeptLabel>& labels() const { return labels_; }
+  /// Indices of the labels, the highest priority first.
+  [[nodiscard]] const std::vector<std::uint32_t>& label_order() const { return label_order_; }
+  [[nodiscard]] std::uint64_t label_version() const { return label_version_; }  ///< counts changes of label_order()
+
+  [[nodiscard]] double opacity() const { return opacity_; }
+  /// The colour in which an object is drawn; alpha 0: it is not drawn.
+  [[nodiscard]] ObjectColor drawn(ObjectColor color, const Kept& kept) const;
+
+  /// Picks as pick_object() does, by a spatial index that the first pick makes. `labels` are indices of the labels that
+  /// the pixel shows. thread: as Ground's
+  [[nodiscard]] std::optional<PickedObject> pick(const View& view, const Ground& ground, glm::dvec2 pixel_px,
+                                                 const PickOptions& options, std::span<const std::uint32_t> labels);
+
+ private:
+  // layer_objects.cpp
+  template <class Object, class List>
+  std::uint32_t keep(ObjectKind kind, Object object, List& list);
+  void add(PointObject point);
+  void add(MeshObject mesh);
+  void add(LabelObject label);
+  void link(PartRef part, ObjectId id);
+  [[nodiscard]] Kept& kept(PartRef part);
+  void take_away(PartRef part);
+  void order_labels(std::size_t first);
+  void forget_removed();
+  // layer_slots.cpp and layer_cuts.cpp: objects in the batches
+  [[nodiscard]] std::size_t bucket_of(bool underground, const ObjectColor& color, bool chosen) const;
+  [[nodiscard]] std::size_t bucket_of(const KeptPoint& point) const;
+  [[nodiscard]] std::size_t bucket_of(const KeptLine& line) const;
+  [[nodiscard]] std::size_t outline_bucket(const KeptArea& area) const;
+  [[nodiscard]] std::size_t fill_bucket(const KeptArea& area) const;
+  void drop(PartRef part);
+  void draw(KeptPoint& point);
+  void draw(KeptLine& line);
+  void draw(KeptArea& area);
+  void draw(KeptMesh& mesh);
+  /// Returns an area's triangles as indices of its own vertices.
+  [[nodiscard]] static std::vector<std::uint32_t> own_triangles(const LayerBatches& batches, const KeptArea& area);
+  void put_fill(KeptArea& area, std::span<const FillVertex> fill, std::vector<std::uint32_t> triangles);
+  void color_line(Slot& slot, std::size_t bucket, const ObjectColor& color, float width_px);
+  void place(LineCut& cut);
+  void place(AreaCut& cut);
+  void ask_for(std::uint32_t index, KeptLine& line);
+  void ask_for(std::uint32_t index, KeptArea& area);
+  void place_all_again();
+  void sort_spheres();
+  [[nodiscard]] DotInstance dot(const KeptPoint& point) const;
+  [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
+  // layer_edits.cpp
+  void change_part(PartRef part, const ObjectChange& change);
+  void draw_again(PartRef part);
+  // layer_pick.cpp
+  void index_all();
+  void index_part(PartRef part);
+  void take(PartRef part, ObjectPicker& picker);
+
+  std::uint64_t serial_;
+  Ellipsoid ellipsoid_;
+  double opacity_;
+  ObjectColor selected_color_;
+  std::vector<KeptPoint> points_;
+  std::vector<KeptLine> lines_;
+  std::vector<KeptArea> areas_;
+  std::vector<KeptMesh> meshes_;
+  std::vector<KeptLabel> labels_;
+  std::array<std::uint32_t, 5> numbers_{};            ///< per kind: objects that were ever added
+  std::unordered_map<std::uint64_t, PartRef> parts_;  ///< first part of each id
+  std::size_t live_ = 0, removed_ = 0;
+  std::vector<std::uint32_t> label_order_;
+  std::uint64_t label_version_ = 0;
+  std::array<std::size_t, 2> label_counts_{};  ///< above ground, underground
+  LayerBatches batches_;
+  std::vector<std::uint32_t> sphere_points_;  ///< per sphere in the groups: index of its point
+  Angle length_{};                            ///< of all lines and outlines
+  std::size_t triangles_ = 0;                 ///< of all fills
+  std::size_t fills_dropped_ = 0;
+  CutJob job_;
+  std::size_t jobs_out_ = 0;  ///< taken, and not placed
+  std::unique_ptr<ObjectIndex> index_;
+  double most_reach_px_ = 0.0;  ///< of markers and lines, from their middle
+};
+
+}  // namespace terrella

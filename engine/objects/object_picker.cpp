@@ -1,0 +1,174 @@
+#include "objects/object_picker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geo/great_circle.h"
+#include "objects/object_shapes.h"
+
+namespace terrella {
+namespace {
+
+// Distances that differ by at most this fraction count as equal.
+constexpr double kSameDistance = 0.01;
+constexpr double kMostPickPieces = 2048.0;
+
+Angle pick_step(const std::vector<Geodetic>& places) {
+  return std::max(kLineStep, Angle::radians(length_of(places).rad() / kMostPickPieces));
+}
+
+bool crossed(const MapRing& ring, const MapPoint& p) {
+  bool odd = false;
+  for (std::size_t k = 0, before = ring.size() - 1; k < ring.size(); before = k++) {
+    const MapPoint &a = ring[before], &b = ring[k];
+    if ((a.lat_deg > p.lat_deg) == (b.lat_deg > p.lat_deg)) continue;
+    const double lon = a.lon_deg + (p.lat_deg - a.lat_deg) / (b.lat_deg - a.lat_deg) * (b.lon_deg - a.lon_deg);
+    if (p.lon_deg < lon) odd = !odd;
+  }
+  return odd;
+}
+
+/// The rings of an area on the map; none if one is invalid.
+std::vector<MapRing> map_rings(const PolygonObject& polygon) {
+  std::vector<MapRing> all;
+  for (const auto& ring : polygon.rings) {
+    std::vector<MapPoint> positions;
+    positions.reserve(ring.size());
+    for (const Geodetic& place : ring) positions.push_back({place.lon.deg(), place.lat.deg()});
+    Result<std::vector<MapRing>> rings = rings_of(positions);
+    if (!rings) return {};
+    for (MapRing& closed : *rings) all.push_back(std::move(closed));
+  }
+  return all;
+}
+
+}  // namespace
+
+PickWay::PickWay(std::vector<glm::dvec3> places) : places_m(std::move(places)) {
+  for (std::size_t first = 0; first + 1 < places_m.size(); first += kRun) {
+    const std::size_t last = std::min(first + kRun, places_m.size() - 1);
+    Ball ball{places_m[first + (last - first) / 2], 0.0};
+    for (std::size_t k = first; k <= last; ++k) {
+      ball.radius_m = std::max(ball.radius_m, glm::length(places_m[k] - ball.center_m));
+    }
+    runs.push_back(ball);
+  }
+}
+
+PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid) {
+  return PickWay(line_along_geodesics(line.places, ellipsoid, pick_step(line.places)));
+}
+
+PickArea::PickArea(const PolygonObject& polygon, const Ellipsoid& ellipsoid)
+    : rings(map_rings(polygon)), height_m(mean_height_m(polygon)) {
+  for (const auto& ring : polygon.rings) {
+    outlines.emplace_back(outline(ring, ellipsoid, pick_step(ring), 0.0));
+  }
+  box = {180.0, 90.0, -180.0, -90.0};
+  for (const MapRing& ring : rings) {
+    for (const MapPoint& p : ring) {
+      box.west_deg = std::min(box.west_deg, p.lon_deg);
+      box.east_deg = std::max(box.east_deg, p.lon_deg);
+      box.south_deg = std::min(box.south_deg, p.lat_deg);
+      box.north_deg = std::max(box.north_deg, p.lat_deg);
+    }
+  }
+}
+
+bool PickArea::covers(const MapPoint& p) const {
+  if (p.lon_deg < box.west_deg || p.lon_deg > box.east_deg || p.lat_deg < box.south_deg || p.lat_deg > box.north_deg) {
+    return false;
+  }
+  bool in = false;
+  for (const MapRing& ring : rings) in = in != crossed(ring, p);
+  return in;
+}
+
+double reach_m(const MeshModel& model) {
+  float reach_m = 0.0F;
+  for (const MeshPart& part : model.parts) {
+    for (const MeshVertex& vertex : part.vertices) reach_m = std::max(reach_m, glm::length(vertex.position_m));
+  }
+  return double(reach_m);
+}
+
+// At equal distance, a later object wins.
+void ObjectPicker::take(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const glm::dvec3& at_m) {
+  const double distance = glm::length(at_m - view_.eye.xyz_m);
+  if (best_ && distance > best_->distance_m * (1.0 + kSameDistance)) return;
+  if (hidden(at_m)) return;
+  best_ = PickedObject{kind, index, distance, of};
+}
+
+// The far side begins beyond the point of the line of sight that is nearest to the centre.
+bool ObjectPicker::hidden(const glm::dvec3& at_m) const {
+  if (!options_.through_ground) return hidden_by_ground(view_, ground_, Ecef{at_m});
+  const glm::dvec3 way = at_m - view_.eye.xyz_m;
+  return glm::dot(at_m, way) > 0.0 && hidden_by_ground(view_, Ground(ground_.ellipsoid()), Ecef{at_m});
+}
+
+void ObjectPicker::sphere(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const Ball& ball) {
+  const glm::dvec3 to_center = ball.center_m - view_.eye.xyz_m;
+  const double along = glm::dot(to_center, ray_);
+  const double inside2 = ball.radius_m * ball.radius_m - (glm::dot(to_center, to_center) - along * along);
+  if (!(along > 0.0 && inside2 >= 0.0)) return;
+  take(kind, index, of, view_.eye.xyz_m + ray_ * (along - std::sqrt(inside2)));
+}
+
+void ObjectPicker::point(const PointObject& point, const glm::dvec3& place_m, std::size_t index) {
+  if (point.radius_m > 0.0) return sphere(ObjectKind::point, index, point.of, {place_m, point.radius_m});
+  const auto at = project(view_, Ecef{place_m});
+  if (!at || !(glm::length(*at - pixel_px_) <= 0.5 * double(point.size_px) + options_.slack_px)) return;
+  take(ObjectKind::point, index, point.of, place_m);
+}
+
+void ObjectPicker::mesh(const MeshObject& mesh, const glm::dvec3& place_m, double radius_m, std::size_t index) {
+  sphere(ObjectKind::mesh, index, mesh.of, {place_m, radius_m});
+}
+
+void ObjectPicker::line(const LineObject& line, const PickWay& way, std::size_t index) {
+  along(ObjectKind::line, index, line.of, way, line.width_px);
+}
+
+void ObjectPicker::label(const LabelObject& label, const glm::dvec3& place_m, std::size_t index) {
+  take(ObjectKind::label, index, label.of, place_m);
+}
+
+void ObjectPicker::along(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way,
+                         float width_px) {
+  const double reach_px = 0.5 * double(width_px) + options_.slack_px;
+  const PickCone cone(view_, pixel_px_, reach_px);
+  for (std::size_t run = 0; run < way.runs.size(); ++run) {
+    if (!cone.meets(way.runs[run].center_m, way.runs[run].radius_m)) continue;
+    const std::size_t end = std::min((run + 1) * PickWay::kRun, way.places_m.size() - 1);
+    for (std::size_t k = run * PickWay::kRun; k < end; ++k) {
+      const glm::dvec3 &from_m = way.places_m[k], &to_m = way.places_m[k + 1];
+      const auto a = project(view_, Ecef{from_m}), b = project(view_, Ecef{to_m});
+      if (!a || !b) continue;
+      const glm::dvec2 side = *b - *a;
+      const double part = std::clamp(glm::dot(pixel_px_ - *a, side) / std::max(glm::dot(side, side), 1e-12), 0.0, 1.0);
+      if (!(glm::length(*a + part * side - pixel_px_) <= reach_px)) continue;
+      take(kind, index, of, from_m + part * (to_m - from_m));
+    }
+  }
+}
+
+// The fill lies at one height, so the ray is intersected with the body raised by that height.
+void ObjectPicker::area(const PolygonObject& polygon, const PickArea& area, std::size_t index) {
+  if (polygon.stroke.alpha > 0) {
+    for (const PickWay& way : area.outlines) {
+      along(ObjectKind::polygon, index, polygon.of, way, polygon.stroke_width_px);
+    }
+  }
+  if (polygon.fill.alpha == 0) return;
+  const Ellipsoid& e = ground_.ellipsoid();
+  const double a_m = e.a_m() + area.height_m, b_m = e.b_m() + area.height_m;
+  const auto distance = Ellipsoid(a_m, 1.0 - b_m / a_m).intersect_m(view_.eye, EcefDir{ray_});
+  if (!distance) return;
+  const glm::dvec3 at_m = view_.eye.xyz_m + *distance * ray_;
+  const Geodetic place = e.to_geodetic(Ecef{at_m});
+  if (area.covers({place.lon.deg(), place.lat.deg()})) take(ObjectKind::polygon, index, polygon.of, at_m);
+}
+
+}  // namespace terrella

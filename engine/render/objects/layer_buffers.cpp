@@ -1,0 +1,39 @@
+#include "render/objects/layer_buffers.h"
+
+namespace terrella {
+namespace {
+
+template <class T>
+void follow_all(LayerBuffers::Buckets& buffers, SlotBatch<T>& batch) {
+  for (std::size_t k = 0; k < buffers.size(); ++k) {
+    buffers[k].follow(batch.bucket(k).items, batch.bucket(k).changed);
+  }
+}
+
+}  // namespace
+
+void FollowingBuffer::fill(const void* data, std::size_t bytes) {
+  if (!buffer_) buffer_ = gl::make_buffer();
+  const bool grows = capacity_ > 0;
+  capacity_ = grows ? bytes + bytes / 2 : bytes;
+  glNamedBufferData(buffer_.name(), static_cast<GLsizeiptr>(capacity_), grows ? nullptr : data, GL_DYNAMIC_DRAW);
+  if (grows) put(0, data, bytes);
+}
+
+void FollowingBuffer::put(std::size_t at, const void* data, std::size_t bytes) const {
+  glNamedBufferSubData(buffer_.name(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void LayerBuffers::follow(LayerObjects& objects) {
+  objects.tidy();
+  LayerBatches& batches = objects.batches();
+  spheres.follow(batches.spheres.groups.items(), batches.spheres.changed);
+  follow_all(markers, batches.markers);
+  follow_all(lines, batches.lines);
+  follow_all(fill_vertices, batches.fill_vertices);
+  follow_all(fill_indices, batches.fill_indices);
+  stands.resize(batches.models.size());
+  for (std::size_t k = 0; k < stands.size(); ++k) follow_all(stands[k], batches.models[k].stands);
+}
+
+}  // namespace terrella
