@@ -10,6 +10,7 @@
 
 #include "apps/commands/raster_facts.h"
 #include "apps/program/commands.h"
+#include "apps/scene/opened_rasters.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
@@ -18,7 +19,6 @@
 #include "apps/setup/console.h"
 #include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/opened_rasters.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/tools/recent_files.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/setup/opened_rasters.h"
+#include "apps/scene/opened_rasters.h"
 #include "streaming/georeference/place_words.h"
 #include "streaming/raster/open_raster.h"
 

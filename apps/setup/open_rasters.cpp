@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "apps/scene/opened_rasters.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_files.h"
 #include "apps/setup/open_imagery.h"
-#include "apps/setup/opened_rasters.h"
 #include "base/hash_mix.h"
 #include "geo/longitudes.h"
 #include "streaming/cut/input/picture_place.h"

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "apps/preload/preload_source.h"
+#include "apps/scene/opened_rasters.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/open_remote_tiff.h"
-#include "apps/setup/opened_rasters.h"
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/cache_report.h"
