@@ -112,7 +112,8 @@ class Walk(WindowTest):
         self.key("m")
         self.viewer.click(200, 200)
         self.viewer.click(300, 250)
-        time.sleep(0.3)
+        time.sleep(0.15)
+        self.viewer.settled()  # the row is as wide as its text
 
     def measure_button(self, index):
         """Clicks a button of the row, found by its blue."""
