@@ -119,7 +119,8 @@ class Walk(WindowTest):
         """Clicks a button of the row, found by its blue."""
         row = self.viewer.grab()[ROW_BUTTONS]
         blue = [(pixel & 255) - (pixel >> 16 & 255) > 70 for pixel in row]
-        starts = [x for x in range(1, len(blue)) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
+        left, _, right, _ = map(int, self.viewer.layout.panels["measure"])  # beside it the sea is blue too
+        starts = [x for x in range(left + 1, right) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
         self.viewer.click(starts[index] + 12, ROW_BUTTONS + 7)
         time.sleep(0.15)
 
