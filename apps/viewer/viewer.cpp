@@ -169,7 +169,8 @@ void Viewer::draw_frame(Viewport framebuffer) {
   globe_.set_camera(navigator_.camera());
   if (pictures_.is_drawing()) {
     pictures_.draw_picture(framebuffer);
-    frame_.drop();  // the globe was drawn at another size
+    frame_.drop();                                              // the globe was drawn at another size
+    if (!pictures_.is_drawing()) panel_frames_ = kPanelFrames;  // the globe returns
   } else {
     frame_.draw(globe_, framebuffer);
     if (!globe_.status()) messages_.say(globe_.status().error().message);

@@ -18,7 +18,7 @@ COLUMNS = (262, 470)  # pixels from the left, in the actions of the menu
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
 RESET = "reset the view: settings as at the start, whole globe"
-ROW_BUTTONS = 83  # row of pixels in the buttons of a measurement, over their texts
+ROW_BUTTONS = 26  # pixels over the lower edge of the row of a measurement: over the texts of its buttons
 
 
 def table():
@@ -112,14 +112,16 @@ class Walk(WindowTest):
         self.key("m")
         self.viewer.click(200, 200)
         self.viewer.click(300, 250)
-        time.sleep(0.3)
+        time.sleep(0.15)
+        self.viewer.settled()  # the row is as wide as its text
 
     def measure_button(self, index):
         """Clicks a button of the row, found by its blue."""
-        row = self.viewer.grab()[ROW_BUTTONS]
+        left, _, right, bottom = map(int, self.viewer.layout.panels["measure"])  # beside it the sea is blue too
+        row = self.viewer.grab()[bottom - ROW_BUTTONS]
         blue = [(pixel & 255) - (pixel >> 16 & 255) > 70 for pixel in row]
-        starts = [x for x in range(1, len(blue)) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
-        self.viewer.click(starts[index] + 12, ROW_BUTTONS + 7)
+        starts = [x for x in range(left + 1, right) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
+        self.viewer.click(starts[index] + 12, bottom - ROW_BUTTONS + 7)
         time.sleep(0.15)
 
     def after_measuring(self):

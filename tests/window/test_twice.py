@@ -66,6 +66,7 @@ class Twice(WindowTest):
 
     def test_everything_shown_is_shown_twice(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
+        self.screenshot(viewer, "start")
         plain = viewer.settled(PANEL_ROWS, still_s=1.0)  # all tiles are there
 
         def changed():
@@ -76,11 +77,11 @@ class Twice(WindowTest):
                 shots = []
                 for time_done in ("first", "second"):
                     self.do(viewer, do)
-                    wait_until(f"{time_done} time: a change", lambda: changed() > OTHER, 10)
-                    shots.append(viewer.settled(PANEL_ROWS))
+                    wait_until(f"{time_done} time: a change", lambda: changed() > OTHER)
+                    shots.append(viewer.settled(PANEL_ROWS, still_s=0.4))
                     self.do(viewer, undo)
                     self.assertIsNone(viewer.program.poll(), "the window is open")
-                    wait_until(f"{time_done} time: taken back", lambda: changed() < SAME, 10)
+                    wait_until(f"{time_done} time: taken back", lambda: changed() < SAME, 20)
                 self.assertLess(differing(*shots, PANEL_ROWS), SAME, "the second time is as the first")
 
     def test_every_move_is_made_twice(self):

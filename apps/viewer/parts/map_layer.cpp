@@ -38,7 +38,9 @@ bool MapLayer::changed() const {
 
 void MapLayer::update(double last_frame_ms) {
   moves_ = !context_.navigator.at_rest();
-  slow_ = moves_ && (slow_ || last_frame_ms > kSlowFrame_ms);
+  const Camera& camera = context_.navigator.camera();
+  const bool turned = std::exchange(camera_, camera) != camera;  // a press of a button alone is no motion
+  slow_ = moves_ && (slow_ || (turned && last_frame_ms > kSlowFrame_ms));
   if (should_load()) {
     tried_ = true;
     loading_ = std::async(std::launch::async, [body = context_.globe.options().body, places = places_] {

@@ -19,7 +19,6 @@ namespace terrella {
 namespace {
 
 constexpr int kBandPoints = 49;
-constexpr double kAtLast_px = 3.0;  // at 96 dots per inch
 const ImU32 kBand = IM_COL32(255, 214, 64, 220);
 
 }  // namespace
@@ -80,16 +79,9 @@ void Measure::save() const {
 void Measure::draw_over(const View& view, std::optional<glm::dvec2> cursor_px, float foot) {
   if (!on_) return;
   const Ground ground = context_.globe.ground();
-  const bool adds = cursor_px && !places_.places().empty() && !is_at_last(view, *cursor_px);
-  const auto next = adds ? pick(view, ground, *cursor_px) : std::nullopt;
+  const auto next = cursor_px && !places_.places().empty() ? pick(view, ground, *cursor_px) : std::nullopt;
   if (next && context_.globe.options().stereo.mode == Stereo::off) draw_band(view, *next);
   draw_row(places_.text(context_.globe.options().body.ellipsoid, next), foot);
-}
-
-// The cursor rests on the last place, where a click put it.
-bool Measure::is_at_last(const View& view, glm::dvec2 cursor_px) const {
-  const auto last_px = project(view, context_.globe.options().body.ellipsoid.to_ecef(places_.places().back()));
-  return last_px && glm::distance(*last_px, cursor_px) < kAtLast_px * double(context_.window.text_scale());
 }
 
 void Measure::draw_row(const std::string& text, float foot) {

@@ -31,7 +31,6 @@ class Measure : public Part {
  private:
   void show();
   void draw_row(const std::string& text, float foot);
-  [[nodiscard]] bool is_at_last(const View& view, glm::dvec2 cursor_px) const;
   void draw_band(const View& view, const Geodetic& to) const;
   [[nodiscard]] bool has_places() const;
 

@@ -191,6 +191,7 @@ void OpenDialog::draw_entries(float height) {
   ImGui::BeginChild("##entries", {0.0F, height}, false, ImGuiWindowFlags_NavFlattened);
   if (begins_.empty() && folder_.has_relative_path() && draw_row("../", false) == Row::chosen) {
     enter(folder_.parent_path());
+    take_keyboard();  // what is typed next is a name again
   }
   std::size_t shown = 0;
   const std::vector<FolderEntry> entries = entries_;  // a choice replaces the list
@@ -201,7 +202,9 @@ void OpenDialog::draw_entries(float height) {
     const Row row = draw_row(entry.name + (entry.is_folder ? "/" : ""), text_ == path.string());
     if (row == Row::marked) text_ = path.string();
     if (row != Row::chosen) continue;
-    entry.is_folder ? enter(path) : choose(path);
+    if (!entry.is_folder) return ImGui::EndChild(), choose(path);
+    enter(path);
+    take_keyboard();
     break;
   }
   if (shown == 0) ImGui::TextDisabled("No file here that can be shown");

@@ -40,7 +40,7 @@ void Pictures::draw_open(float foot) {
   ImGui::SameLine();
   const bool leave = ImGui::Button("Close");
   ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextDisabled("Panels are left out. F12 saves the window as it is.");
+  ImGui::TextDisabled("F12 saves the window with its panels.");
   ImGui::PopTextWrapPos();
   ImGui::PopItemWidth();
   ImGui::End();
