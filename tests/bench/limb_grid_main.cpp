@@ -74,7 +74,9 @@ struct Case {
   bool sky;
   int channel;
   LimbPair limb;
-  [[nodiscard]] double peak_off() const { return std::abs(limb.drawn.peak - limb.truth.peak) / std::max(1e-9, limb.truth.peak); }
+  [[nodiscard]] double peak_off() const {
+    return std::abs(limb.drawn.peak - limb.truth.peak) / std::max(1e-9, limb.truth.peak);
+  }
   [[nodiscard]] double change_off() const {
     return std::abs(limb.drawn.change - limb.truth.change) / std::max(1e-9, limb.truth.change);
   }

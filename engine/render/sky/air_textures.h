@@ -21,8 +21,8 @@ class AirTextures {
   /// `tables` are those of `air`; fit() waits for them.
   AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables);
 
-  /// Computes the air again if the eye, the Sun or the depth of the ground under the ellipsoid has changed. False if the
-  /// eye is at the planet's centre.
+  /// Computes the air again if the eye, the Sun or the depth of the ground under the ellipsoid has changed. False if
+  /// the eye is at the planet's centre.
   bool fit(const View& view, const EcefDir& sun, double below_m);
 
   [[nodiscard]] const Atmosphere& air() const { return air_; }

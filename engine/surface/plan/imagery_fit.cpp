@@ -70,8 +70,8 @@ SelectedPatch ImageryFit::choose_level(const PatchNode& node, const PatchSight& 
   const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
   SelectedPatch patch{.node = &node, .pixel_m = pixel_m(sight)};
   const double across_m = patch.pixel_m * std::pow(slant(sight), 0.5 - options_.slant_power);
-  patch.tile_level = std::clamp(wanted_level(texel0_m(node) * imagery_.texels_per_pixel, across_m), grid.min_level,
-                                finest_level_);
+  patch.tile_level =
+      std::clamp(wanted_level(texel0_m(node) * imagery_.texels_per_pixel, across_m), grid.min_level, finest_level_);
   for (;; --patch.tile_level) {
     const double columns = span_deg / tile_span_deg(grid, patch.tile_level);
     // Squeezed tiles of the finest level have less detail than the picture: magnified, its loss would show.
