@@ -64,6 +64,7 @@ class ObjectLayer {
   };
   /// A scene and its edits.
   struct Version {
+    explicit Version(LayerObjects all) : objects(std::move(all)) {}
     LayerObjects objects;
     LayerBuffers buffers = {};
     std::vector<Cutting> cutting = {};

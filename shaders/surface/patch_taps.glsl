@@ -84,11 +84,11 @@ float length_texels(vec2 a, vec2 b, Cell cell) {
   return sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
 }
 
-// Enough places for a pixel of that length: about one a texel. A pixel may be long along its diagonal, where four to six
-// places leave gaps.
+// Enough places for a pixel of that length: about one a texel. Three suffice up to two texels. A pixel may be long along
+// its diagonal, where four to six places leave gaps.
 Lattice lattice_of(float pixel_texels) {
   int n = int(min(ceil(0.9 * pixel_texels), 16.0));
-  n = n <= 3 ? 3 : max(n, 7);
+  n = pixel_texels <= 2.0 ? 3 : max(n, 7);
   float step = 1.0 / float(n);
   return Lattice(n, step, strides[n] * step);
 }

@@ -202,6 +202,7 @@ TEST_F(LivingObjects, APickReturnsTheFeature) {
 // A label is drawn to the right of its marker. It moves with the marker, and is picked by its text.
 TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
   GlobeOptions options = unlit_options();
+  options.unlit = false;  // without light no labels are drawn
   std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
   const std::string font{std::istreambuf_iterator<char>(file), {}};
   for (const char byte : font) options.label_font.push_back(static_cast<std::byte>(byte));

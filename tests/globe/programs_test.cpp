@@ -52,7 +52,7 @@ class Programs : public GlTest {
     for (const std::string& name : plain()) EXPECT_EQ(all.erase(name), 1U) << name;
     return all;
   }
-  static Names plain() { return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag"}; }
+  static Names plain() { return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"}; }
 };
 
 TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
@@ -105,10 +105,11 @@ TEST_F(Programs, LayersOverTheFirstBringThemOnceMoreAndThoseBySunOrBrightnessAga
     const auto all = all_programs();
     return std::pair(all.count("patch_plain.frag"), all.size());
   };
-  const std::size_t alone = plain().size();
-  EXPECT_EQ(count({.opacity = 0.5}), std::pair(std::size_t{2}, alone + 3)) << "and a flat one";
-  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), std::pair(std::size_t{2}, alone + 3)) << "no time";
-  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, alone + 5));
+  const std::size_t alone = plain().size(), of_patches = alone - 1;
+  const std::pair twice{std::size_t{2}, alone + of_patches + 1};
+  EXPECT_EQ(count({.opacity = 0.5}), twice) << "and a flat one";
+  EXPECT_EQ(count({.opacity = 0.5, .daylight = Daylight::day}), twice) << "no time";
+  EXPECT_EQ(count({.alpha = AlphaFrom::brightness}), std::pair(std::size_t{3}, twice.second + of_patches));
 }
 
 TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
@@ -123,11 +124,12 @@ TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
   const auto layer = globe->add_imagery(numbers, look);
   ASSERT_TRUE(layer);
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 3) << "two and a flat one";
+  const std::size_t of_patches = alone - 1;
+  EXPECT_EQ(all_programs().size(), alone + of_patches + 1) << "and a flat one";
   look.opacity = 1.0;
   ASSERT_TRUE(globe->set_look(*layer, look) && globe->move(*layer, 0));
   settle(*globe, kProgramsPicture);
-  EXPECT_EQ(all_programs().size(), alone + 7) << "as the base layer, and the picture over it";
+  EXPECT_EQ(all_programs().size(), alone + 3 * of_patches + 1) << "as the base layer, and the picture over it";
 }
 
 TEST_F(Programs, TheSkyBringsAirWithStarsThoseAndWithATimeSunAndMoon) {

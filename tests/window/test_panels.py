@@ -99,9 +99,10 @@ class Panels(WindowTest):
         viewer.drop(picture)
         wait_until("the picture", lambda: png.pixel(png.read(self.screenshot(viewer, "dropped")), *ground)[0] > 240)
         viewer.key("l")
-        time.sleep(1.0)
+        closed = wait_until("the panel", lambda: viewer.layout.panels.get("Layers"))
+        time.sleep(0.5)
         viewer.click(385, 118)  # what is in the row opens
-        time.sleep(1.0)
+        wait_until("the row", lambda: viewer.layout.panels["Layers"] != closed)
         self.screenshot(viewer, "row")
         viewer.drag((480, 144), (380, 144))
         faded = png.pixel(png.read(self.screenshot(viewer, "faded")), *ground)
@@ -149,7 +150,8 @@ class Panels(WindowTest):
         viewer.key("Return")
         time.sleep(0.5)
         self.screenshot(viewer, "written")
-        viewer.click(192, 272)  # Save
+        left, _, _, bottom = viewer.layout.panels["Save picture"]
+        viewer.click(round(left + 30), round(bottom - 42))  # Save
 
         def whole():
             files = list(self.folder.glob("terrella-*.png"))
