@@ -101,6 +101,14 @@ class RibbonWriter {
     piece(middle, to, halvings - 1);
   }
 
+  // Ends the strip where it began, if it goes all the way round.
+  void close() {
+    constexpr double kRounding_px = 1e-3;
+    if (strip_.empty() || glm::distance(begin_, end_) > kRounding_px) return;
+    const LimbVertex first[2] = {strip_[0], strip_[1]};
+    strip_.insert(strip_.end(), std::begin(first), std::end(first));
+  }
+
  private:
   void segment(glm::dvec2 a, glm::dvec2 b) {
     const glm::dvec2 half(0.5 * view_.viewport.width_px, 0.5 * view_.viewport.height_px);
@@ -116,10 +124,13 @@ class RibbonWriter {
                                   {glm::vec2((a + out * half_width_px_) / half), glm::vec2(out), half_width},
                                   {glm::vec2((b - out * half_width_px_) / half), glm::vec2(out), -half_width},
                                   {glm::vec2((b + out * half_width_px_) / half), glm::vec2(out), half_width}};
-    if (!strip_.empty()) {
+    // Segments that meet share no corners. The strip goes on between them, so that it has no gap at a bend.
+    if (!strip_.empty() && end_ != a) {
       strip_.push_back(strip_.back());
       strip_.push_back(corner[0]);
     }
+    if (strip_.empty()) begin_ = a;
+    end_ = b;
     strip_.insert(strip_.end(), std::begin(corner), std::end(corner));
   }
 
@@ -130,6 +141,7 @@ class RibbonWriter {
   glm::dvec3 down_;
   double half_width_px_;
   std::vector<LimbVertex>& strip_;
+  glm::dvec2 begin_{0.0}, end_{0.0};  ///< of the first segment, and of the last
 };
 
 }  // namespace
@@ -140,6 +152,7 @@ std::vector<LimbVertex> limb_ribbon(const View& view, const Ellipsoid& ellipsoid
   if (!curve.seen_from_outside()) return strip;
   RibbonWriter writer(view, curve, half_width_px, strip);
   for (int k = 0; k < kPieces; ++k) writer.piece(double(k) / kPieces, double(k + 1) / kPieces, kMostHalvings);
+  writer.close();
   return strip;
 }
 

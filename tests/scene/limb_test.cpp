@@ -156,6 +156,41 @@ TEST(Limb, LiesOnTheLimbWhereverItIsInThePicture) {
   }
 }
 
+/// True if a triangle of the strip covers the point.
+bool covers(const std::vector<glm::dvec2>& strip, glm::dvec2 at) {
+  for (std::size_t k = 0; k + 2 < strip.size(); ++k) {
+    const auto side = [&](glm::dvec2 a, glm::dvec2 b) {
+      return (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x);
+    };
+    const double sides[] = {side(strip[k], strip[k + 1]), side(strip[k + 1], strip[k + 2]),
+                            side(strip[k + 2], strip[k])};
+    if (std::ranges::all_of(sides, [](double s) { return s > 0.0; })) return true;
+    if (std::ranges::all_of(sides, [](double s) { return s < 0.0; })) return true;
+  }
+  return false;
+}
+
+// A wedge between two stretches would leave a pixel of the limb as it was, once in a picture or two.
+TEST(Limb, HasNoGapAtItsBends) {
+  const View view = make_view(camera_at(20.9, 0.1, 1.5202e7), earth().ellipsoid, {1024, 1024});
+  const std::vector<LimbVertex> strip = limb_ribbon(view, earth().ellipsoid, kHalfWidth_px);
+  std::vector<glm::dvec2> corners, outer;
+  for (const LimbVertex& v : strip) {
+    corners.push_back(pixel_of(view, glm::dvec2(v.position_ndc)));
+    if (v.distance_px > 0.0F) outer.push_back(corners.back());
+  }
+  int bends = 0;
+  for (std::size_t k = 0; k < outer.size(); ++k) {
+    const glm::dvec2 a = outer[k], b = outer[(k + 1) % outer.size()];
+    constexpr double kBend_px = 0.1, kFloat_px = 1e-3;  // a stretch is longer; corners that meet are nearer
+    if (glm::distance(a, b) > kBend_px || glm::distance(a, b) < kFloat_px) continue;
+    const glm::dvec2 middle = 0.5 * (a + b), inwards = glm::normalize(glm::dvec2(512.0) - middle);
+    EXPECT_TRUE(covers(corners, middle + 2e-3 * inwards)) << middle.x << ' ' << middle.y;
+    ++bends;
+  }
+  EXPECT_GE(bends, 48);
+}
+
 TEST(Limb, LiesOnTheLimbThroughTheLongestLens) {
   Draw draw(32);
   for (const double fov : {0.01, 0.1, 1.0}) {
