@@ -200,7 +200,8 @@ class ObjectBench {
     const auto add = [this](const std::string& what, const std::string& how, double limit_ms) {
       for (const auto& row : report_.rows) {
         if (std::get<std::string>(row[0]).find(what) != 0 || std::get<std::string>(row[1]) != how) continue;
-        report_.findings.push_back({what + ", " + how, std::get<double>(row[2]), quick_ ? kNoFigure : limit_ms, "ms"});
+        report_.findings.push_back(
+            {fmt::format("{}, {}", what, how), std::get<double>(row[2]), quick_ ? kNoFigure : limit_ms, "ms"});
       }
     };
     add(all, "edit_objects", 2.0);

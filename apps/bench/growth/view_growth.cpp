@@ -56,6 +56,7 @@ Drawn draw_settled(const std::vector<int>& depths, const truth::TruthCamera& cam
 void add_frames(const char* series, const char* subject, const std::vector<double>& sizes, std::vector<Drawn>& drawn,
                 int rounds, const AddRow& add) {
   std::vector<Subject> subjects;
+  subjects.reserve(drawn.size());
   for (Drawn& one : drawn) {
     subjects.push_back(
         {.name = "", .draw = [&one] { one.stats = one.globe->render(one.target->framebuffer(), one.size); }});
@@ -80,6 +81,7 @@ void measure_depths(const BenchOptions& options, int side_px, int rounds, const 
     options.progress(fmt::format("sets of level 3 to {}: {}", kDeepest, view.name));
     std::vector<Drawn> drawn;
     const std::vector<double> levels = {3, 8, 14, 20, kDeepest};
+    drawn.reserve(levels.size());
     for (const double level : levels) {
       drawn.push_back(draw_settled({static_cast<int>(level)}, view.camera, {side_px, side_px}));
     }
@@ -103,6 +105,7 @@ void measure_layers(const BenchOptions& options, int side_px, int rounds, const 
   std::vector<double> counts = {1, 2, 4};
   if (options.effort != Effort::quick) counts.insert(counts.end(), {8, 16});
   std::vector<Drawn> drawn;
+  drawn.reserve(counts.size());
   for (const double count : counts) {
     drawn.push_back(
         draw_settled(std::vector<int>(static_cast<std::size_t>(count), 8), kViews[0].camera, {side_px, side_px}));
@@ -130,6 +133,7 @@ void measure_workers(const BenchOptions& options, const AddRow& add) {
   options.progress("1 to 16 decoder threads");
   constexpr int kTiles = 128;
   std::vector<TileRequest> wanted;
+  wanted.reserve(kTiles);
   for (int x = 0; x < kTiles; ++x) wanted.push_back({{8, x, 0}, 0.0});
   for (const int workers : {1, 2, 4, 8, 16}) {
     TileLoader loader(std::make_shared<SleepingSource>(), {.workers = workers});

@@ -69,7 +69,7 @@ std::string end_of(const std::string& text, float widest) {
   const auto is_inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
   for (std::size_t from = 1; from < text.size(); ++from) {
     if (is_inside(text[from])) continue;
-    if (const std::string end = "..." + text.substr(from); fits(end)) return end;
+    if (std::string end = "..." + text.substr(from); fits(end)) return end;
   }
   return "...";
 }
