@@ -111,7 +111,7 @@ void print_json(const std::vector<bench::PageEntry>& entries, bool all) {
 Status write_page(const std::vector<bench::PageEntry>& entries, const std::string& folder) {
   const fs::path file = fs::path(folder) / "index.html";
   const std::string page = bench::as_page(bench::machine_facts(), entries);
-  if (const Status written = write_file(file, std::as_bytes(std::span(page))); !written) return written;
+  if (Status written = write_file(file, std::as_bytes(std::span(page))); !written) return written;
   print_message("bench: wrote {}\n", file.string());
   return Done{};
 }

@@ -122,6 +122,7 @@ std::string remember(const SceneOptions& scene) {
   std::vector<Url> urls = {scene.tile_set};
   for (const OverlayOption& overlay : scene.overlays) urls.push_back(overlay.tile_set);
   urls.push_back(scene.elevation);
+  opened.reserve(urls.size() + 1);
   for (const Url& url : urls) opened.push_back(url.with_secrets());
   opened.push_back(scene.objects);
   std::erase(opened, std::string());
