@@ -17,7 +17,7 @@ struct PageEntry {
   std::string svg = {};      ///< the plots; empty: no gnuplot
 };
 
-/// What the machine is: processor, cores, system, version of the program, time of the run.
+/// The machine: processor, cores, system, version of the program, time of the run.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> machine_facts();
 
 /// Formats one HTML page, complete in itself: the machine, then findings, plots and table of each benchmark.

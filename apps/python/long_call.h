@@ -9,7 +9,7 @@
 
 namespace terrella {
 
-/// What a call of the program's code said instead of printing.
+/// The messages of a call of the program's code, which it would have printed.
 struct Said {
   int exit_code = 0;
   bool stopped = false;  ///< a signal came, as Ctrl-C

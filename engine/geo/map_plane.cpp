@@ -19,4 +19,17 @@ MapRing clip_ring(const MapRing& ring, double MapPoint::*axis, double at_deg, do
   return kept;
 }
 
+MapRect bounds_of(const std::vector<MapRing>& rings) {
+  MapRect box{180.0, 90.0, -180.0, -90.0};
+  for (const MapRing& ring : rings) {
+    for (const MapPoint& p : ring) {
+      box.west_deg = std::min(box.west_deg, p.lon_deg);
+      box.east_deg = std::max(box.east_deg, p.lon_deg);
+      box.south_deg = std::min(box.south_deg, p.lat_deg);
+      box.north_deg = std::max(box.north_deg, p.lat_deg);
+    }
+  }
+  return box;
+}
+
 }  // namespace terrella

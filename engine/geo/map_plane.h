@@ -23,6 +23,10 @@ struct MapRect {
 /// A closed ring. An edge joins the last point to the first.
 using MapRing = std::vector<MapPoint>;
 
+/// Returns the smallest rectangle around rings. Without a point west is 180° and east -180°, south 90° and north -90°.
+/// thread: any
+[[nodiscard]] MapRect bounds_of(const std::vector<MapRing>& rings);
+
 /// Clips a ring at a meridian or parallel, `axis` = `at_deg`. `side` 1 keeps the part with larger coordinates, -1 the
 /// part with smaller ones (Sutherland and Hodgman 1974, doi:10.1145/360767.360802). Edges added along the cut cancel
 /// under even-odd filling. Points on the cut have exactly its coordinate. thread: any

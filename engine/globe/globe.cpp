@@ -259,7 +259,7 @@ std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewpor
   return impl_->may_call("Globe::project") ? impl_->first().project(place, viewport) : std::nullopt;
 }
 
-// What all views share.
+// The calls of data that all views share.
 
 const std::deque<MissingTile>& Globe::missing_tiles() const { return impl_->missing; }
 const std::deque<MissingTile>& Globe::missing_heights() const { return impl_->missing_heights; }

@@ -64,7 +64,7 @@ FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewp
 
 bool GlobeView::Impl::render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                                            Clock::time_point deadline) {
-  if (!may_draw(call)) return false;
+  if (!may_call(call)) return false;
   for (;;) {
     const bool last = Clock::now() >= deadline;
     render(call, framebuffer, viewport, {0, 0}, last ? Draw::always : Draw::when_settled);

@@ -19,7 +19,7 @@ void HeightLayer::take_finished(std::span<Viewer> viewers, int meshes, std::dequ
     if (!loaded) break;
     for (Viewer& viewer : viewers) {
       const int touched = relief_->touched(viewer.tree, loaded->id, viewer.patches);
-      // What only another view wanted changes nothing here, unless it lies under the patches.
+      // A tile that only another view wanted changes nothing here, unless it lies under the patches.
       viewer.arrived = viewer.arrived || touched > 0 || viewers.size() == 1;
       if (&viewer == viewers.data()) stale += touched;
     }

@@ -36,7 +36,7 @@ class ObjectLayer {
   [[nodiscard]] bool waits() const;     ///< the layer is drawn, and a worker has not finished
 
   [[nodiscard]] bool is_drawn() const { return shown && opacity_ > 0.0 && now_ && !now_->objects.empty(); }
-  /// What is drawn. Only if is_drawn().
+  /// The version that is drawn. Call it only if is_drawn().
   [[nodiscard]] DrawnLayer drawn() const { return {&now_->objects, &now_->buffers}; }
   /// True once after another scene is drawn than before.
   [[nodiscard]] bool take_replaced() { return std::exchange(replaced_, false); }

@@ -88,15 +88,7 @@ class AreaFiller {
         most_indices_(3 * most_triangles) {}
 
   void fill(const Rings& rings) {
-    MapRect box{180.0, 90.0, -180.0, -90.0};
-    for (const MapRing& ring : rings) {
-      for (const MapPoint& p : ring) {
-        box.west_deg = std::min(box.west_deg, p.lon_deg);
-        box.east_deg = std::max(box.east_deg, p.lon_deg);
-        box.south_deg = std::min(box.south_deg, p.lat_deg);
-        box.north_deg = std::max(box.north_deg, p.lat_deg);
-      }
-    }
+    const MapRect box = bounds_of(rings);
     const auto line = [this](double deg, double from_deg) { return (deg - from_deg) * cells_of_half_turn_ / 180.0; };
     const Block block{static_cast<int>(std::floor(line(box.west_deg, -180.0))),
                       static_cast<int>(std::ceil(line(box.east_deg, -180.0))),

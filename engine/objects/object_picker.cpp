@@ -65,15 +65,7 @@ PickArea::PickArea(const PolygonObject& polygon, const Ellipsoid& ellipsoid)
   for (const auto& ring : polygon.rings) {
     outlines.emplace_back(outline(ring, ellipsoid, pick_step(ring), 0.0));
   }
-  box = {180.0, 90.0, -180.0, -90.0};
-  for (const MapRing& ring : rings) {
-    for (const MapPoint& p : ring) {
-      box.west_deg = std::min(box.west_deg, p.lon_deg);
-      box.east_deg = std::max(box.east_deg, p.lon_deg);
-      box.south_deg = std::min(box.south_deg, p.lat_deg);
-      box.north_deg = std::max(box.north_deg, p.lat_deg);
-    }
-  }
+  box = bounds_of(rings);
 }
 
 bool PickArea::covers(const MapPoint& p) const {

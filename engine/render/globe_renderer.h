@@ -80,7 +80,7 @@ struct FrameInput {
   bool naive_translucency = false;
 };
 
-/// What one view keeps from frame to frame.
+/// The memory of one view from frame to frame.
 struct PictureMemory {
   FrameTargets targets;
   std::unique_ptr<AirTextures> air;

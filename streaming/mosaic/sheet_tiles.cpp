@@ -12,7 +12,7 @@ namespace terrella {
 namespace {
 
 constexpr std::size_t kMostSheets = 32;
-/// Of all sheets. Their blocks are made of those that OpenRasters keeps.
+/// Bytes of decoded blocks, for all sheets together. The blocks are made of those that OpenRasters keeps.
 constexpr std::size_t kSheetsDecodedBytes = 12UL << 20;
 constexpr std::size_t kLeastDecodedBytes = 2UL << 20;
 

@@ -219,7 +219,7 @@ TEST_F(Views, OneThatStandsStillNeedsNoFramesWhileAnotherMoves) {
   }
   EXPECT_GT(moves, 8);
   EXPECT_LE(still, 8);
-  // What all views share is drawn by all.
+  // All views draw the layers that they share.
   globe->set_unlit(true);
   EXPECT_TRUE(globe->needs_frame());
   EXPECT_TRUE(moving->needs_frame());

@@ -262,6 +262,20 @@ class WindowTest(unittest.TestCase):
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
 
+    def start_at_192_dpi(self, *options, bare=True):
+        """A viewer of 800×600 pixels on a display of its own, where letters are twice as large."""
+        display = Display()
+        self.addCleanup(display.close)
+        display.environment.update(self.display.environment | {"DISPLAY": display.environment["DISPLAY"]})
+        subprocess.run(
+            ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"],
+            env=display.environment,
+            check=True,
+        )
+        viewer = Viewer(display, self.folder, *options, size=(800, 600), bare=bare)
+        self.addCleanup(viewer.close)
+        return viewer
+
     def start(self, *options, size=SIZE, bare=True):
         """`bare`: without the map, whose lines and names would be in the pictures."""
         viewer = Viewer(self.display, self.folder, *options, size=size, bare=bare)

@@ -2,12 +2,11 @@
 
 import json
 import re
-import subprocess
 import time
 import unittest
 
 import png
-from real_window import Display, Viewer, WindowTest, differing, wait_until
+from real_window import WindowTest, differing, wait_until
 
 WIDTH, HEIGHT = 780, 560
 ROUTE = {
@@ -213,17 +212,7 @@ class FirstUse(WindowTest):
         self.session()
 
     def test_the_same_at_192_dots_per_inch(self):
-        display = Display()
-        self.addCleanup(display.close)
-        display.environment.update(self.display.environment | {"DISPLAY": display.environment["DISPLAY"]})
-        subprocess.run(
-            ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"],
-            env=display.environment,
-            check=True,
-        )
-        viewer = Viewer(display, self.folder, size=(800, 600), bare=False)
-        self.addCleanup(viewer.close)
-        self.begin(viewer, unit=2)
+        self.begin(self.start_at_192_dpi(bare=False), unit=2)
         self.session()
 
 

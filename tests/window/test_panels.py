@@ -8,7 +8,7 @@ import unittest
 import zlib
 
 import png
-from real_window import PROGRAM, SIZE, Display, Viewer, WindowTest, wait_until
+from real_window import PROGRAM, SIZE, WindowTest, wait_until
 
 PLACES = {
     "type": "FeatureCollection",
@@ -180,16 +180,7 @@ class Panels(WindowTest):
         self.assertLess(viewer.next_camera().height_m, 2.5e6)
 
     def test_text_is_twice_as_large_on_a_screen_of_192_dots_per_inch(self):
-        display = Display()
-        self.addCleanup(display.close)
-        display.environment.update(self.display.environment | {"DISPLAY": display.environment["DISPLAY"]})
-        subprocess.run(
-            ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"],
-            env=display.environment,
-            check=True,
-        )
-        viewer = Viewer(display, self.folder, "--camera", "20,10,90000000", size=(800, 600))
-        self.addCleanup(viewer.close)
+        viewer = self.start_at_192_dpi("--camera", "20,10,90000000")
         viewer.key("F1")
         time.sleep(0.5)
         helped = png.read(self.screenshot(viewer, "large_help"))

@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// What a picture shows over the globe.
+/// The parts of the window that a picture shows over the globe.
 struct PictureOverlay {
   bool graticule = false;
   MapPainter* map = nullptr;              ///< null: no map
