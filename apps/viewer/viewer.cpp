@@ -263,6 +263,8 @@ PanelStatus Viewer::status(const View& view) {
   status.message = messages_.text();
   status.job = job_text_;
   status.attribution = fmt::format("{}", fmt::join(credits(), "   "));
+  if (!status.attribution.empty()) last_attribution_ = status.attribution;
+  status.last_attribution = last_attribution_;
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
   status.scale = scale_bar(view, ground, most_px);
   return status;

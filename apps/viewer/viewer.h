@@ -133,10 +133,11 @@ class Viewer {
   Viewport panels_size_;   ///< of the last frame with panels
   bool was_at_texels_ = false;
   std::vector<UiBox> labels_;  ///< of graticule and map, in the last frame
-  std::string panels_text_;    ///< Ui::boxes_text() of the last frame
-  std::string job_text_;       ///< job() in the last frame
-  KeptSettings started_;       ///< settings at the start of the run
-  KeptSettings saved_;         ///< settings in the file
+  std::string last_attribution_;
+  std::string panels_text_;  ///< Ui::boxes_text() of the last frame
+  std::string job_text_;     ///< job() in the last frame
+  KeptSettings started_;     ///< settings at the start of the run
+  KeptSettings saved_;       ///< settings in the file
   std::string printed_camera_, printed_panels_;
 };
 

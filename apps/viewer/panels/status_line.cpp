@@ -158,7 +158,11 @@ void draw_head(const PanelStatus& status) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), whole = size.x - 2.0F * gap - 2.0F * padding.x;
   const bool narrow = size.x < kNarrow * ImGui::GetFontSize();
-  draw_at_head(kAttributionBox, {status.attribution, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
+  const bool hidden = status.attribution.empty();
+  const std::string& text = hidden ? status.last_attribution : status.attribution;
+  if (hidden) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.0F);
+  draw_at_head(kAttributionBox, {text, true}, {size.x - gap, gap}, 1.0F, narrow ? whole : 0.5F * whole);
+  if (hidden) ImGui::PopStyleVar();
 }
 
 void draw_message(const PanelStatus& status, float foot) {

@@ -16,6 +16,9 @@ struct PanelStatus {
   std::string message;      ///< message of the last action, shown for some seconds; may be empty
   std::string job;          ///< running job and its progress; may be empty
   std::string attribution;  ///< attribution of the visible layers; may be empty
+  /// The attribution that was last shown: while an opaque layer hides it, its room stays free, so that no panel jumps
+  /// under the pointer when it returns.
+  std::string last_attribution = {};
   std::optional<ScaleBar> scale;
 };
 
