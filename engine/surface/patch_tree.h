@@ -60,7 +60,7 @@ struct PatchRelief {
   double half_m = 0.0;
   std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
   double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
-  std::uint64_t made = 0;         ///< counts up as heights_m changes
+  std::uint64_t made = 0;         ///< hash of heights_m, so that equal meshes are found to be equal; 0: none
   std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
 
