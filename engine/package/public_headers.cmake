@@ -4,6 +4,7 @@ set(TERRELLA_PUBLIC_HEADERS
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
+  engine/geo/split_position.h
   engine/render/caller_glsl.h
   engine/render/gl/offscreen.h
   engine/objects/graticule.h
@@ -19,6 +20,7 @@ set(TERRELLA_PUBLIC_HEADERS
   streaming/remote/grid_check.h
   streaming/remote/remote_source.h
   streaming/sets/open_tile_set.h
+  engine/tiles/painted_tiles.h
   engine/tiles/tile_source.h)
 
 # Which header of the source tree an include of another means; empty: none of the project's.
