@@ -122,7 +122,7 @@ class Globe {
   /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
   /// if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
-  [[nodiscard]] const FrameStats& last_frame() const;  ///< what the last frame did
+  [[nodiscard]] const FrameStats& last_frame() const;  ///< counts of the last frame
   /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
   /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;

@@ -49,7 +49,7 @@ struct Globe::Impl {
   std::size_t take_finished();
   [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
   [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, heights ? heights->relief() : nullptr}; }
-  void restore_detail();  ///< of all views
+  void restore_detail();  ///< restores the full detail of all views
 
   const std::thread::id thread = std::this_thread::get_id();
   GlobeOptions options;

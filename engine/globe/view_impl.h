@@ -90,7 +90,7 @@ struct GlobeView::Impl {
   std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
-  Status status = Done{};  ///< of the last frame
+  Status status = Done{};  ///< result of the last frame
 };
 
 }  // namespace terrella

@@ -34,7 +34,7 @@ struct ShownName {
 struct LabelPage {
   bool moves = false;                                          ///< the camera is in motion
   double scale = 1.0;                                          ///< pixels of a unit at 96 dots per inch
-  std::function<glm::dvec2(const std::string&)> size_px = {};  ///< of a text
+  std::function<glm::dvec2(const std::string&)> size_px = {};  ///< measures a text
   std::vector<LabelBox> taken = {};                            ///< boxes that stay free of names
 };
 

@@ -64,14 +64,14 @@ class HeightField {
   struct Held {
     HeightTile tile;
     int blocks = 0;                    ///< a side
-    std::vector<GroundRange> extrema;  ///< of kBlock_px² pixels each, row-major
+    std::vector<GroundRange> extrema;  ///< ranges of blocks of kBlock_px² pixels, row-major
     /// Columns and rows of the tile, from its north-west corner, that lie on the planet: beyond them pixels come from
     /// elsewhere.
     std::int64_t own_columns = 0, own_rows = 0;
   };
   /// Values of a level, computed once.
   struct LevelSize {
-    double span_deg = 0.0;  ///< of a tile
+    double span_deg = 0.0;  ///< side of a tile
     double turn_px = 0.0;   ///< from the origin to 180°: 360° or more, no whole number in some grids
     std::int64_t columns = 0, rows = 0;
     std::int64_t last_pixel_row = 0;
@@ -113,7 +113,7 @@ class HeightField {
   TileGrid grid_;
   std::array<LevelSize, kMaxTileLevel + 1> sizes_{};
   std::unordered_map<TileId, Held, TileIdHash> tiles_;
-  std::unordered_map<TileId, int, TileIdHash> below_;  ///< how many finer tiles are there under a place
+  std::unordered_map<TileId, int, TileIdHash> below_;  ///< number of loaded finer tiles under a place
   std::array<int, kMaxTileLevel + 1> of_level_{};
   std::uint64_t version_ = 0;
 };

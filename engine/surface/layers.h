@@ -25,11 +25,11 @@ enum class AlphaFrom {
   brightness  ///< the largest of red, green and blue too: black shows what lies under it, as pictures of clouds have it
 };
 
-/// How an image layer is shown; can change from frame to frame.
+/// Appearance of an image layer; can change from frame to frame.
 struct ImageLook {
   bool shown = true;
   double opacity = 1.0;           ///< [0, 1]; goes with the alpha of the layer's own tiles
-  int min_level = 0;              ///< where a view asks for coarser tiles than these the layer is not drawn
+  int min_level = 0;              ///< the layer is not drawn if the view asks for coarser tiles than this level
   int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;

@@ -141,7 +141,7 @@ class RibbonWriter {
   glm::dvec3 down_;
   double half_width_px_;
   std::vector<LimbVertex>& strip_;
-  glm::dvec2 begin_{0.0}, end_{0.0};  ///< of the first segment, and of the last
+  glm::dvec2 begin_{0.0}, end_{0.0};  ///< start of the first segment, end of the last
 };
 
 }  // namespace

@@ -54,12 +54,12 @@ struct TileWindow {
 
 /// Relief of a patch, as heights change it (surface/relief.h). Nothing changes without relief.
 struct PatchRelief {
-  BoundingSphere flat;         ///< that holds the patch without heights
+  BoundingSphere flat;         ///< sphere that holds the patch without heights
   double flat_cone_rad = 0.0;  ///< half angle of the cone that does
   double middle_m = 0.0;       ///< its heights lie within half_m of this
   double half_m = 0.0;
-  std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
-  double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
+  std::vector<double> heights_m;  ///< heights of the vertices, in the order of patch_vertices()
+  double error_m = 0.0;           ///< largest distance of the ground from the mesh between its vertices
   std::uint64_t made = 0;         ///< counts up as heights_m changes
   std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
@@ -86,8 +86,8 @@ struct PatchNode {
   double row_center_deg = 0.0;                      ///< row latitude of the centre
   double west_deg = 0.0, east_deg = 0.0;            ///< relative to lon_center_deg
   double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
-  double min_colatitude_rad = 0.0;                  ///< of the patch's point nearest to a pole
-  double max_colatitude_rad = 0.0;                  ///< of the point farthest from that pole
+  double min_colatitude_rad = 0.0;                  ///< colatitude of the patch's point nearest to a pole
+  double max_colatitude_rad = 0.0;                  ///< colatitude of the point farthest from that pole
   double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
   std::uint32_t index = 0;  ///< place among the nodes that there are
@@ -95,7 +95,7 @@ struct PatchNode {
   PatchFamily children{};              ///< all or none
   std::uint64_t children_used = 0;     ///< number of the last frame that used them
   std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
-  std::unique_ptr<TileWindow> window;  ///< of the level that the last plan took
+  std::unique_ptr<TileWindow> window;  ///< tile window at the level that the last plan took
   PatchRelief relief;
 };
 

@@ -12,7 +12,7 @@ namespace terrella {
 /// A float texel that has no data. NaN would not be safe: shaders may take it for a number.
 inline constexpr float kNoNumber = -FLT_MAX;
 
-/// How texels store the numbers of a set: as codes of 16 bits, number = least + code / steps, or as 32-bit floats.
+/// Storage of a set's numbers in texels: as codes of 16 bits, number = least + code / steps, or as 32-bit floats.
 struct NumberSlots {
   bool codes = false;
   double least = 0.0;  ///< number of code 0

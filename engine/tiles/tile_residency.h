@@ -21,7 +21,7 @@ namespace terrella {
 enum class TileState : std::uint8_t {
   unknown,   ///< never requested, or dropped since; a frame that wants it requests it
   resident,  ///< decoded and in its place: texels in a texture slot, heights in the height field
-  missing,   ///< it failed: an ancestor is shown, and nobody requests it until a retry
+  missing,   ///< failed: an ancestor is shown, and nobody requests the tile until a retry
   outside,   ///< not in the grid or its bounds: an ancestor is shown, and nobody requests it
 };
 
@@ -80,7 +80,7 @@ class TileResidency {
     for (const auto& item : entries_) {
       const Entry& entry = item.second;
       if (entry.state != TileState::resident || item.first.level == coarsest_level) continue;
-      // What the last frame's view needs would be requested again at once.
+      // Tiles that the last frame's view needs would be requested again at once.
       if (entry.last_drawn >= frame || entry.last_needed + 1 >= frame) continue;
       if (oldest == nullptr || entry.last_drawn < oldest->second.last_drawn) oldest = &item;
     }

@@ -37,7 +37,7 @@ struct NumberInfo {
   /// Set: all numbers at full resolution are whole and lie in this range, `nodata` included. Such numbers take half the
   /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
   std::optional<WholeRange> whole = {};
-  std::string unit = {};      ///< of values, for a person: "m", "°C"; empty: unknown, heights in metres
+  std::string unit = {};      ///< unit of values, for a person: "m", "°C"; empty: unknown, heights in metres
   std::string quantity = {};  ///< for a person: "height", "temperature"; empty: unknown
   bool operator==(const NumberInfo&) const = default;
 };
@@ -70,7 +70,7 @@ struct TileSetInfo {
   std::optional<NumberInfo> numbers = {};  ///< set: the tiles are numbers; none: pictures
   /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
-  std::optional<CrsSquare> square = {};  ///< of a `projected` grid: this set's, or that of `made_of`
+  std::optional<CrsSquare> square = {};  ///< square of a `projected` grid: this set's, or that of `made_of`
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.

@@ -9,8 +9,8 @@
 
 namespace terrella {
 
-/// How a layer of numbers is coloured: a stretch and a colour map. A change of it loads and uploads no tile. Values are
-/// in the unit of the numbers (NumberInfo), after scale and offset.
+/// Colours of a layer of numbers: a stretch and a colour map. A change loads and uploads no tile. Values are in the
+/// unit of the numbers (NumberInfo), after scale and offset.
 struct NumberLook {
   double low = 0.0;   ///< value at the map's position 0; values below it have the colour of `low`
   double high = 1.0;  ///< value at position 1, above `low`; values above it have the colour of `high`

@@ -63,7 +63,7 @@ class SkyPass {
   Body body_;
   std::optional<Atmosphere> atmosphere_;
   std::shared_future<AirTables> tables_;  ///< computed on other threads, if there is an atmosphere
-  AirTextures* air_ = nullptr;            ///< of the view that is drawn; null: none
+  AirTextures* air_ = nullptr;            ///< air of the view that is drawn; null: none
   gl::Program star_program_, sun_program_, moon_program_, air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;

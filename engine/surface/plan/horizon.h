@@ -31,7 +31,7 @@ class Horizon {
  private:
   bool exists_ = false;
   glm::dvec3 eye_direction_{0.0};  ///< in scaled space
-  double cos_ = 1.0, sin_ = 0.0;   ///< of the horizon's angle
+  double cos_ = 1.0, sin_ = 0.0;   ///< cosine and sine of the horizon's angle
 };
 
 }  // namespace terrella

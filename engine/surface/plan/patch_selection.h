@@ -21,7 +21,7 @@ constexpr double kPlainFootprint_texels = 12.0;
 class Relief;
 
 struct PatchSelectionOptions {
-  double max_error_px = 0.2;      ///< of the surface, and of interpolated texture coordinates
+  double max_error_px = 0.2;      ///< largest error of the surface, and of interpolated texture coordinates
   double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
   double texels_per_pixel = 1.0;  ///< detail asked of the imagery: 1, a texel a pixel along the meridian
   double max_footprint_texels = kPlainFootprint_texels;  ///< longest pixel outside pole bands
@@ -38,18 +38,18 @@ struct PatchSelectionOptions {
 
 /// Tiles of another grid over the same patches.
 struct FurtherImagery {
-  const PatchTree* tree = nullptr;  ///< of the same body, tessellation and relief
-  TreeGrowth* growth = nullptr;     ///< of that tree
+  const PatchTree* tree = nullptr;  ///< tree with the same body, tessellation and relief
+  TreeGrowth* growth = nullptr;     ///< growth of that tree
   double texels_per_pixel = 1.0;    ///< as PatchSelectionOptions has it
   int least_level = 0;              ///< patches whose view asks for coarser tiles are left out
   int max_tile_level = kMaxTileLevel;
-  std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
+  std::vector<SelectedPatch>* out = nullptr;  ///< result: the selected patches that touch the grid's bounds
 };
 
 /// Result of a selection.
 struct PatchSelection {
   std::vector<SelectedPatch> patches;
-  std::vector<NodeRef> meshes;  ///< of relief, to be made before the patches are drawn
+  std::vector<NodeRef> meshes;  ///< relief meshes to make before the patches are drawn
   int put_off = 0;              ///< patches drawn coarser than their relief asks for, as the budget of meshes is spent
   int undecided = 0;            ///< patches whose relief is unknown or out of date until their meshes are made
 };

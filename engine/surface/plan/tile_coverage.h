@@ -35,10 +35,10 @@ struct TileCoverage {
   std::vector<PatchDraw> draws;  ///< one for each selected patch
   std::vector<WindowCell> cells;
   std::vector<WantedTile> wanted;  ///< not there and not missing; root tiles first
-  TileUses uses;                   ///< of the residency's tiles
+  TileUses uses;                   ///< uses of the residency's tiles
   int tiles = 0;                   ///< tiles of the view at full quality
-  int pending = 0;                 ///< of those, not there yet
-  int missing = 0;                 ///< of those, replaced by an ancestor for good
+  int pending = 0;                 ///< those among `tiles` that are not loaded yet
+  int missing = 0;                 ///< those among `tiles` that an ancestor replaces for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
   bool operator==(const TileCoverage&) const = default;
@@ -49,7 +49,7 @@ enum class OutOfBounds { ancestor, nothing };
 
 struct CoverInput {
   const PatchTree& tree;
-  TreeGrowth& growth;  ///< of that tree
+  TreeGrowth& growth;  ///< growth of that tree
   const View& view;
   const std::vector<SelectedPatch>& patches;
   const TileResidency& residency;

@@ -42,7 +42,7 @@ class TileUses {
   [[nodiscard]] std::size_t place(const TileId& id) const;
 
   std::vector<TileUse> uses_;
-  std::vector<const TileResidency::Entry*> entries_;  ///< of uses_; null: there was none
+  std::vector<const TileResidency::Entry*> entries_;  ///< entries of the tiles in uses_; null: the tile had none
   std::vector<std::uint32_t> table_;  ///< indices by hash with linear probing; a power of two long, at most half full
 };
 
