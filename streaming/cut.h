@@ -61,7 +61,7 @@ struct CutShard {
 /// A picture that is no local file, such as a TIFF on a server.
 struct CutRaster {
   PictureFile picture;                         ///< name, size and bytes
-  std::shared_ptr<const TiffPyramid> pyramid;  ///< of a TIFF
+  std::shared_ptr<const TiffPyramid> pyramid;  ///< pyramid of a TIFF
   std::string key;                             ///< differs if the pixels may differ
   /// Opens the raster. Its blocks are read as those of a local one.
   std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
@@ -95,7 +95,7 @@ struct CutOptions {
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
-  std::optional<CutNumbers> numbers = {};  ///< of `elevation`, `numbers` and `composite` at most one is set
+  std::optional<CutNumbers> numbers = {};  ///< at most one of `elevation`, `numbers` and `composite` is set
   std::optional<CutBands> composite = {};
   /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself
   /// (streaming/georeference). Without one the picture is the whole planet and must be 2:1.
@@ -112,7 +112,7 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
-  bool keep_unfinished = false;     ///< what is done stays for the next run if `progress` stops the cut
+  bool keep_unfinished = false;     ///< keeps finished work for the next run if `progress` stops the cut
   std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};

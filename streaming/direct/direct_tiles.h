@@ -23,7 +23,7 @@ struct DirectOptions {
   PlaceWords place{};
   /// Grid of the raster's own pixels, so that tiles are copies of them; default: warp_grid().
   std::optional<TileGrid> grid = {};
-  RasterOptions reading = {};  ///< what is read: a picture, numbers of a band, three bands
+  RasterOptions reading = {};  ///< content to read: a picture, numbers of a band, three bands
 };
 
 /// Place of a raster on the globe.

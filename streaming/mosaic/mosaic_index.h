@@ -31,7 +31,7 @@ struct MosaicIndexOptions {
 struct MosaicIndex {
   std::vector<PlacedFile> files;    ///< the lowest first
   std::vector<MosaicSheet> sheets;  ///< the lowest first
-  std::vector<int> sheet_of;        ///< of each file
+  std::vector<int> sheet_of;        ///< index in `sheets` for each file
   bool numbers = false;
   LatitudeKind latitude = LatitudeKind::graphic;
   std::vector<std::string> left_out;  ///< reasons, each with the file's name

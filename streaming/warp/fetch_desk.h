@@ -39,7 +39,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     double priority;
     RemoteTiles::Done done;
     bool in_work = false;
-    std::vector<Answer> answers;  ///< that came and were not worked on yet
+    std::vector<Answer> answers;  ///< answers that came and were not worked on yet
     std::vector<TileId> missing;  ///< the blocks that it waits for
   };
   using Lock = std::unique_lock<std::mutex>;

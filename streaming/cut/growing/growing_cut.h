@@ -34,7 +34,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   GrowingCut& operator=(const GrowingCut&) = delete;
 
   struct State {
-    double share = 0.0;            ///< of the rows, [0, 1]
+    double share = 0.0;            ///< finished share of the rows, [0, 1]
     bool ended = false;            ///< cut, or failed
     std::optional<Error> error{};  ///< why the cut failed
   };
@@ -82,7 +82,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   std::atomic<double> share_ = 0.0;
   std::atomic<bool> dirty_ = false;  ///< the canvas or a coarse tile has changed since the last edition
   Clock::time_point renewed_{};
-  std::unique_ptr<TileSource> coarse_;  ///< of numbers, instead of the canvas
+  std::unique_ptr<TileSource> coarse_;  ///< tiles of numbers, instead of the canvas
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::vector<std::filesystem::path> logs_;
