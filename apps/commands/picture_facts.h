@@ -24,7 +24,7 @@ struct PixelSize {
 struct PictureFacts {
   PictureFile file;
   PlaceWords words;
-  std::optional<RasterFacts> raster{};  ///< of a TIFF
+  std::optional<RasterFacts> raster{};  ///< facts of a TIFF
   int orientation = 1;                  ///< EXIF orientation by which the picture is turned; 1: not turned
   bool is_numbers = false;              ///< shown as numbers, unless options ask for something else
   std::optional<Georeference> said;

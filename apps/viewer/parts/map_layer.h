@@ -48,7 +48,7 @@ class MapLayer : public Part {
   bool on_ = false;
   bool tried_ = false;
   bool slow_ = false;   ///< a frame of this motion was slow
-  Camera camera_;       ///< of the last frame
+  Camera camera_;       ///< camera of the last frame
   bool moves_ = false;  ///< the last frame was drawn in motion, with less detail
   std::optional<std::chrono::steady_clock::time_point> first_frame_;
   std::future<Loaded> loading_;
