@@ -1,4 +1,4 @@
-// Whom a picture is owed to: what the last frame had in view, each text once.
+// Attribution of the layers that the last frame had in view, each text once.
 #include <gtest/gtest.h>
 
 #include "tests/gl/gl_fixture.h"

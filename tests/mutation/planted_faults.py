@@ -20,10 +20,10 @@ import typing
 
 
 class Fault(typing.NamedTuple):
-    name: str  # what is wrong, in words
-    file: str  # where
-    right: str  # what stands there, once
-    wrong: str  # what is planted
+    name: str  # fault in words
+    file: str  # file that gets the fault
+    right: str  # text of the file, found once
+    wrong: str  # text that replaces it
     program: str  # the test program that must fail …
     tests: str  # … when it runs these (GoogleTest's filter)
 

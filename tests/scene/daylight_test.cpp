@@ -27,7 +27,7 @@ TEST(Daylight, FadesThroughCivilTwilight) {
   EXPECT_NEAR(part_shown(Daylight::night, std::sin(-3.0 * kDaylightDegree)), 0.5, 0.002) << "the sine is all but even";
 }
 
-/// Whether anything shows at one of the patch's points.
+/// True if anything shows at one of the patch's points.
 bool shows_somewhere(Daylight side, const PatchId& patch, const glm::dvec3& sun) {
   constexpr int kPoints = 8;
   for (int i = 0; i <= kPoints; ++i) {
