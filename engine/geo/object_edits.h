@@ -33,11 +33,11 @@ struct ObjectText {
   std::string text = {};
 };
 
-/// Edits of one object layer, made together in this order. Their cost follows from what they name, and not from what
-/// else the layer or the globe has.
+/// Edits of one object layer, made together in this order. The cost depends on the edited objects, not on the size of
+/// the layer or the globe.
 struct ObjectEdits {
   std::vector<ObjectId> remove = {};
-  ObjectScene add = {};  ///< an id that the layer has gets further parts
+  ObjectScene add = {};  ///< objects to add; an id that is in the layer gets further parts
   std::vector<ObjectMove> moves = {};
   std::vector<ObjectChange> changes = {};
   std::vector<ObjectText> texts = {};

@@ -63,7 +63,7 @@ struct Globe::Impl {
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< lowest first
   std::unique_ptr<ImageLayer> plain;                ///< made if the lowest image layer is not opaque
   std::vector<ObjectLayer> objects;
-  std::size_t objects_cut = 0;  ///< since the last frame
+  std::size_t objects_cut = 0;  ///< objects cut since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
   std::optional<Almanac> almanac;  ///< set if there is a sky or a time
   bool sky_on = false;

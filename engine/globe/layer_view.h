@@ -13,7 +13,7 @@ namespace terrella {
 
 class ImageLayer;
 
-/// Names a view of one globe, never a second one of that globe.
+/// Identifier of a view, unique within its globe.
 enum class ViewId : std::uint64_t {};
 
 /// One image layer as one view draws it: the patches, and the tiles that they want. ImageLayer holds the tiles, which

@@ -12,8 +12,9 @@
 
 namespace terrella {
 
-/// The objects of one layer, kept in the layout for the GPU. An edit costs what it changes. Lines and areas are cut by
-/// jobs, which any thread may do, and are drawn once place() has their cuts. thread: any, but one call at a time
+/// The objects of one layer, kept in the layout for the GPU. The cost of an edit depends on the edited objects alone.
+/// Jobs, which any thread may do, cut lines and areas. These are drawn once place() has their cuts. thread: any, but
+/// one call at a time
 class LayerObjects {
  public:
   LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color);
@@ -34,7 +35,7 @@ class LayerObjects {
 
   [[nodiscard]] bool empty() const { return live_ == 0; }
   [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
-  /// Gives the memory of removed objects back, if it is much, and sorts spheres. Call it before drawing.
+  /// Frees the memory of removed objects if it is large, and sorts spheres. Call it before drawing.
   void tidy();
   [[nodiscard]] LayerBatches& batches() { return batches_; }
 

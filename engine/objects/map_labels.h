@@ -38,10 +38,9 @@ struct LabelPage {
   std::vector<LabelBox> taken = {};                            ///< boxes that stay free of names
 };
 
-/// Chooses the names of a map that a picture shows: the highest ranks first, without overlaps. A name that was shown
-/// in the last picture counts a little more, and a name that vanished stays away for a while, so that names do not
-/// flicker while the camera moves. thread: that of the
-/// ground, one call at a time
+/// Chooses the names of a map that a picture shows: the highest ranks first, without overlaps. A name of the last
+/// picture counts a little more, and a name that vanished stays away for a while. So names do not flicker while the
+/// camera moves. thread: that of the ground, one call at a time
 class MapLabels {
  public:
   MapLabels(std::vector<MapName> names, const Ellipsoid& ellipsoid);

@@ -15,7 +15,7 @@
 
 namespace terrella {
 
-/// A sphere that holds something, ECEF metres.
+/// A bounding sphere, ECEF metres.
 struct BoundingSphere {
   glm::dvec3 center_m{0.0};
   double radius_m = 0.0;
@@ -52,11 +52,11 @@ struct TileWindow {
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
 [[nodiscard]] double wrapped_deg(double deg);
 
-/// Relief of a patch, as heights change it (surface/relief.h). Nothing changes without relief.
+/// Relief of a patch (surface/relief.h). It changes with the heights; without heights it keeps its first values.
 struct PatchRelief {
   BoundingSphere flat;         ///< sphere that holds the patch without heights
-  double flat_cone_rad = 0.0;  ///< half angle of the cone that does
-  double middle_m = 0.0;       ///< its heights lie within half_m of this
+  double flat_cone_rad = 0.0;  ///< half angle of the cone that holds the patch without heights
+  double middle_m = 0.0;       ///< middle of the patch's heights, which lie within half_m of it
   double half_m = 0.0;
   std::vector<double> heights_m;  ///< heights of the vertices, in the order of patch_vertices()
   double error_m = 0.0;           ///< largest distance of the ground from the mesh between its vertices
@@ -70,7 +70,7 @@ using PatchFamily = std::array<PatchNode*, 4>;
 /// A patch: values that never change, computed once and kept in the tree.
 struct PatchNode {
   PatchId id;
-  std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
+  std::uint64_t serial = 0;  ///< identifier of this node: a node that is made anew gets another; 0: dropped
   BoundingSphere sphere;
   /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
   /// half angle.
@@ -90,11 +90,11 @@ struct PatchNode {
   double max_colatitude_rad = 0.0;                  ///< colatitude of the point farthest from that pole
   double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
-  std::uint32_t index = 0;  ///< place among the nodes that there are
+  std::uint32_t index = 0;  ///< place among the existing nodes
   PatchNode* parent = nullptr;
   PatchFamily children{};              ///< all or none
-  std::uint64_t children_used = 0;     ///< number of the last frame that used them
-  std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
+  std::uint64_t children_used = 0;     ///< number of the last frame that used the children
+  std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found that holds that neighbour
   std::unique_ptr<TileWindow> window;  ///< tile window at the level that the last plan took
   PatchRelief relief;
 };

@@ -35,7 +35,7 @@ class TreeGrowth {
     if (node.children[0] != nullptr) return &node.children;
     return (kept_marks_[node.index] & kGrown) == 0 ? nullptr : &children_.at(&node);
   }
-  /// The node that stands in the tree or in the growth under this name, made if there is none.
+  /// Returns the node of this id in the tree or the growth; makes the node if there is none.
   [[nodiscard]] const PatchNode& node(const PatchId& id);
   /// The deepest node that holds the neighbour across a side.
   [[nodiscard]] const PatchNode& beside(const PatchNode& node, PatchSide side) {

@@ -38,7 +38,7 @@ struct NumberInfo {
   /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
   std::optional<WholeRange> whole = {};
   std::string unit = {};      ///< unit of values, for a person: "m", "°C"; empty: unknown, heights in metres
-  std::string quantity = {};  ///< for a person: "height", "temperature"; empty: unknown
+  std::string quantity = {};  ///< quantity of the values, for a person: "height", "temperature"; empty: unknown
   bool operator==(const NumberInfo&) const = default;
 };
 
@@ -121,8 +121,8 @@ class TileSource {
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
   /// Reads one tile; absent outside the grid, the levels or the bounds.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
-  /// The same for a source whose read() may take long. It may fail early once `stop` is requested, because nobody needs
-  /// the tile any more. By default calls read(id). thread: worker, several at once
+  /// Reads one tile of a source whose read() may take long. May fail early once `stop` is requested, because nobody
+  /// needs the tile any more. By default calls read(id). thread: worker, several at once
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read_or_stop(const TileId& id, const std::stop_token& stop) {
     static_cast<void>(stop);
     return read(id);
@@ -137,7 +137,7 @@ class TileSource {
   /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
   /// changed since they were read, and shows the earlier ones meanwhile. thread: any
   [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
-  /// Count of the last change of a tile that could be read before. thread: any
+  /// Returns the count at the last change of a tile that could be read before. thread: any
   [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
     static_cast<void>(id);
     return edition();

@@ -21,7 +21,7 @@ struct NumberLook {
   bool operator==(const NumberLook&) const = default;
 };
 
-/// Colours of a look as a texture has them: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
+/// Number of colours in a look's texture: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
 inline constexpr int kBakedColors = 1024;
 
 /// Fails if low and high are not finite with low < high, or if the map has no stops or stops out of order. The error

@@ -33,7 +33,7 @@ class SkyPass {
   /// `stars` may be empty. Begins to compute the tables of the air on other threads.
   SkyPass(const Body& body, const std::vector<Star>& stars);
 
-  /// Builds the programs for what is on, each once.
+  /// Builds the programs of the parts that `input` switches on, each once.
   Status prepare(const SkyInput& input);
   /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before draw()
   /// and fit_air().

@@ -12,10 +12,10 @@
 namespace terrella {
 
 /// Longest pixel, in texels, on which a plain patch is drawn with three taps (shaders/surface/patch_plain.frag).
-/// Selection takes a coarser level before pixels get longer, but beside the poles. The error grows with the length: for
-/// imagery whose amplitudes fall as 1/frequency and whose contrast is 30 levels of 8 bits, the RMS over a pixel 1 texel
-/// wide is 1.5 levels at a length of 3 texels, 3.6 at 8 and 5.0 at 12 (tests/scene/footprint_test.cpp). Ten taps would
-/// have 1.0.
+/// Selection takes a coarser level before pixels get longer, but beside the poles. The error grows with the length. For
+/// imagery whose amplitudes fall as 1/frequency and whose contrast is 30 levels of 8 bits, a pixel 1 texel wide has an
+/// RMS of 1.5 levels at a length of 3 texels. The RMS is 3.6 at 8 texels and 5.0 at 12
+/// (tests/scene/footprint_test.cpp). Ten taps would have 1.0.
 constexpr double kPlainFootprint_texels = 12.0;
 
 class Relief;

@@ -30,8 +30,8 @@ class TileUses {
   [[nodiscard]] std::uint32_t find(const TileId& id, const TileResidency& residency);
   [[nodiscard]] TileUse& operator[](std::uint32_t index) { return uses_[index]; }
   [[nodiscard]] const std::vector<TileUse>& all() const { return uses_; }
-  /// Tells the residency which tiles a frame uses: what it draws and needs is not evicted, what it saw not forgotten.
-  /// Nothing may have been erased from the residency since the plan. thread: main
+  /// Tells the residency which tiles a frame uses: tiles drawn or needed are not evicted, tiles judged are not
+  /// forgotten. Nothing may have been erased from the residency since the plan. thread: main
   void note(std::uint64_t frame, TileResidency& residency) const;
 
   [[nodiscard]] bool operator==(const TileUses& other) const { return uses_ == other.uses_; }
