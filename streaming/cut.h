@@ -125,12 +125,12 @@ struct CutSummary {
   int left_out = 0;  ///< files of a folder or list that could not be read; CutOptions::remark has named them
 };
 
-/// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory
-/// does not grow with its height), the source's own pixels at the finest level (root span = tile_px · pixel size ·
-/// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
-/// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
-/// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
-/// same; the result is the same bytes. Blocks. thread: any
+/// Cuts a picture into a tile set, or, with `shard`, does a part of the work. One streaming pass reads the rows, so
+/// memory does not grow with the picture's height. The finest level has the source's own pixels (root span = tile_px ·
+/// pixel size · 2^L). Coarser levels are means by area on the sphere, also across ±180°. The output appears under its
+/// name only when it is complete. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
+/// "Replacing an output"). A cut with the same options and pictures continues the work of a killed cut; the result is
+/// the same bytes. Blocks. thread: any
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
 /// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
@@ -141,8 +141,8 @@ struct CutSummary {
 [[nodiscard]] Result<std::filesystem::path> cache_path(const CutOptions& options,
                                                        const std::filesystem::path& cache_dir);
 
-/// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
-/// change, and the place. Blocks. thread: any
+/// Returns the GeoPackage for an image file in the cache directory, and cuts it the first time. Path, size, time of
+/// change and place identify the file. Blocks. thread: any
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

@@ -12,8 +12,8 @@
 
 namespace terrella {
 
-/// Fetches for many tiles at once what they are made of: each block once, however many tiles wait for it. Its lock is
-/// never held while a block is looked for, because the disk may be slow and `main` takes the lock.
+/// Fetches the blocks of many tiles at once: each block once, however many tiles wait for it. No block is looked up
+/// under the desk's lock, because the disk may be slow and `main` takes the lock.
 class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
  public:
   using Encoded = Result<EncodedTile, TileFailure>;

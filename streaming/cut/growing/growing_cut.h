@@ -36,7 +36,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   struct State {
     double share = 0.0;            ///< finished share of the rows, [0, 1]
     bool ended = false;            ///< cut, or failed
-    std::optional<Error> error{};  ///< why the cut failed
+    std::optional<Error> error{};  ///< reason why the cut failed
   };
   [[nodiscard]] State state() const;
   [[nodiscard]] const std::filesystem::path& picture() const { return options_.images.front(); }
