@@ -57,7 +57,7 @@ class Paper2Surface : public GlTest, public testing::WithParamInterface<Stereo> 
 
   /// Pixels of all eyes.
   struct Judged {
-    int ground = 0;    ///< whose line of sight meets the lowest ground
+    int ground = 0;    ///< pixels whose line of sight meets the lowest ground
     int holes = 0;     ///< those `ground` pixels that do not show the surface exactly once
     int brighter = 0;  ///< pixels brighter than the surface shown once
   };

@@ -106,7 +106,7 @@ FAULTS = [
 
 
 def misplaced(source: pathlib.Path, fault: Fault) -> str:
-    """Why the fault cannot be planted; empty if it can."""
+    """Reason why the fault cannot be planted; empty if it can."""
     file = source / fault.file
     if not file.is_file():
         return f"there is no {fault.file}"
