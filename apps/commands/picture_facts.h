@@ -47,7 +47,7 @@ struct PictureFacts {
 [[nodiscard]] Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words,
                                            const DescribedBand& band = {});
 
-/// The same without values, and without the command that shows it: from what was read when it was opened.
+/// Facts without values, and without the command that shows the picture: from the data read when it was opened.
 [[nodiscard]] Result<PictureFacts> look_at_place(const RemotePicture& tiff, const PlaceWords& words,
                                                  const DescribedBand& band);
 

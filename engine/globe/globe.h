@@ -159,14 +159,14 @@ class Globe {
   /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
   [[nodiscard]] const std::deque<MissingTile>& missing_heights() const;
 
-  /// Returns what a pixel of the mono picture shows (geo/coordinates.h).
+  /// Returns the place, layers and object that a pixel of the mono picture shows (geo/coordinates.h).
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
   /// Returns the value at a place of a layer of numbers, from the nearest texel of the finest loaded tile; none if no
   /// tile is loaded there. Exact for numbers that a float holds exactly, if `level` is the source's finest. Waits for
   /// the GPU. Fails if `imagery` is not a layer of numbers.
   [[nodiscard]] Result<std::optional<LayerValue>> value_at(LayerId imagery, const Geodetic& place) const;
   /// Asks the layer's source for the value that it stores at a place (TileSource::value_at()), on another thread. The
-  /// answer does not depend on what is drawn. The future's destructor waits for the answer, which takes milliseconds.
+  /// answer does not depend on the picture. The future's destructor waits for the answer, which takes milliseconds.
   [[nodiscard]] std::future<Result<double, TileFailure>> stored_value(LayerId imagery, const Geodetic& place) const;
   /// Returns the pixel position of a place at its height; nothing if the place is outside the picture, behind the eye
   /// or hidden by the ground.

@@ -79,7 +79,7 @@ class ImageLayer {
   void discard_patches();
   void restore_detail();
   [[nodiscard]] std::unique_ptr<PatchTree> make_tree() const;
-  /// Number of tiles that a view may want: what the other views leave, at least an equal share.
+  /// Number of tiles that a view may want: the room that the other views leave, at least an equal share.
   [[nodiscard]] int room_for(const LayerView& view) const;
   /// True if a view holds more tiles than it has room for, because others have come.
   [[nodiscard]] bool is_crowded(const LayerView& view) const;

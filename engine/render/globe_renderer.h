@@ -206,7 +206,7 @@ class GlobeRenderer {
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
-  // globe_sight.cpp: the eyes, and what an eye can see.
+  // globe_sight.cpp: the eyes, and the parts of the planet in their sight.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;

@@ -14,7 +14,7 @@ namespace {
 
 // Pieces of the curve that are looked at first; each is halved until it is straight or out of view.
 constexpr int kPieces = 48;
-// Less than the error that is promised: the rest is for what lies between the points that were looked at.
+// Less than the promised error: the rest is for the curve between the points that were looked at.
 constexpr double kStraight_px = 0.015;
 // A piece 2^-23 of the limb is a few pixels of the longest lens.
 constexpr int kMostHalvings = 18;

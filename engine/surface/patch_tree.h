@@ -117,7 +117,7 @@ class PatchTree {
   [[nodiscard]] const PatchNode& root(CubeFace face) const { return roots_[static_cast<std::size_t>(face)]; }
   /// The four children, made if they are not there.
   void ensure_children(PatchNode& node);
-  /// Takes what a plan made and used. The growth must have begun with the tree as it is.
+  /// Takes the nodes that a plan made and used. The growth must have begun with the tree as it is.
   void adopt(TreeGrowth& growth);
   /// The node for changes. A plan refers to nodes of a tree that it must not change.
   [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }

@@ -25,8 +25,8 @@ enum class TileState : std::uint8_t {
   outside,   ///< not in the grid or its bounds: an ancestor is shown, and nobody requests it
 };
 
-/// The states of all tiles of one kind, with the rules for retry, eviction and forgetting. Plain data: what loads tiles
-/// fills it, selection reads it. "Frame" is any number that grows from frame to frame. thread: main
+/// The states of all tiles of one kind, with the rules for retry, eviction and forgetting. Plain data: loaders fill it,
+/// selection reads it. "Frame" is any number that grows from frame to frame. thread: main
 class TileResidency {
  public:
   using Clock = std::chrono::steady_clock;

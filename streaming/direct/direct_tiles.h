@@ -63,7 +63,7 @@ inline constexpr double kMostBlocksOfStep = 1024.0;
                                                                const RasterPlace& place, const DirectOptions& options,
                                                                const std::string& where);
 
-/// Tiles of a file, and what to tell the user.
+/// Tiles of a file, and remarks for the user.
 struct DirectFile {
   std::unique_ptr<TileSource> tiles;  ///< null: the file must be cut
   std::vector<std::string> remarks{};

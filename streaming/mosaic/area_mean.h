@@ -30,7 +30,7 @@ class AreaMean {
 
   /// Adds a block of the file on top of those left; (x, y) is the block's first pixel in the file's level.
   void add(const Block& block, std::int64_t x, std::int64_t y, const PixelScale& scale);
-  /// Ends a file: what it covers is covered for the files below.
+  /// Ends a file: its pixels cover those of the files below.
   void end_file();
   /// True if every pixel is covered.
   [[nodiscard]] bool is_full() const;

@@ -33,7 +33,7 @@ struct Wish {
   std::vector<std::uint64_t> numbers{};  ///< numbers of the spans that are in flight
 };
 
-/// The threads of a raster, and what they use.
+/// The threads of a raster, and the data that they use.
 class RemoteTiffDesk : public RemoteTiles {
  public:
   RemoteTiffDesk(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,

@@ -57,7 +57,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
   RemoteTiles& network_;
   const std::shared_ptr<const StoredBlocks> blocks_;
   const bool numbers_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable idle_;
   bool closed_ = false;
   int working_ = 0;             ///< threads in work_on()

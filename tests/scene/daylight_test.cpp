@@ -1,4 +1,4 @@
-// On which patches a layer by day or by night has anything to show.
+// Patches on which a day layer or a night layer has anything to show.
 #include "surface/daylight.h"
 #include "patch_test_support.h"
 

@@ -35,7 +35,7 @@ class MapLayer : public Part {
   std::vector<UiBox> draw_names(const View& view, const std::vector<UiBox>& taken) const;
   /// The map for other pictures; null if it is off or not yet read.
   [[nodiscard]] MapPainter* painter() const { return on_ ? painter_.get() : nullptr; }
-  /// Texts that credit what is drawn.
+  /// Texts that credit the drawn map.
   [[nodiscard]] std::vector<std::string> attributions() const;
 
  private:

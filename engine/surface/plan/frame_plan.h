@@ -31,7 +31,7 @@ struct FrameSnapshot {
   std::optional<unsigned> patch_shuffle;  ///< seed of an order in which the lowest layer's patches are drawn
 };
 
-/// Plan of one layer: what a frame draws, and what executing the plan changes.
+/// Plan of one layer: the frame's draws, and the changes that executing the plan makes.
 struct LayerPlan {
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;

@@ -30,7 +30,7 @@ struct PatchSelectionOptions {
   int max_window = 8;          ///< a patch whose window has more cells a side is split
   int max_polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
-  double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
+  double inner_sphere_m = 0.0;         ///< radius of the sphere that hides the far side from an eye below; 0: none
   int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has
   const Relief* relief = nullptr;      ///< the ground that patches follow; none: the ellipsoid
   int mesh_budget = std::numeric_limits<int>::max();  ///< new meshes of relief before patches are put off
@@ -63,7 +63,7 @@ struct PatchSelection {
                                           const PatchSelectionOptions& options,
                                           std::span<const FurtherImagery> further = {}, PatchSelection recycled = {});
 
-/// Plans until every patch is decided, makes the meshes and lets the tree adopt what was made. thread: main
+/// Plans until every patch is decided, makes the meshes and lets the tree adopt the growth. thread: main
 void select_patches(PatchTree& tree, const View& view, PatchSelectionOptions options, std::vector<SelectedPatch>& out);
 
 }  // namespace terrella

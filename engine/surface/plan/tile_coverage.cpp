@@ -119,7 +119,7 @@ class Coverer {
     bool uncovered = false;
   };
 
-  // A cell out of view takes what is there; nobody asks for its tile or counts it.
+  // A cell out of view takes a tile that is loaded; its own tile is neither requested nor counted.
   Found find_unseen(const SelectedPatch& patch, const TileId& id) {
     for (int up = 0;; ++up) {
       TileUse& use = out_.uses[memo_.find(coarser(id, up), patch.squeezed || up > 0)];

@@ -84,7 +84,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
   Clock::time_point renewed_{};
   std::unique_ptr<TileSource> coarse_;  ///< tiles of numbers, instead of the canvas
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::vector<std::filesystem::path> logs_;
   std::unordered_map<TileId, Stored, TileIdHash> stored_;
   std::unordered_map<TileId, Done, TileIdHash> waiting_;
