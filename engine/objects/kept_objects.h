@@ -29,7 +29,7 @@ struct Kept {
 struct KeptPoint : Kept {
   PointObject object;
   glm::dvec3 place_m{0.0};
-  Slot slot = {};  ///< of a marker
+  Slot slot = {};  ///< slot of a marker
 };
 
 /// Lines and areas share their places with the workers that cut them. A slot is empty until the object is cut.

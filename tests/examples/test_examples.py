@@ -173,7 +173,7 @@ class InQt(ExampleTest):
         self.assertLess(abs(found[1] - y), HELD_PX, found)
 
     def test_mouse(self):
-        """What was grabbed goes where the hand goes; the wheel zooms to what is under the cursor."""
+        """A grabbed place goes where the hand goes; the wheel zooms to the place under the cursor."""
         mark = self.folder / "mark.geojson"
         mark.write_text(MARK)
         display = self.open_example("qt_globe", EARTH, mark)

@@ -8,7 +8,7 @@
 
 namespace terrella {
 
-/// A buffer that follows a list: it grows with it, and takes over only what changed. thread: main
+/// A buffer that follows a list: the buffer grows with the list, and uploads only changes. thread: main
 class FollowingBuffer {
  public:
   template <class T>
@@ -37,7 +37,7 @@ struct LayerBuffers {
   Buckets markers, lines, fill_vertices, fill_indices;
   std::vector<Buckets> stands;  ///< per model of the layer
 
-  /// Uploads what changed since the last call.
+  /// Uploads the changes since the last call.
   void follow(LayerObjects& objects);
 };
 
