@@ -86,7 +86,7 @@ class CallerOcean : public GlTest, public testing::WithParamInterface<OceanCase>
       return true;
     });
   }
-  /// What the globe draws with the callback, in which the state of OpenGL is left as it was found.
+  /// Draws the globe with the callback. Fails the test if a state of OpenGL is not as it was found.
   Picture drawn(Globe& globe) {
     const int samples = std::get<1>(GetParam());
     if (samples == 0) settle(globe, kScene);
