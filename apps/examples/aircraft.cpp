@@ -1,6 +1,7 @@
-// aircraft TILES OUTPUT.png [SECONDS]: 10,000 aircraft with icons and labels fly over 2,000 areas; one area is
+// aircraft TILES DATA OUTPUT.png [SECONDS]: 10,000 aircraft with icons and labels fly over 2,000 areas; one area is
 // highlighted.
 #include <terrella/globe.h>
+#include <terrella/globe/data_files.h>
 #include <terrella/render/gl/offscreen.h>
 #include <terrella/streaming/sets/open_tile_set.h>
 
@@ -20,9 +21,9 @@ constexpr float kIcon_px = 24.0F;
 
 /// Aircraft fly round circles: a place by its number and the time.
 Geodetic place_of(int aircraft, double seconds) {
-  const double way = 0.02 * seconds + aircraft, lat_deg = std::fmod(aircraft * 7.3, 120.0) - 60.0;
+  const double way = 0.02 * seconds + aircraft, lat_deg = std::fmod(aircraft * 90.585, 120.0) - 60.0;
   return {.lat = Angle::degrees(lat_deg + 2.0 * std::sin(way)),
-          .lon = Angle::degrees(std::fmod(aircraft * 61.8, 360.0) - 180.0 + 2.0 * std::cos(way)),
+          .lon = Angle::degrees(std::fmod(aircraft * 205.1425, 360.0) - 180.0 + 2.0 * std::cos(way)),
           .height_m = 10e3};
 }
 
@@ -83,12 +84,14 @@ ObjectScene areas() {
   return scene;
 }
 
-Status fly(const char* tiles, const char* output, double seconds) {
+Status fly(const char* tiles, const char* data, const char* output, double seconds) {
   const auto context = HeadlessContext::create();
   if (!context) return context.error();
   auto source = open_tile_set(tiles);
   if (!source) return source.error();
-  auto made = Globe::create({}, *std::move(source));
+  GlobeOptions options;
+  if (Status read = add_data(options, data); !read) return read;
+  auto made = Globe::create(options, *std::move(source));
   if (!made) return made.error();
   Globe& globe = **made;
   globe.set_camera({.eye = {.lat = Angle::degrees(30), .lon = Angle::degrees(10), .height_m = 5e6}});
@@ -122,8 +125,8 @@ Status fly(const char* tiles, const char* output, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3 || argc > 4) return std::cerr << "aircraft TILES OUTPUT.png [SECONDS]\n", 2;
-  const Status flown = fly(argv[1], argv[2], argc == 4 ? std::atof(argv[3]) : 2.0);
+  if (argc < 4 || argc > 5) return std::cerr << "aircraft TILES DATA OUTPUT.png [SECONDS]\n", 2;
+  const Status flown = fly(argv[1], argv[2], argv[3], argc == 5 ? std::atof(argv[4]) : 2.0);
   if (!flown) std::cerr << flown.error().message << '\n';
   return flown ? 0 : 1;
 }

@@ -78,8 +78,8 @@ class ObjectLayer {
   std::shared_ptr<ArrivalBell> bell_;
   double opacity_ = 1.0;
   ObjectColor selected_color_ = kSelectedColor;
-  std::unique_ptr<Version> now_;   ///< what is drawn
-  std::unique_ptr<Version> next_;  ///< what will be drawn, once it is cut
+  std::unique_ptr<Version> now_;   ///< version that is drawn
+  std::unique_ptr<Version> next_;  ///< version that is drawn next, once it is cut
   bool replaced_ = false;
 };
 

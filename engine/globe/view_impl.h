@@ -85,12 +85,12 @@ struct GlobeView::Impl {
   unsigned drawn_into = 0;  ///< framebuffer of the last frame
   bool changed = true;      ///< something changed since the last frame
   bool was_settled = false;
-  StreamCounts heights_seen;  ///< at the last frame
+  StreamCounts heights_seen;  ///< counts of the heights' stream at the last frame
   std::function<void()> on_settled;
   std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
-  Status status = Done{};  ///< of the last frame
+  Status status = Done{};  ///< result of the last frame
 };
 
 }  // namespace terrella

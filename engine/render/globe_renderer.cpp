@@ -51,7 +51,7 @@ Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GL
   if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits;
   if (objects_) {
     if (Status prepared = objects_->prepare(); !prepared) return prepared;
-    objects_->upload();  // what is drawn besides depends on what there is
+    objects_->upload();  // the choice of further passes depends on the uploaded objects
   }
   if (sky_) sky_->keep_air_in(memory.air);
   FrameCounts counts;

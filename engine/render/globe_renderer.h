@@ -59,7 +59,7 @@ struct FrameInput {
   glm::ivec2 corner_px{0};         ///< lower left corner of the picture in the framebuffer
   View view;                       ///< view of the eye in a mono picture
   std::optional<EyePair> eyes;     ///< views of both eyes in stereo; `view` is then unused
-  Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are joined
+  Stereo stereo = Stereo::off;     ///< way in which the pictures of two eyes are joined
   std::vector<LayerFrame> layers;  ///< the base layer, which is opaque and has every patch; then the upper layers
   const Relief* relief = nullptr;  ///< relief of the patches; null: the ellipsoid
   SurfaceLook surface;
@@ -206,7 +206,7 @@ class GlobeRenderer {
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
-  // globe_sight.cpp: the eyes, and what an eye can see.
+  // globe_sight.cpp: the eyes, and the parts of the planet in their sight.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
@@ -231,11 +231,11 @@ class GlobeRenderer {
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;
-  const AirTextures* air_ = nullptr;  ///< of the eye whose picture is drawn; null: none
+  const AirTextures* air_ = nullptr;  ///< air of the eye whose picture is drawn; null: none
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;
-  FrameTargets* targets_ = nullptr;  ///< of the view that is drawn
+  FrameTargets* targets_ = nullptr;  ///< targets of the view that is drawn
   gl::Program depth_copy_, depth_samples_copy_, color_samples_copy_;
   FrameBlock frame_{};  ///< uniforms of the eye whose picture is drawn
   gl::Buffer frame_block_;

@@ -1,10 +1,10 @@
 // One icon per instance: a picture of constant size on the screen, at the depth of its place.
 // The lowest part of the layer's icons under their places. All are pulled alike, so the nearer is over the farther.
 layout(location = 4) uniform float below_px;
-layout(binding = 1) uniform usampler2D places;  // of each icon in the atlas: left, top, width, height, texels
+layout(binding = 1) uniform usampler2D places;  // each icon in the atlas: left, top, width, height, texels
 layout(location = 0) in vec3 place_high_ecef;
 layout(location = 1) in vec3 place_low_ecef;
-layout(location = 2) in vec4 up;                // of the upper edge: Earth-fixed, or on the screen if w is 1
+layout(location = 2) in vec4 up;                // the upper edge: Earth-fixed, or on the screen if w is 1
 layout(location = 3) in vec2 anchor;            // part of the sides that lies at the place, from the upper left
 layout(location = 4) in float size;             // longer side, pixels
 layout(location = 5) in uint image;

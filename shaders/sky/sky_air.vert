@@ -4,7 +4,7 @@
 layout(binding = 0) uniform sampler2D sky_light;           // stored colours, by azimuth and row
 layout(binding = 1) uniform sampler2D sky_rows;            // per row: part of the background; sine, cosine from the zenith
 layout(location = 0) uniform mat3 ecef_from_horizon;       // x towards the Sun's azimuth, z up
-layout(location = 1) uniform float steps;                  // of the mesh, all the way round
+layout(location = 1) uniform float steps;                  // steps of the mesh, all the way round
 out vec3 light_srgb;
 out vec3 through_srgb;
 

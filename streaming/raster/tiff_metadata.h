@@ -24,7 +24,7 @@ struct TiffMetadata {
   /// STATISTICS_MINIMUM and STATISTICS_MAXIMUM of all bands that have them.
   std::optional<double> least, most;
 
-  /// Returns what is said of a band, counted from 0.
+  /// Returns the metadata of a band, counted from 0.
   [[nodiscard]] BandMetadata band(std::size_t index) const {
     return index < bands.size() ? bands[index] : BandMetadata{};
   }

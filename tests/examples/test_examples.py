@@ -91,7 +91,7 @@ class WithoutWindow(ExampleTest):
 
     def test_aircraft(self):
         picture = self.folder / "aircraft.png"
-        self.run_example("aircraft", EARTH, picture, "0.1")
+        self.run_example("aircraft", EARTH, BUILD / "data", picture, "0.1")
         drawn = Picture("convert", picture)
         yellow = sum(1 for _ in drawn.places((255, 210, 60)))
         self.assertGreater(yellow, 1000, "aircraft are yellow")
@@ -140,7 +140,7 @@ class InQt(ExampleTest):
         self.assertLess(abs(found[1] - y), HELD_PX, found)
 
     def test_mouse(self):
-        """What was grabbed goes where the hand goes; the wheel zooms to what is under the cursor."""
+        """A grabbed place goes where the hand goes; the wheel zooms to the place under the cursor."""
         mark = self.folder / "mark.geojson"
         mark.write_text(MARK)
         display = self.open_example("qt_globe", EARTH, mark)

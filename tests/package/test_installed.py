@@ -51,7 +51,7 @@ words = [word.encode() for word in sys.argv[1:]]
 sys.exit(ctypes.CDLL(sys.argv[1]).draw_globe(len(words), (ctypes.c_char_p * len(words))(*words)))
 """
 
-# What applications write: options by name, one of many; conversions that GLM allows by default.
+# Code of applications: options by name, one of many; conversions that GLM allows by default.
 BY_NAME = {
     "terrella/geo/coordinates.h": "inline glm::vec3 narrow(const terrella::Ecef& p) { return p.xyz_m; }",
     "terrella/globe.h": "terrella::GlobeOptions a{.unlit = true}; terrella::GlobePick b{.objects = terrella::LayerId::none};"
@@ -63,7 +63,7 @@ BY_NAME = {
 
 
 def hiding_source():
-    """What runs a command where an empty folder lies over the source tree; nothing where the machine forbids that."""
+    """Words that run a command with an empty folder over the source tree; empty if the machine forbids that."""
     hide = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
             f'mount -t tmpfs none {shlex.quote(str(SOURCE))} && exec "$@"', "sh"]
     try:
@@ -158,7 +158,7 @@ class PackageTest(unittest.TestCase):
         self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "application", *flags, cwd=folder)
 
     def test_every_header_by_itself(self):
-        """What an application includes brings what it needs, and options are given by name without a warning."""
+        """Each public header brings the headers that it needs, and options are given by name without a warning."""
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(run("pkg-config", "--cflags", "terrella", env=environment))
         named = re.search(r"TERRELLA_PUBLIC_HEADERS\n(.*?)\)", (SOURCE / "engine/package/public_headers.cmake").read_text(), re.DOTALL)
@@ -182,7 +182,7 @@ class PackageTest(unittest.TestCase):
                 self.assertNotIn(str(folder).encode() + b"/", content, path)
 
     def test_uninstall(self):
-        """What an installation wrote is removed, and what lay beside it stays."""
+        """Uninstalling removes the files of the installation, and files beside them stay."""
         prefix = self.scratch / "gone"
         (prefix / "share/terrella").mkdir(parents=True)
         (prefix / "share/terrella/own.txt").touch()
@@ -195,7 +195,7 @@ class PackageTest(unittest.TestCase):
         self.assertFalse((prefix / "include/terrella").exists())
 
     def test_no_path_of_the_source(self):
-        """What is installed as text names nothing of the machine that it was built on."""
+        """Installed texts name nothing of the machine that built them."""
         texts = [p for p in self.prefix.rglob("*") if p.suffix in (".cmake", ".pc", ".h")]
         self.assertGreater(len(texts), 10)
         for path in texts:

@@ -15,7 +15,7 @@ class FrameTargets {
   struct Form {
     Viewport size{0, 0};
     bool has_stencil = false;
-    int samples = 0;  ///< of a pixel; 0: the picture is not multisampled
+    int samples = 0;  ///< samples per pixel; 0: the picture is not multisampled
     bool operator==(const Form&) const = default;
   };
   /// Makes the textures for this form. Keeps those that already fit.

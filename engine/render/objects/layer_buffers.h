@@ -9,7 +9,7 @@
 
 namespace terrella {
 
-/// A buffer that follows a list: it grows with it, and takes over only what changed. thread: main
+/// A buffer that follows a list: the buffer grows with the list, and uploads only changes. thread: main
 class FollowingBuffer {
  public:
   template <class T>
@@ -39,7 +39,7 @@ struct LayerBuffers {
   std::vector<Buckets> stands;  ///< per model of the layer
   IconAtlas icon_atlas;
 
-  /// Uploads what changed since the last call.
+  /// Uploads the changes since the last call.
   void follow(LayerObjects& objects);
 };
 

@@ -29,7 +29,7 @@ class ObjectPass {
   void set_layers(std::vector<DrawnLayer> layers);
   /// Makes the programs that the layers need and no earlier ones needed.
   Status prepare();
-  /// Uploads what changed in the layers. Call it before drawing.
+  /// Uploads the changes of the layers. Call it before drawing.
   void upload();
   [[nodiscard]] bool has(ObjectPart part) const;
 

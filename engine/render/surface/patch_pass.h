@@ -39,7 +39,7 @@ struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
   bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
-  PatchLight light = {};                          ///< of the first frame; `relief` follows from the heights
+  PatchLight light = {};                          ///< light of the first frame; `relief` follows from the heights
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
