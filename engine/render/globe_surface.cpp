@@ -21,7 +21,8 @@ constexpr double kLitFootprint_texels = 5.0;
 }  // namespace
 
 void GlobeRenderer::set_relief(bool on) {
-  make_patches(options_, on);
+  if (!patches_) make_patches(options_, on);
+  patches_->set_relief(on);
   relief_ = on;
   slopes_.reset();
 }
@@ -47,7 +48,7 @@ Status GlobeRenderer::set_night_lights(const GreyPicture& map) {
 }
 
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
-  return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
+  return *layer.vertices ? **layer.vertices : **base.vertices;
 }
 
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
@@ -72,13 +73,16 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
-    std::unique_ptr<PatchBuffers>& own = layer.gpu->vertices;
+    std::unique_ptr<PatchBuffers>& own = *layer.vertices;
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr ? &input.relief->grid() : nullptr);
+      own = std::make_unique<PatchBuffers>(layer.tree->segments(),
+                                           input.relief != nullptr ? &input.relief->grid() : nullptr);
     }
-    patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
+    if (own) own->set_views(input.views);
+    patches_->upload(*layer.gpu, {vertices_of(layer, base), own ? *layer.tree : *base.tree, own != nullptr},
+                     *layer.patches, *layer.coverage, input.frame);
     if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
 }
