@@ -13,6 +13,7 @@ namespace terrella {
 struct ObjectMove {
   ObjectId id = ObjectId::none;
   Geodetic place = {};
+  std::optional<Angle> heading = {};  ///< heading of its models and icons from now on
 };
 
 /// Changes how a feature looks. Values that are not set stay as they are. Nothing is tessellated, except an area or
@@ -21,10 +22,10 @@ struct ObjectChange {
   ObjectId id = ObjectId::none;
   std::optional<bool> visible = {};       ///< false: neither drawn nor picked
   std::optional<bool> selected = {};      ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
-  std::optional<ObjectColor> color = {};  ///< colour of points, lines, labels and the strokes of areas
+  std::optional<ObjectColor> color = {};  ///< colour of points (tint of icons), lines, labels and strokes
   std::optional<ObjectColor> fill = {};   ///< fill colour of areas
-  std::optional<float> size_px = {};      ///< diameter of markers, width of lines and strokes; positive
-  std::optional<Angle> heading = {};      ///< heading of models
+  std::optional<float> size_px = {};      ///< size of markers, width of lines and strokes; positive
+  std::optional<Angle> heading = {};      ///< heading of models and icons
 };
 
 /// Replaces the text of a feature's labels.

@@ -35,6 +35,9 @@ class ObjectLayer {
   [[nodiscard]] bool has_news() const;  ///< a worker has finished
   [[nodiscard]] bool waits() const;     ///< the layer is drawn, and a worker has not finished
 
+  /// The objects that edits change: those of the last scene that was set.
+  [[nodiscard]] const LayerObjects* newest() const { return &(next_ ? next_ : now_)->objects; }
+
   [[nodiscard]] bool is_drawn() const { return shown && opacity_ > 0.0 && now_ && !now_->objects.empty(); }
   /// The version that is drawn. Call it only if is_drawn().
   [[nodiscard]] DrawnLayer drawn() const { return {&now_->objects, &now_->buffers}; }

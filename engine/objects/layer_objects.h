@@ -2,6 +2,7 @@
 
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "geo/object_edits.h"
@@ -38,6 +39,10 @@ class LayerObjects {
   /// Frees the memory of removed objects if it is large, and sorts spheres. Call it before drawing.
   void tidy();
   [[nodiscard]] LayerBatches& batches() { return batches_; }
+  [[nodiscard]] const LayerBatches& batches() const { return batches_; }
+
+  /// Data of a feature; null if the layer does not have the feature, or it has no data.
+  [[nodiscard]] const ObjectFeature* feature(ObjectId id) const;
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< true if cut objects have this part to draw
 
@@ -66,7 +71,8 @@ class LayerObjects {
   void add(MeshObject mesh);
   void add(LabelObject label);
   void link(PartRef part, ObjectId id);
-  [[nodiscard]] Kept& kept(PartRef part);
+  [[nodiscard]] Kept& kept(PartRef part) { return const_cast<Kept&>(std::as_const(*this).kept(part)); }
+  [[nodiscard]] const Kept& kept(PartRef part) const;
   void take_away(PartRef part);
   void order_labels(std::size_t first);
   void forget_removed();
@@ -78,6 +84,7 @@ class LayerObjects {
   [[nodiscard]] std::size_t fill_bucket(const KeptArea& area) const;
   void drop(PartRef part);
   void draw(KeptPoint& point);
+  void draw_icon(KeptPoint& point);
   void draw(KeptLine& line);
   void draw(KeptArea& area);
   void draw(KeptMesh& mesh);
@@ -92,6 +99,7 @@ class LayerObjects {
   void place_all_again();
   void sort_spheres();
   [[nodiscard]] DotInstance dot(const KeptPoint& point) const;
+  [[nodiscard]] IconInstance icon(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
   // layer_edits.cpp
   void change_part(PartRef part, const ObjectChange& change);

@@ -27,6 +27,9 @@ inline constexpr Angle kLineStep = Angle::degrees(0.045);
 [[nodiscard]] std::vector<glm::dvec3> outline(const std::vector<Geodetic>& ring, const Ellipsoid& ellipsoid, Angle step,
                                               double lift_m);
 
+/// Returns the level direction at a place under a heading, clockwise from north: unit, ECEF.
+[[nodiscard]] glm::dvec3 level_direction(const Geodetic& place, Angle heading);
+
 /// Returns the length of a line through places, as an angle on the sphere. The number of pieces follows from this
 /// length.
 [[nodiscard]] Angle length_of(const std::vector<Geodetic>& places);

@@ -79,6 +79,29 @@ INSTANTIATE_TEST_SUITE_P(Depths, Multisample,
 
 class MultisampleOutline : public GlTest {};
 
+// The edges of icons are blended, so they are the same with four samples. The icon is turned, so its edges are slanted.
+TEST_F(MultisampleOutline, IconsAreThoseOfOneSample) {
+  constexpr Viewport kSeen{96, 96};
+  auto globe = make_globe(unlit_options(), one_colour({.tile_px = 16, .max_level = 1}, {0, 160, 0}));
+  globe->set_camera(camera_at(0, 0, 3.0e6));
+  const auto white = std::make_shared<const IconImage>(IconImage{2, 1, {255, 255, 255, 255, 200, 0, 0, 255}});
+  ASSERT_TRUE(
+      globe->add_objects({.points = {{.size_px = 50.0F, .icon = {.image = white, .heading = Angle::degrees(20.0)}}}}));
+  settle(*globe, kSeen);
+  const Picture one = picture();
+  const SampledTarget target(kSeen);
+  settle_into(*globe, target, kSeen);
+  const Picture four = target.read();
+  int worst = 0, icon = 0;
+  for (std::size_t k = 0; k < one.rgba.size(); ++k) {
+    if (k % 4 == 3) continue;
+    worst = std::max(worst, std::abs(one.rgba[k] - four.rgba[k]));
+    icon += k % 4 == 0 && one.rgba[k] > 100 ? 1 : 0;
+  }
+  EXPECT_NEAR(icon, 50 * 25, 60);
+  EXPECT_LE(worst, 2) << "rounding";
+}
+
 // The smooth limb is computed in both, with and without air: the pictures differ by rounding, on and beside the limb.
 TEST_F(MultisampleOutline, TheLimbIsThatOfOneSample) {
   constexpr Viewport kDisc{128, 128};

@@ -17,16 +17,6 @@ constexpr ObjectColor kRed{255, 0, 0}, kBlue{0, 0, 255}, kGreen{0, 200, 0};
 // A pixel is drawn if its centre is covered: what geometry says is met to this.
 constexpr double kEdge_px = 1.0;
 
-Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
-  return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
-}
-Camera over(double lat_deg, double lon_deg, double height_m, double pitch_deg = -90.0, double heading_deg = 0.0) {
-  Camera camera;
-  camera.eye = at(lat_deg, lon_deg, height_m);
-  camera.pitch = Angle::degrees(pitch_deg);
-  camera.heading = Angle::degrees(heading_deg);
-  return camera;
-}
 PointObject sphere(const Geodetic& place, double radius_m, ObjectColor color) {
   return {.place = place, .radius_m = radius_m, .color = color};
 }

@@ -5,6 +5,7 @@
 
 #include "objects/layer_objects.h"
 #include "render/gl/gl_handle.h"
+#include "render/objects/icon_atlas.h"
 
 namespace terrella {
 
@@ -34,8 +35,9 @@ class FollowingBuffer {
 struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
-  Buckets markers, lines, fill_vertices, fill_indices;
+  Buckets markers, icons, lines, fill_vertices, fill_indices;
   std::vector<Buckets> stands;  ///< per model of the layer
+  IconAtlas icon_atlas;
 
   /// Uploads the changes since the last call.
   void follow(LayerObjects& objects);
