@@ -63,8 +63,8 @@ Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GL
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (pass.input.sky && sky_) {
-    if (Status s = sky_->prepare(*pass.input.sky); !s) return s;
+  if (pass.input.sky && sky_ && (pass.input.naive_translucency || !under_ground(pass))) {
+    if (Status s = sky_->prepare(pass.eye.view, sky_of(pass)); !s) return s;
   }
   if (Status s = prepare_layers(pass); !s) return s;
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
