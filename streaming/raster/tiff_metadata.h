@@ -21,7 +21,7 @@ struct BandMetadata {
 
 /// Facts about the numbers in a TIFF that GDAL keeps in tags of its own, or in FILE.aux.xml.
 struct TiffMetadata {
-  std::optional<double> nodata;     ///< of all bands: the tag 42113, or that of the first band in FILE.aux.xml
+  std::optional<double> nodata;     ///< no data of all bands, by tag 42113, or by the first band in FILE.aux.xml
   std::vector<BandMetadata> bands;  ///< the first bands of the picture; further ones say nothing
   /// STATISTICS_MINIMUM and STATISTICS_MAXIMUM of all bands that have them.
   std::optional<double> least, most;

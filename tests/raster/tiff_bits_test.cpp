@@ -18,7 +18,7 @@ constexpr int kBitsHigh = 67;
 struct Bits {
   const char* name;
   const char* type;     ///< as gdal_translate names it
-  const char* options;  ///< of gdal_translate
+  const char* options;  ///< options of gdal_translate
   double least, most;
 };
 constexpr Bits kBits[] = {
