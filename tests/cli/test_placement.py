@@ -72,6 +72,7 @@ PARTS = {
     "nad 83": (EARTH, AS_IT_IS, SIDE, "-a_srs", "EPSG:4269", *box(-100, 50, 0.125, SIDE)),
     # Projections
     "utm": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:32633", *box(500000, 4650000, 5000, SIDE)),
+    "utm, columns westwards": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:32633", "-a_ullr", 1140000, 4650000, 500000, 4170000),
     "utm of a drone": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:32718", *box(300000, 8500000, 0.5, SIDE)),
     "web mercator": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3857", *box(1e6, 8e6, 20000, SIDE)),
     "mercator of an ellipsoid": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3395", *box(1e6, 8e6, 20000, SIDE)),

@@ -23,10 +23,12 @@ TEST(MeasureTool, SaysWhatToDoThenHowLongThenHowLarge) {
   EXPECT_TRUE(tool.scene(sphere).empty());
   tool.add(at(0, 0));
   EXPECT_NE(tool.text(sphere).find("next"), std::string::npos);
+  EXPECT_EQ(tool.text(sphere, at(0, 0)), tool.text(sphere)) << "the cursor has not left the place";
   EXPECT_EQ(tool.text(sphere, at(0, 45)), "Length 5,004 km");
   EXPECT_EQ(tool.scene(sphere).points.size(), 1U);
   tool.add(at(0, 90));
   EXPECT_EQ(tool.text(sphere), "Length 10,008 km");
+  EXPECT_EQ(tool.text(sphere, at(0, 90)), "Length 10,008 km");
   EXPECT_EQ(tool.text(sphere, at(0, 135)), "Length 10,008 km + 5,004 km = 15,011 km");
   ASSERT_EQ(tool.scene(sphere).labels.size(), 1U);
   EXPECT_EQ(tool.scene(sphere).labels[0].text, "10,008 km");

@@ -112,8 +112,9 @@ class Walk(WindowTest):
         self.key("m")
         self.viewer.click(200, 200)
         self.viewer.click(300, 250)
+        self.viewer.move(330, 120)  # away from the last place, so that the row tells the way to the cursor
         time.sleep(0.15)
-        self.viewer.settled()  # the row is as wide as its text
+        self.viewer.settled()
 
     def measure_button(self, index):
         """Clicks a button of the row, found by its blue."""

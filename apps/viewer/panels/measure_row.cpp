@@ -11,6 +11,8 @@ namespace terrella {
 namespace {
 
 constexpr float kMeasureMargin = 0.8F;  // in text heights, to the window's edge
+/// The row has room for this text, so that it stays where it is while the lengths in it change.
+constexpr const char* kLongMeasurement = "Length 10,000 km + 10,000 km = 20,000 km   Area 500,000,000 km²";
 
 struct MeasureButton {
   MeasureAsk ask;
@@ -35,7 +37,8 @@ float width_of_buttons() {
 
 /// Size of the row without padding; a narrow row wraps the text.
 ImVec2 inner_size(const std::string& text, float widest, bool buttons) {
-  const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  if (const float usual = ImGui::CalcTextSize(kLongMeasurement).x; usual <= widest) words.x = std::max(words.x, usual);
   if (!buttons) return words;
   return {std::max(words.x, width_of_buttons()), words.y + ImGui::GetStyle().ItemSpacing.y + ImGui::GetFrameHeight()};
 }

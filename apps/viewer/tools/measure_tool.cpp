@@ -19,16 +19,14 @@ void MeasureTool::take_back() {
 
 std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next) const {
   if (places_.empty()) return "Measuring: click a place, or press Enter for the centre";
-  if (places_.size() == 1 && !next) return "Measuring: click the next place";
+  const double next_m = next ? geodesic_m(ellipsoid, places_.back(), *next) : 0.0;
+  const bool away = length_text(next_m) != length_text(0.0);
+  if (places_.size() == 1 && !away) return "Measuring: click the next place";
   const double length_m = path_m(ellipsoid, places_);
-  std::string text = "Length " + length_text(length_m);
-  if (next) {
-    const double next_m = geodesic_m(ellipsoid, places_.back(), *next);
-    const std::string total = length_text(length_m + next_m);
-    text =
-        "Length " +
-        (places_.size() == 1 ? total : fmt::format("{} + {} = {}", length_text(length_m), length_text(next_m), total));
-  }
+  const std::string total = length_text(length_m + next_m);
+  std::string text = "Length ";
+  if (away && places_.size() > 1) text += fmt::format("{} + {} = ", length_text(length_m), length_text(next_m));
+  text += total;
   if (places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
   return text;
 }

@@ -18,7 +18,7 @@ class MeasureTool {
   void clear() { places_.clear(); }
 
   /// An instruction or the path's length; from three places on also the enclosed area. With `next`, a place under the
-  /// cursor, also the length of the way to it and the new total.
+  /// cursor, also the length of the way to it and the new total, unless the cursor has not left the last place.
   [[nodiscard]] std::string text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next = {}) const;
   /// Objects for drawing: markers at the places, the path, and the length of each segment at its middle. From three
   /// places on, the total at the last place, the closing edge (thinner) and the area are added. `scale` is the size of
