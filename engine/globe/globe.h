@@ -133,10 +133,11 @@ class Globe {
   /// functions of render/caller_glsl.h, which stay exact near the ground. It must not call the globe.
   void on_draw(std::function<void(DrawStage stage, const FrameMatrices& matrices)> draw);
   /// Returns the GL name of the texture with the depth of the last frame, in the format of `GlobeOptions::depth`, 0
-  /// before the first; rows from the bottom. Valid until the next frame.
+  /// before the first; rows from the bottom. Valid until the next frame of any view of the globe.
   [[nodiscard]] unsigned depth_texture() const;
   /// Copies the depth of the last frame to a framebuffer with depth, to each sample of a multisampled one. The
-  /// application can then draw there behind and before the globe. Fails if its shader does not compile.
+  /// application can then draw there behind and before the globe. Call it before another view of the globe draws: views
+  /// of equal size share their targets. Fails if another view has drawn since, or if its shader does not compile.
   Status copy_depth(unsigned framebuffer, glm::ivec2 corner_px = {0, 0});
 
   /// True if the last frame showed everything that its view needs.

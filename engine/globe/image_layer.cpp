@@ -97,6 +97,7 @@ void ImageLayer::forget(ViewId view) {
 }
 
 void ImageLayer::discard_patches() {
+  vertices_.reset();
   for (const auto& view : views_) view->discard_patches();
 }
 

@@ -77,6 +77,8 @@ class ImageLayer {
   void forget(ViewId view);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerView>>& views() const { return views_; }
   void discard_patches();
+  /// The vertices of the patches that the views draw; empty: drawn from those of the base layer.
+  [[nodiscard]] std::unique_ptr<PatchBuffers>& vertices() { return vertices_; }
   void restore_detail();
   [[nodiscard]] std::unique_ptr<PatchTree> make_tree() const;
   /// Number of tiles that a view may want: the room that the other views leave, at least an equal share.
@@ -117,6 +119,7 @@ class ImageLayer {
   std::chrono::milliseconds retry_after_;
   std::optional<NumberColors> numbers_;
   bool has_transparency_ = false;  ///< a loaded tile has transparent pixels
+  std::unique_ptr<PatchBuffers> vertices_;
   std::vector<std::unique_ptr<LayerView>> views_;
 };
 

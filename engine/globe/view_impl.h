@@ -40,6 +40,7 @@ struct GlobeView::Impl {
   bool render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                             std::chrono::steady_clock::time_point deadline);
   Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);
+  [[nodiscard]] unsigned depth_texture() const { return memory.has_picture() ? memory.targets->depth() : 0; }
   void set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw);
   [[nodiscard]] bool settled() const;
   [[nodiscard]] bool needs_frame() const;

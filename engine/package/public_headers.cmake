@@ -5,6 +5,7 @@ set(TERRELLA_PUBLIC_HEADERS
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
+  engine/geo/split_position.h
   engine/render/caller_glsl.h
   engine/render/gl/offscreen.h
   engine/objects/graticule.h
@@ -20,6 +21,7 @@ set(TERRELLA_PUBLIC_HEADERS
   streaming/remote/grid_check.h
   streaming/remote/remote_source.h
   streaming/sets/open_tile_set.h
+  engine/tiles/painted_tiles.h
   engine/tiles/tile_source.h)
 
 # Finds the header of the source tree that an include of another header means; empty: none of the project's.

@@ -60,7 +60,7 @@ struct PatchRelief {
   double half_m = 0.0;
   std::vector<double> heights_m;  ///< heights of the vertices, in the order of patch_vertices()
   double error_m = 0.0;           ///< largest distance of the ground from the mesh between its vertices
-  std::uint64_t made = 0;         ///< counts up as heights_m changes
+  std::uint64_t made = 0;         ///< hash of heights_m: equal meshes have equal ones; 0: no heights
   std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
 

@@ -100,8 +100,11 @@ class PackageTest(unittest.TestCase):
         self.run_outside(CMAKE, "--build", folder / "build")
         return folder
 
-    def data(self):
-        return [self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes]
+    def draw(self, folder, *program, **options):
+        """Draws the document's data by a program, and checks the picture."""
+        data = [self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes]
+        self.run_outside(*program, *data, folder / "earth.png", **options)
+        assert_picture(self, folder / "earth.png")
 
     def test_find_package(self):
         """A project outside the tree, the document's own, draws a picture of two layers and objects."""
@@ -109,20 +112,19 @@ class PackageTest(unittest.TestCase):
         commands = (folder / "build/compile_commands.json").read_text()
         self.assertNotIn(str(SOURCE), commands)
         self.assertNotIn("-D", commands, "settings of Terrella's in the application")
-        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, folder / "build/application")
 
     @unittest.skipUnless(shutil.which("clang++"), "needs clang++")
     def test_find_package_with_another_compiler(self):
-        self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
+        folder = self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
+        self.draw(folder, folder / "build/application")
 
     def test_strict_project(self):
         """A geo/coordinates.h of the application's own, GLM's defaults, no exceptions, no RTTI."""
         folder = write_strict_project(self.scratch / "strict")
         self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         self.run_outside(CMAKE, "--build", folder / "build")
-        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, folder / "build/application")
 
     def test_plug_in(self):
         """The archives fit into a shared object; a process that knows nothing of C++ opens it and draws."""
@@ -130,11 +132,10 @@ class PackageTest(unittest.TestCase):
         with open(folder / "CMakeLists.txt", "a") as cmake:
             cmake.write(PLUG_IN_CMAKE)
         (folder / "plug_in.cpp").write_text(PLUG_IN)
-        self.configure(folder)
+        self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         self.run_outside(CMAKE, "--build", folder / "build", "--target", "plug_in")
         plug_in = folder / "build/libplug_in.so"
-        self.run_outside(sys.executable, "-c", DRAW_BY_PLUG_IN, plug_in, *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, sys.executable, "-c", DRAW_BY_PLUG_IN, plug_in)
         symbols = run("nm", "--dynamic", "--demangle", "--defined-only", plug_in)
         self.assertIn("draw_globe", symbols)
         self.assertNotIn("terrella::Globe::", symbols, "the library's symbols are its own affair")
@@ -155,7 +156,8 @@ class PackageTest(unittest.TestCase):
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
         self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
-        self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "application", *flags, cwd=folder)
+        self.run_outside(COMPILER, "-std=c++20", "-Wall", "-Wextra", "-Werror", "main.cpp", "-o", "application", *flags, cwd=folder)
+        self.draw(folder, folder / "application")
 
     def test_every_header_by_itself(self):
         """Each public header brings the headers that it needs, and options are given by name without a warning."""
