@@ -142,7 +142,7 @@ TEST(LayerPick, FindsTheIconsThatAScanFinds) {
   EXPECT_GT(found, 60);
 }
 
-// The rectangle by trigonometry of its own: an icon of 40 by 20 pixels whose lower middle is at the place.
+// The rectangle by trigonometry of its own: an icon of 40 by 20 pixels whose lower edge has the place at a quarter.
 TEST(LayerPick, AnIconIsPickedInItsTurnedRectangle) {
   Camera camera;
   camera.eye = {.lat = {}, .lon = {}, .height_m = 1.0e6};
@@ -153,7 +153,7 @@ TEST(LayerPick, AnIconIsPickedInItsTurnedRectangle) {
     const ObjectScene scene{.points = {{.place = {.lat = {}, .lon = {}, .height_m = 10.0},
                                         .size_px = 40.0F,
                                         .icon = {.image = picture(10, 5),
-                                                 .anchor = {0.5F, 1.0F},
+                                                 .anchor = {0.25F, 1.0F},
                                                  .heading = Angle::radians(turn),
                                                  .from_north = from_north}}}};
     LayerObjects layer(scene, earth().ellipsoid, 1.0, kSelectedColor);
@@ -161,7 +161,7 @@ TEST(LayerPick, AnIconIsPickedInItsTurnedRectangle) {
     for (int y = -50; y <= 50; ++y) {
       for (int x = -50; x <= 50; ++x) {
         const double along = x * std::cos(turn) + y * std::sin(turn), up = x * std::sin(turn) - y * std::cos(turn);
-        const double outside = std::max({std::abs(along) - 20.0, -up, up - 20.0});
+        const double outside = std::max({-10.0 - along, along - 30.0, -up, up - 20.0});
         if (std::abs(outside) < 0.01) continue;  // rounding decides
         const bool picked = layer.pick(view, ground, {320.0 + x, 240.0 + y}, {.slack_px = 0.0}, {}).has_value();
         ASSERT_EQ(picked, outside < 0.0) << x << ',' << y << ' ' << from_north;
