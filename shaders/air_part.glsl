@@ -1,7 +1,7 @@
 // The air before a thing, as a share of the air before the ground under the same angle: by the distance and by the mean
 // density on the way. As in GroundColors (engine/sky/air_colors.h), 1.2 times the air straight between the eye's height
 // and the thing's does not count.
-const float kAirScale_m = 7000.0;   // of gas and dust together
+const float kAirScale_m = 7000.0;   // scale height of gas and dust together
 const float kMostScales = 5.0;      // there is no air to speak of over this many
 const float kPicturedAirMass = 1.2;
 
@@ -25,7 +25,7 @@ float air_part(vec3 way, float down, float exaggeration) {
   return counts / to_ground * mean_density(above, over) / mean_density(0.0, over);
 }
 
-// Where the tables of GroundColors have a ray.
+// Place of a ray in the tables of GroundColors.
 vec2 air_place(vec3 way, float down, vec2 size) {
   return (vec2(atan(abs(way.y), way.x) / 3.14159265, sqrt(1.0 - sqrt(1.0 - down))) * (size - 1.0) + 0.5) / size;
 }

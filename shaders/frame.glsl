@@ -21,7 +21,7 @@ layout(std140, binding = 0) uniform Frame {
   // over slot_px; unused.
   vec4 relief;
   // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
-  // body of dust; unused.
+  // body of dust; longest pixel, texels, for which oblique patches take three taps; unused.
   vec4 surface_look;
 };
 

@@ -61,7 +61,7 @@ struct CutShard {
 /// A picture that is no local file, such as a TIFF on a server.
 struct CutRaster {
   PictureFile picture;                         ///< name, size and bytes
-  std::shared_ptr<const TiffPyramid> pyramid;  ///< of a TIFF
+  std::shared_ptr<const TiffPyramid> pyramid;  ///< pyramid of a TIFF
   std::string key;                             ///< differs if the pixels may differ
   /// Opens the raster. Its blocks are read as those of a local one.
   std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
@@ -95,7 +95,7 @@ struct CutOptions {
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
-  std::optional<CutNumbers> numbers = {};  ///< of `elevation`, `numbers` and `composite` at most one is set
+  std::optional<CutNumbers> numbers = {};  ///< at most one of `elevation`, `numbers` and `composite` is set
   std::optional<CutBands> composite = {};
   /// Area of the picture in degrees. East < west crosses ±180°. Default: the place stated by the picture itself
   /// (streaming/georeference). Without one the picture is the whole planet and must be 2:1.
@@ -112,7 +112,7 @@ struct CutOptions {
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
-  bool keep_unfinished = false;     ///< what is done stays for the next run if `progress` stops the cut
+  bool keep_unfinished = false;     ///< keeps finished work for the next run if `progress` stops the cut
   std::optional<CutWatch> watch{};  ///< for pictures of colours
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};
@@ -125,12 +125,12 @@ struct CutSummary {
   int left_out = 0;  ///< files of a folder or list that could not be read; CutOptions::remark has named them
 };
 
-/// Cuts a picture into a tile set, or, with `shard`, does a part of the work: one streaming pass over its rows (memory
-/// does not grow with its height), the source's own pixels at the finest level (root span = tile_px · pixel size ·
-/// 2^L), coarser levels by weights that are right on the sphere (cos of latitude; wrap at ±180°). The output appears
-/// under its name only when it is whole. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
-/// "Replacing an output"). What a killed run has left is gone on with if options and pictures are the
-/// same; the result is the same bytes. Blocks. thread: any
+/// Cuts a picture into a tile set, or, with `shard`, does a part of the work. One streaming pass reads the rows, so
+/// memory does not grow with the picture's height. The finest level has the source's own pixels (root span = tile_px ·
+/// pixel size · 2^L). Coarser levels are means by area on the sphere, also across ±180°. The output appears under its
+/// name only when it is complete. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
+/// "Replacing an output"). A cut with the same options and pictures continues the work of a killed cut; the result is
+/// the same bytes. Blocks. thread: any
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
 /// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.
@@ -141,8 +141,8 @@ struct CutSummary {
 [[nodiscard]] Result<std::filesystem::path> cache_path(const CutOptions& options,
                                                        const std::filesystem::path& cache_dir);
 
-/// The GeoPackage for an image file in the cache directory, cut the first time; found again by path, size and time of
-/// change, and the place. Blocks. thread: any
+/// Returns the GeoPackage for an image file in the cache directory, and cuts it the first time. Path, size, time of
+/// change and place identify the file. Blocks. thread: any
 [[nodiscard]] Result<std::filesystem::path> cut_into_cache(const CutOptions& options,
                                                            const std::filesystem::path& cache_dir);
 

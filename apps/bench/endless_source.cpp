@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTile_px = 256;
 constexpr int kWaves = 19;           // one per level
-constexpr double kAmplitude = 10.0;  // of each wave, in 8-bit levels
+constexpr double kAmplitude = 10.0;  // amplitude of each wave, in 8-bit levels
 
 /// The waves of one axis over a tile: kWaves values per texel. Wave k belongs to the level k above; 48 of its periods
 /// lie on a tile of that level, 5.3 texels each. A level has its own wave and the waves of all coarser levels.

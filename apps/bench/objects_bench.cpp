@@ -12,6 +12,7 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/frame_timing.h"
+#include "apps/scene/scene_objects.h"
 #include "render/gl/offscreen.h"
 
 namespace terrella::bench {
@@ -21,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr Viewport kPicture{1024, 1024};
 constexpr std::chrono::seconds kLongest{300};
+constexpr int kFrames = 15;
 
 double processor_ms(clockid_t clock) {
   timespec time{};
@@ -32,6 +34,19 @@ template <class T>
 T value_of(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return *std::move(result);
+}
+
+/// An arrow.
+std::shared_ptr<const IconImage> arrow() {
+  constexpr int kSide = 32;
+  IconImage icon{kSide, kSide, {}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const auto ink = static_cast<std::uint8_t>(2 * std::abs(x - kSide / 2) < y ? 255 : 0);
+      icon.rgba.insert(icon.rgba.end(), {255, 200, 40, ink});
+    }
+  }
+  return std::make_shared<const IconImage>(std::move(icon));
 }
 
 /// Places of moving objects: a random walk of `count` places at flying heights.
@@ -51,36 +66,44 @@ class Traffic {
     }
   }
   [[nodiscard]] ObjectScene scene() const {
+    static const auto icon = arrow();
     ObjectScene scene;
     for (std::size_t k = 0; k < places_.size(); ++k) {
-      scene.points.push_back({.place = places_[k], .size_px = 6.0F, .of = {.id = ObjectId{k + 1}}});
-      scene.labels.push_back({.text = fmt::format("TE {}", k), .place = places_[k], .of = {.id = ObjectId{k + 1}}});
+      scene.points.push_back({.place = places_[k],
+                              .size_px = 16.0F,
+                              .icon = {.image = icon, .heading = heading(k), .from_north = true},
+                              .of = {.id = ObjectId{k + 1}}});
+      scene.labels.push_back(
+          {.text = fmt::format("TE {}", k), .place = places_[k], .size_px = 16.0F, .of = {.id = ObjectId{k + 1}}});
     }
     return scene;
   }
   [[nodiscard]] ObjectEdits moves(std::size_t count) const {
     ObjectEdits edits;
     edits.moves.reserve(count);
-    for (std::size_t k = 0; k < count; ++k) edits.moves.push_back({ObjectId{k + 1}, places_[k]});
+    for (std::size_t k = 0; k < count; ++k) edits.moves.push_back({ObjectId{k + 1}, places_[k], heading(k)});
     return edits;
   }
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:
+  [[nodiscard]] Angle heading(std::size_t k) const { return Angle::degrees(40.0 * places_[k].lat.deg() + double(k)); }
+
   std::mt19937 random_{3};
   std::vector<Geodetic> places_;
 };
 
-/// `count` areas of 40 corners, about half a degree across.
+/// `count` areas of 100 corners, of the sizes of countries and their islands: 0.3° to 12° across.
 ObjectScene countries(int count) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> lat(-65.0, 70.0), lon(-180.0, 180.0), reach(0.15, 0.35);
+  std::uniform_real_distribution<double> lat(-65.0, 70.0), lon(-180.0, 180.0), size(-0.5, 1.08), coast(0.8, 1.2);
   ObjectScene scene;
   for (int k = 0; k < count; ++k) {
     const double middle_lat = lat(random), middle_lon = lon(random);
     PolygonObject area{.rings = {{}}, .of = {.id = ObjectId{static_cast<std::uint64_t>(k) + 1}}};
-    for (int corner = 0; corner < 40; ++corner) {
-      const double way = 2.0 * M_PI * corner / 40.0, far = reach(random);
+    const double reach = 0.5 * std::pow(10.0, size(random));
+    for (int corner = 0; corner < 100; ++corner) {
+      const double way = 2.0 * M_PI * corner / 100.0, far = reach * coast(random);
       area.rings[0].push_back(
           {Angle::degrees(middle_lat + far * std::sin(way)), Angle::degrees(middle_lon + far * std::cos(way)), 0.0});
     }
@@ -94,7 +117,7 @@ class ObjectBench {
   ObjectBench(const BenchOptions& options, Report& report)
       : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kPicture) {
     GlobeOptions how;
-    how.label_font = {};
+    add_label_font(how);
     globe_ = value_of(Globe::create(how));
     globe_->set_camera({.eye = {.lat = Angle::degrees(20), .lon = Angle::degrees(10), .height_m = 8e6}});
   }
@@ -106,16 +129,16 @@ class ObjectBench {
     settle();
     const auto edit = [&](LayerId layer, ObjectEdits edits) { check(globe_->edit_objects(layer, std::move(edits))); };
     const std::string all = fmt::format("{} positions", traffic.size());
-    measure("nothing", "a frame", 15, [] {});
+    measure("nothing", "a frame", kFrames, [] {});
     ObjectEdits moves;
     measure(
-        all, "edit_objects", 15, [&] { edit(air, std::move(moves)); },
+        all, "edit_objects", kFrames, [&] { edit(air, std::move(moves)); },
         [&] { traffic.step(), moves = traffic.moves(traffic.size()); });
     measure(
-        "1 position", "edit_objects", 15, [&] { edit(air, std::move(moves)); },
+        "1 position", "edit_objects", kFrames, [&] { edit(air, std::move(moves)); },
         [&] { traffic.step(), moves = traffic.moves(1); });
     bool selected = false;
-    measure("an area is highlighted", "edit_objects", 15,
+    measure("an area is highlighted", "edit_objects", kFrames,
             [&] { edit(ground, {.changes = {{.id = ObjectId{7}, .selected = selected = !selected}}}); });
     ObjectScene scene;
     measure(
@@ -208,6 +231,16 @@ class ObjectBench {
     add("1 position", "edit_objects", 0.02);
     add("an area is highlighted", "edit_objects", 0.1);
     add("a pick among", "pick", 0.1);
+    const auto shown_ms = [this](const std::string& what) {
+      for (const auto& row : report_.rows) {
+        if (std::get<std::string>(row[0]) == what) return std::get<double>(row[3]);
+      }
+      return std::nan("");
+    };
+    const double ratio = shown_ms(all) / shown_ms("nothing");
+    if (std::isfinite(ratio)) {
+      report_.findings.push_back({"a frame after all moved, to one of nothing", ratio, quick_ ? kNoFigure : 1.1, ""});
+    }
   }
 
   const BenchOptions& options_;

@@ -100,7 +100,7 @@ Status open_address(CutCommand& command) {
   return Done{};
 }
 
-/// Chooses what is read of the pictures.
+/// Chooses the content to read from the pictures: heights, numbers or colours.
 void set_reading(CutCommand& command) {
   if (command.elevation) {
     command.heights.nodata = command.numbers.nodata;

@@ -100,7 +100,7 @@ void locate(PictureFacts& facts, const CrsPlace& at) {
   facts.pixel = PixelSize{of_arc, wide(of_arc), high(of_arc), wide(true) * degree_m, high(true) * degree_m};
 }
 
-/// Adds what is known of the place.
+/// Adds the known facts about the place.
 Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words) {
   if (!facts) return facts;
   facts->words = words;

@@ -24,7 +24,7 @@ struct PixelSize {
 struct PictureFacts {
   PictureFile file;
   PlaceWords words;
-  std::optional<RasterFacts> raster{};  ///< of a TIFF
+  std::optional<RasterFacts> raster{};  ///< facts of a TIFF
   int orientation = 1;                  ///< EXIF orientation by which the picture is turned; 1: not turned
   bool is_numbers = false;              ///< shown as numbers, unless options ask for something else
   std::optional<Georeference> said;
@@ -47,7 +47,7 @@ struct PictureFacts {
 [[nodiscard]] Result<PictureFacts> look_at(const RemotePicture& tiff, const PlaceWords& words,
                                            const DescribedBand& band = {});
 
-/// The same without values, and without the command that shows it: from what was read when it was opened.
+/// Facts without values, and without the command that shows the picture: from the data read when it was opened.
 [[nodiscard]] Result<PictureFacts> look_at_place(const RemotePicture& tiff, const PlaceWords& words,
                                                  const DescribedBand& band);
 

@@ -21,8 +21,8 @@ struct PreloadSource {
   std::string key;         ///< identifies the source's cache
   bool remote = false;
   std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
-  /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the
-  /// plan's tiles are what the cache keeps.
+  /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the cache
+  /// keeps the plan's tiles themselves.
   std::function<Result<std::shared_ptr<const TilePlan>>(const TilePlan& tiles)> plan_parts = {};
 };
 

@@ -27,7 +27,7 @@ struct Program {
   [[nodiscard]] const CLI::App& command() const { return *app.get_subcommands({}).front(); }
 };
 
-/// Runs a subcommand; what it would print for programs, as Python's values.
+/// Runs a subcommand. Returns its output for programs as Python's values.
 py::object run_command(AddCommand add, const py::args& positional, const py::kwargs& keywords) {
   Program program(add);
   std::vector<std::string> words = command_arguments(program.command(), positional, keywords);

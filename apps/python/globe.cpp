@@ -211,9 +211,11 @@ void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojs
   value_or_raise(self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(scene)); }));
 }
 
-void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m) {
+void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m,
+          std::optional<double> heading_deg) {
   ObjectEdits edits;
   edits.moves = {{.id = ObjectId{id}, .place = geodetic(lat, lon, height_m)}};
+  if (heading_deg) edits.moves[0].heading = Angle::degrees(*heading_deg);
   value_or_raise(self.with_globe([&](Globe& globe) { return globe.edit_objects(LayerId{layer}, std::move(edits)); }));
 }
 
@@ -259,8 +261,10 @@ void add_layer_methods(GlobeClass& globe) {
       .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"),
            "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer.")
       .def("move", &move, py::arg("layer"), py::arg("id"), py::arg("lat"), py::arg("lon"), py::arg("height") = 0.0,
-           "move(self, layer, id, lat, lon, height=0.0)\n--\n\n"
-           "Move a feature of a layer: its points, labels and models. The first feature of a GeoJSON has id 1.")
+           py::arg("heading") = py::none(),
+           "move(self, layer, id, lat, lon, height=0.0, heading=None)\n--\n\n"
+           "Move a feature of a layer: its points, labels and models. `heading`, degrees, turns its models and icons. "
+           "The first feature of a GeoJSON has id 1.")
       .def("show", &show, py::arg("layer"), py::arg("shown") = true,
            "show(self, layer, shown=True)\n--\n\nShow or hide a layer.")
       .def("set_opacity", &set_opacity, py::arg("layer"), py::arg("opacity"),

@@ -37,7 +37,7 @@ struct SceneOptions {
   std::optional<Projection> projection;          ///< absent: as the tile set states
   std::optional<LatitudeKind> latitude;          ///< absent: as the tile set states
   PlaceWords place;                              ///< place of TILESET, if it is a picture
-  NumberOptions numbers;                         ///< of TILESET; of the overlays if TILESET is empty
+  NumberOptions numbers;                         ///< numbers of TILESET; those of the overlays if TILESET is empty
   std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
   std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
   bool unlit = false;
@@ -49,11 +49,11 @@ struct SceneOptions {
   double texels_per_pixel = 1.0;
   DepthMode depth = DepthMode::reversed;
   Url elevation;                                 ///< tile set of heights; empty: none
-  std::optional<NumberInfo> elevation_encoding;  ///< of tiles whose heights are in colours; absent: as they state
+  std::optional<NumberInfo> elevation_encoding;  ///< coding of heights in colours; absent: as the tiles state
   double exaggeration = 1.0;                     ///< factor for heights
   Url night;                                     ///< tile set for the night side; empty: none
   OverlayOption clouds;                          ///< top layer; brightness is alpha; empty: none
-  double cloud_height_m = 0.0;                   ///< of the clouds over the ground
+  double cloud_height_m = 0.0;                   ///< height of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;               ///< GeoJSON file; empty: none

@@ -17,7 +17,7 @@ namespace terrella {
 /// Like printable(), but also escapes line ends and tabs. Use this for a name within a line of a report or list.
 [[nodiscard]] std::string one_line(std::string_view text);
 
-/// Takes what the program would print: results, and messages with addresses redacted. thread: any that prints
+/// Takes the texts that the program would print: results, and messages with addresses redacted. thread: any that prints
 struct ConsoleSink {
   std::function<void(const std::string& text)> result;
   std::function<void(const std::string& text)> message;

@@ -214,7 +214,7 @@ Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& option
     return std::shared_ptr<TileSource>(*std::move(tiles));
   }
   if (options.elevation_encoding) return open_encoded(heights, *options.elevation_encoding);
-  // Fails without a request: only a description states what a server's numbers mean.
+  // Fails without a request: only a description states the meaning of a server's numbers.
   if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
   auto tiles = open_any_tiles(heights);
   if (tiles && is_remote(options.elevation) && !(*tiles)->info().numbers) return no_meaning(options.elevation, "wmts");

@@ -31,7 +31,7 @@ struct Action {
   unsigned flags = plain;
   const char* button = nullptr;  ///< text of the button in the view panel; null: no button
   const char* mouse = nullptr;   ///< way by mouse; null: the menu
-  Icon icon = Icon::none;        ///< of the button in the control column
+  Icon icon = Icon::none;        ///< icon of the button in the control column
   int mouse_button = 0;          ///< GLFW's number of a further mouse button; 0: none
 };
 

@@ -23,7 +23,7 @@ struct BookmarkKey {
 struct InputEvent {
   const Action* action = nullptr;  ///< null: a click
   PointerButton button = PointerButton::left;
-  glm::dvec2 at_px{0.0};  ///< of a click, framebuffer pixels
+  glm::dvec2 at_px{0.0};  ///< place of a click, framebuffer pixels
 };
 
 /// Detects double clicks by time and distance.

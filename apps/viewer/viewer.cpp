@@ -25,7 +25,7 @@ constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived ti
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
 constexpr double kTinyWindow = 22.0;            // height, in text heights
 constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
-constexpr double kScaleBarShare = 0.5;          // of the window's width, at most
+constexpr double kScaleBarShare = 0.5;          // largest share of the window's width
 
 }  // namespace
 

@@ -122,7 +122,7 @@ class Viewer {
                    .measure_from = [this](glm::dvec2 at_px) { measure_.start_from(at_px); },
                    .bookmark = [this] { bookmarks_.save_as_next(); }}};
   ViewHistory history_{globe_.options().body.ellipsoid};
-  bool button_held_ = false;        ///< of the control column
+  bool button_held_ = false;        ///< a button of the control column is held down
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
@@ -130,9 +130,9 @@ class Viewer {
                                      &layers_, &modes_, &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
-  Viewport panels_size_;   ///< of the last frame with panels
+  Viewport panels_size_;   ///< framebuffer size in the last frame with panels
   bool was_at_texels_ = false;
-  std::vector<UiBox> labels_;  ///< of graticule and map, in the last frame
+  std::vector<UiBox> labels_;  ///< boxes of the graticule's and the map's labels in the last frame
   std::string last_attribution_;
   std::string panels_text_;  ///< Ui::boxes_text() of the last frame
   std::string job_text_;     ///< job() in the last frame

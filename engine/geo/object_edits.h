@@ -13,6 +13,7 @@ namespace terrella {
 struct ObjectMove {
   ObjectId id = ObjectId::none;
   Geodetic place = {};
+  std::optional<Angle> heading = {};  ///< heading of its models and icons from now on
 };
 
 /// Changes how a feature looks. Values that are not set stay as they are. Nothing is tessellated, except an area or
@@ -21,10 +22,10 @@ struct ObjectChange {
   ObjectId id = ObjectId::none;
   std::optional<bool> visible = {};       ///< false: neither drawn nor picked
   std::optional<bool> selected = {};      ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
-  std::optional<ObjectColor> color = {};  ///< of points, lines, labels and the strokes of areas
-  std::optional<ObjectColor> fill = {};   ///< of areas
-  std::optional<float> size_px = {};      ///< diameter of markers, width of lines and strokes; positive
-  std::optional<Angle> heading = {};      ///< of models
+  std::optional<ObjectColor> color = {};  ///< colour of points (tint of icons), lines, labels and strokes
+  std::optional<ObjectColor> fill = {};   ///< fill colour of areas
+  std::optional<float> size_px = {};      ///< size of markers, width of lines and strokes; positive
+  std::optional<Angle> heading = {};      ///< heading of models and icons
 };
 
 /// Replaces the text of a feature's labels.
@@ -33,15 +34,15 @@ struct ObjectText {
   std::string text = {};
 };
 
-/// Edits of one object layer, made together in this order. Their cost follows from what they name, and not from what
-/// else the layer or the globe has.
+/// Edits of one object layer, made together in this order. The cost depends on the edited objects, not on the size of
+/// the layer or the globe.
 struct ObjectEdits {
   std::vector<ObjectId> remove = {};
-  ObjectScene add = {};  ///< an id that the layer has gets further parts
+  ObjectScene add = {};  ///< objects to add; an id that is in the layer gets further parts
   std::vector<ObjectMove> moves = {};
   std::vector<ObjectChange> changes = {};
   std::vector<ObjectText> texts = {};
-  std::optional<ObjectColor> selected_color = {};  ///< of the layer's selected objects from now on; its alpha is unused
+  std::optional<ObjectColor> selected_color = {};  ///< new colour of the layer's selected objects; its alpha is unused
 };
 
 /// Colour of selected objects until an edit sets another.

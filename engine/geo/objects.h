@@ -38,13 +38,32 @@ struct ObjectIdentity {
   std::shared_ptr<const ObjectFeature> feature = {};
 };
 
-/// A point, drawn as a sphere with a radius in metres or as a disc of constant size on the screen.
+/// A picture for points: RGBA8, sRGB, not premultiplied, first row at the top. A side has 1 to kMostIconSide_px pixels.
+struct IconImage {
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint8_t> rgba = {};  ///< width · height · 4 bytes
+};
+inline constexpr int kMostIconSide_px = 256;
+/// Most pictures in an object layer. Points that share an IconImage count as one.
+inline constexpr std::size_t kMostIcons = 512;
+
+/// A picture that a point shows in place of a disc, and the way it lies.
+struct PointIcon {
+  std::shared_ptr<const IconImage> image = {};  ///< empty: a disc is drawn
+  glm::vec2 anchor{0.5F, 0.5F};                 ///< the part of width and height at the place, from the upper left
+  Angle heading = {};                           ///< direction of the picture's upper edge, clockwise
+  bool from_north = false;  ///< `heading` counts from north at the place; else from the upper edge of the screen
+  ObjectColor tint{255, 255, 255};  ///< factor of the picture's colours and alpha
+};
+
+/// A point, drawn as a sphere with a radius in metres, or as a disc or an icon of constant size on the screen.
 struct PointObject {
   Geodetic place = {};
-  double radius_m = 0.0;  ///< > 0: a sphere around `place`; 0: a marker of `size_px`
-  float size_px = 10.0F;  ///< diameter of a marker
-  ObjectColor color{230, 60, 50};
-  bool through_surface = false;  ///< visible from below through a surface that is translucent for selected objects
+  double radius_m = 0.0;           ///< > 0: a sphere around `place`; 0: a marker of `size_px`
+  float size_px = 10.0F;           ///< diameter of a disc, the longer side of an icon
+  ObjectColor color{230, 60, 50};  ///< colour of a sphere or a disc
+  PointIcon icon = {};             ///< icon of a marker
+  bool through_surface = false;    ///< visible from below through a surface that is translucent for selected objects
   ObjectIdentity of = {};
 };
 

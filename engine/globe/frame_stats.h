@@ -14,12 +14,12 @@ namespace terrella {
 /// Statistics of one frame.
 struct FrameStats {
   int patches = 0;
-  int band_patches = 0;  ///< of those, patches drawn by a per-fragment program
+  int band_patches = 0;  ///< those among `patches` drawn by a per-fragment program
   int draw_calls = 0;
   long triangles = 0;
   int tiles_wanted = 0;        ///< tiles that the view needs at full quality
-  int tiles_pending = 0;       ///< of those, tiles neither on the GPU nor finally failed
-  int tiles_missing = 0;       ///< of those, tiles that finally failed
+  int tiles_pending = 0;       ///< those wanted tiles that are neither on the GPU nor finally failed
+  int tiles_missing = 0;       ///< those wanted tiles that finally failed
   int patches_uncovered = 0;   ///< patches with a cell without any imagery; 0 once the root tiles are loaded
   bool imagery_shown = false;  ///< a tile of imagery is in view, even if only a coarser fallback
   std::size_t uploaded_bytes = 0;
@@ -56,7 +56,7 @@ struct GlobePick {
 /// A value of a number layer at a place.
 struct LayerValue {
   double value = 0.0;  ///< in the unit of the layer's numbers, after scale and offset; NaN: no data
-  int level = 0;       ///< of the tile that it was read from
+  int level = 0;       ///< level of the tile that the value was read from
 };
 
 }  // namespace terrella

@@ -230,7 +230,7 @@ void Globe::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {
   if (impl_->may_call("Globe::on_draw")) impl_->first().set_on_draw(std::move(draw));
 }
 
-unsigned Globe::depth_texture() const { return impl_->first().memory.targets.depth(); }
+unsigned Globe::depth_texture() const { return impl_->first().depth_texture(); }
 
 Status Globe::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
   return impl_->first().copy_depth("Globe::copy_depth", framebuffer, corner_px);

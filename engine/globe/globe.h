@@ -28,9 +28,9 @@
 
 namespace terrella {
 
-/// The globe: made in a current OpenGL 4.5 context, anyone's, it draws image layers, heights and objects as a camera
-/// sees them into a framebuffer. Every call leaves the GL state as it found it, unless GlobeOptions::gl_contract says
-/// otherwise.
+/// A globe that draws image layers, heights and objects as a camera sees them into a framebuffer. It is made in a
+/// current OpenGL 4.5 context of any origin. Every call leaves the GL state as it found it, unless
+/// GlobeOptions::gl_contract says otherwise.
 ///
 /// A globe has a main view. Calls about the camera, frames and pixels are calls of the main view. Further views
 /// (globe/globe_view.h) share the globe's layers, tiles, textures and objects.
@@ -45,7 +45,7 @@ class Globe {
   /// than 4.5. Also fails if the time is outside the almanac's years, or if detail, error, segments or gutter are out
   /// of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
-  /// The same with a base layer and, optionally, heights.
+  /// Makes a globe with a base layer and, optionally, heights. Fails as above.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
                                                              std::shared_ptr<TileSource> imagery,
                                                              std::optional<ElevationSource> elevation = {});
@@ -68,8 +68,8 @@ class Globe {
   /// Replaces the objects of a layer. Many lines and areas are cut by a worker; until then the layer shows the earlier
   /// objects, and settled() is false.
   Status set_objects(LayerId layer, ObjectScene objects);
-  /// Adds, moves, changes and removes single objects of a layer by their ids. Costs what the edits name. Fails if the
-  /// layer has none of an id, or if a size is not positive; all other edits are made.
+  /// Adds, moves, changes and removes single objects of a layer by their ids. The cost depends on the edits alone.
+  /// Fails if an id is not in the layer, or if a size is not positive; all other edits are made.
   Status edit_objects(LayerId layer, ObjectEdits edits);
   Status show_objects(LayerId layer, bool shown);
   /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
@@ -108,10 +108,10 @@ class Globe {
   void set_sky(bool on);                       ///< no effect if the globe was made without a sky
   void set_exaggeration(double exaggeration);  ///< factor of the heights, [0, 100]
   /// Sets the time for Sun and sky; none: as in GlobeOptions. Fails outside the almanac's years, and then changes
-  /// nothing. City lights are as set_night_lights() says.
+  /// nothing. set_night_lights() controls the city lights.
   Status set_time(std::optional<UtcTime> time);
-  /// Draws GlobeOptions::night_lights on the night side, or not. They show at a time. Made with a time, a globe begins
-  /// with them. No effect without a sky, without such lights, or on another body than the Earth.
+  /// Switches GlobeOptions::night_lights on the night side on or off. Lights show only if a time is set. They are on in
+  /// a globe made with a time. No effect without a sky, without such lights, or on another body than the Earth.
   Status set_night_lights(bool on);
   [[nodiscard]] bool has_night_lights() const;  ///< true if city lights are drawn at a time
   /// Sets the budget from the next frame on. Image layers share the GPU memory evenly. Each layer has room for at least
@@ -119,10 +119,10 @@ class Globe {
   void set_budget(const GlobeBudget& budget);
 
   /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`. `framebuffer` is a GL name, 0 the
-  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns what the frame did. Draws nothing
-  /// if status() is an error.
+  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns the frame's statistics. Draws
+  /// nothing if status() is an error.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
-  [[nodiscard]] const FrameStats& last_frame() const;  ///< what the last frame did
+  [[nodiscard]] const FrameStats& last_frame() const;  ///< counts of the last frame
   /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
   /// needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
@@ -133,10 +133,11 @@ class Globe {
   /// functions of render/caller_glsl.h, which stay exact near the ground. It must not call the globe.
   void on_draw(std::function<void(DrawStage stage, const FrameMatrices& matrices)> draw);
   /// Returns the GL name of the texture with the depth of the last frame, in the format of `GlobeOptions::depth`, 0
-  /// before the first; rows from the bottom. Valid until the next frame.
+  /// before the first; rows from the bottom. Valid until the next frame of any view of the globe.
   [[nodiscard]] unsigned depth_texture() const;
-  /// Copies the depth of the last frame to a framebuffer with depth, to each sample of a multisampled one, so that the
-  /// application can draw there behind and before the globe. Fails if its shader does not compile.
+  /// Copies the depth of the last frame to a framebuffer with depth, to each sample of a multisampled one. The
+  /// application can then draw there behind and before the globe. Call it before another view of the globe draws: views
+  /// of equal size share their targets. Fails if another view has drawn since, or if its shader does not compile.
   Status copy_depth(unsigned framebuffer, glm::ivec2 corner_px = {0, 0});
 
   /// True if the last frame showed everything that its view needs.
@@ -147,10 +148,10 @@ class Globe {
   /// False if another frame would be the same as the last one: nothing was set, and nothing has arrived. Costs a few
   /// comparisons. A settled globe changes by itself only when it retries a source.
   [[nodiscard]] bool needs_frame() const;
-  /// The same for a frame in this framebuffer with this viewport: also true if the last one had others.
+  /// The same for this framebuffer and viewport: also true if the last frame had another framebuffer or viewport.
   [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
-  /// Waits until a frame would be settled, and draws that one; at the deadline draws what there is and returns false.
-  /// Returns false at once if status() is an error.
+  /// Waits until a frame would be settled, and draws that frame. At the deadline draws the present state and returns
+  /// false. Returns false at once if status() is an error.
   bool render_until_settled(unsigned framebuffer, Viewport viewport, std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts loading() const;  ///< sum over all image layers
   /// Returns the missing tiles of imagery: the latest 64 that failed, in order of time. Tiles that failed for now
@@ -159,14 +160,14 @@ class Globe {
   /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
   [[nodiscard]] const std::deque<MissingTile>& missing_heights() const;
 
-  /// Returns what a pixel of the mono picture shows (geo/coordinates.h).
+  /// Returns the place, layers and object that a pixel of the mono picture shows (geo/coordinates.h).
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
   /// Returns the value at a place of a layer of numbers, from the nearest texel of the finest loaded tile; none if no
   /// tile is loaded there. Exact for numbers that a float holds exactly, if `level` is the source's finest. Waits for
   /// the GPU. Fails if `imagery` is not a layer of numbers.
   [[nodiscard]] Result<std::optional<LayerValue>> value_at(LayerId imagery, const Geodetic& place) const;
   /// Asks the layer's source for the value that it stores at a place (TileSource::value_at()), on another thread. The
-  /// answer does not depend on what is drawn. The future's destructor waits for the answer, which takes milliseconds.
+  /// answer does not depend on the picture. The future's destructor waits for the answer, which takes milliseconds.
   [[nodiscard]] std::future<Result<double, TileFailure>> stored_value(LayerId imagery, const Geodetic& place) const;
   /// Returns the pixel position of a place at its height; nothing if the place is outside the picture, behind the eye
   /// or hidden by the ground.

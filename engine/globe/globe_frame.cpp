@@ -15,7 +15,7 @@ using FrameClock = std::chrono::steady_clock;
 // view of the whole globe takes 15 % more tiles. A picture of the imagery alone keeps what measurements compare.
 constexpr double kLitPixel_texels = 24.0, kLitSlantPower = 0.25;
 
-// Until a clock says where the sun is: over the viewer's left shoulder, so that what one looks at is lit.
+// Light until a clock tells the Sun's place: from over the viewer's left shoulder, so that ground in view is lit.
 glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
@@ -156,7 +156,7 @@ void GlobeView::Impl::count() {
   }
 }
 
-// Chooses and requests what the frame draws.
+// Chooses the patches and tiles that the frame draws, and requests missing tiles.
 void GlobeView::Impl::plan(Viewport viewport) {
   const auto start = FrameClock::now();
   look(viewport);

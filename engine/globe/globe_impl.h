@@ -49,7 +49,7 @@ struct Globe::Impl {
   std::size_t take_finished();
   [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
   [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, heights ? heights->relief() : nullptr}; }
-  void restore_detail();  ///< of all views
+  void restore_detail();  ///< restores the full detail of all views
 
   const std::thread::id thread = std::this_thread::get_id();
   GlobeOptions options;
@@ -63,7 +63,7 @@ struct Globe::Impl {
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< lowest first
   std::unique_ptr<ImageLayer> plain;                ///< made if the lowest image layer is not opaque
   std::vector<ObjectLayer> objects;
-  std::size_t objects_cut = 0;  ///< since the last frame
+  std::size_t objects_cut = 0;  ///< objects cut since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
   std::optional<Almanac> almanac;  ///< set if there is a sky or a time
   bool sky_on = false;

@@ -4,7 +4,7 @@
 
 #include "globe/globe_impl.h"
 
-// The image layers and the heights of a globe, and what all layers share.
+// The image layers and the heights of a globe, and the state that all layers share.
 namespace terrella {
 namespace {
 

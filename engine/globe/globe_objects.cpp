@@ -3,12 +3,17 @@
 #include <algorithm>
 
 #include "globe/globe_impl.h"
+#include "globe/object_checks.h"
 
 // The object layers of a globe.
 namespace terrella {
 namespace {
 
 bool is_positive(const ObjectChange& change) { return !change.size_px || *change.size_px > 0.0F; }
+
+Error refusal(const char* call, const Status& wrong) {
+  return Error{fmt::format("Globe::{}: {}", call, wrong.error().message)};
+}
 
 Status report(const std::vector<ObjectId>& unknown) {
   if (unknown.empty()) return Done{};
@@ -35,6 +40,7 @@ std::vector<LayerId> Globe::objects() const {
 Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   const auto call = impl_->may_draw("Globe::add_objects");
   if (!call) return call.error();
+  if (Status good = check_objects(objects); !good) return refusal("add_objects", good);
   const LayerId id = impl_->next_id();
   ObjectLayer& layer = impl_->objects.emplace_back(id, shown, impl_->bell);
   impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid);
@@ -51,6 +57,7 @@ Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   if (!call) return call.error();
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::set_objects", "object layer", layer);
+  if (Status good = check_objects(objects); !good) return refusal("set_objects", good);
   impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid);
   return impl_->show_layers();
 }
@@ -60,6 +67,9 @@ Status Globe::edit_objects(LayerId layer, ObjectEdits edits) {
   if (Status call = impl_->may_call("Globe::edit_objects"); !call) return call;
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::edit_objects", "object layer", layer);
+  if (Status good = check_objects(edits.add, changed->newest(), edits.remove); !good) {
+    return Error{refusal("edit_objects", good).message + ". No edit is made"};
+  }
   const auto wrong = std::ranges::find_if_not(edits.changes, is_positive);
   const float wrong_px = wrong == edits.changes.end() ? 1.0F : *wrong->size_px;
   std::erase_if(edits.changes, [](const ObjectChange& change) { return !is_positive(change); });

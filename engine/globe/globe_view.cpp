@@ -77,7 +77,13 @@ bool GlobeView::Impl::render_until_settled(const char* call, unsigned framebuffe
 
 Status GlobeView::Impl::copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px) {
   const auto scope = may_draw(call);
-  return scope ? globe->renderer->copy_depth(memory.targets, framebuffer, corner_px) : scope.error();
+  if (!scope) return scope.error();
+  if (frame == 0) return Error{std::string(call) + ": the view has drawn no frame; draw one first"};
+  if (!memory.has_picture()) {
+    return Error{std::string(call) +
+                 ": another view of the globe has been drawn since; copy the depth right after the view's own frame"};
+  }
+  return globe->renderer->copy_depth(*memory.targets, framebuffer, corner_px);
 }
 
 void GlobeView::Impl::set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draws) {
@@ -183,7 +189,7 @@ void GlobeView::on_draw(std::function<void(DrawStage, const FrameMatrices&)> dra
   if (impl_->may_call("GlobeView::on_draw")) impl_->set_on_draw(std::move(draw));
 }
 
-unsigned GlobeView::depth_texture() const { return impl_->memory.targets.depth(); }
+unsigned GlobeView::depth_texture() const { return impl_->depth_texture(); }
 
 Status GlobeView::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
   return impl_->copy_depth("GlobeView::copy_depth", framebuffer, corner_px);

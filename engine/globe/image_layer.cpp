@@ -97,6 +97,7 @@ void ImageLayer::forget(ViewId view) {
 }
 
 void ImageLayer::discard_patches() {
+  vertices_.reset();
   for (const auto& view : views_) view->discard_patches();
 }
 
@@ -157,7 +158,7 @@ bool ImageLayer::is_special(bool has_night) const {
          (has_night && look_.daylight != Daylight::both);
 }
 
-// An upload evicts what no view needs. A view that takes more than its room is not spared.
+// An upload evicts tiles that no view needs. A view that takes more than its room is not spared.
 void ImageLayer::keep_tiles_of_views(std::size_t uploads, std::uint64_t frame) {
   if (views_.size() < 2 || tiles_.free_slots() > static_cast<int>(uploads)) return;
   for (const auto& view : views_) {

@@ -77,18 +77,20 @@ class ImageLayer {
   void forget(ViewId view);
   [[nodiscard]] const std::vector<std::unique_ptr<LayerView>>& views() const { return views_; }
   void discard_patches();
+  /// The vertices of the patches that the views draw; empty: drawn from those of the base layer.
+  [[nodiscard]] std::unique_ptr<PatchBuffers>& vertices() { return vertices_; }
   void restore_detail();
   [[nodiscard]] std::unique_ptr<PatchTree> make_tree() const;
-  /// Number of tiles that a view may want: what the other views leave, at least an equal share.
+  /// Number of tiles that a view may want: the room that the other views leave, at least an equal share.
   [[nodiscard]] int room_for(const LayerView& view) const;
   /// True if a view holds more tiles than it has room for, because others have come.
   [[nodiscard]] bool is_crowded(const LayerView& view) const;
-  /// Requests what `asking` wants, and what the last frames of the other views still want.
+  /// Requests the tiles that `asking` wants, and those that the last frames of the other views still want.
   void request(const LayerView& asking);
 
   /// Uploads arrived tiles and returns their bytes. Appends failed tiles to `missing`.
   std::size_t take_finished(UploadAllowance& allowance, std::uint64_t frame, std::deque<MissingTile>& missing);
-  /// Evicts and forgets what frames of `view` have not used for long.
+  /// Drops patches of `view` and states of tiles that no frame has used for long.
   void end_frame(LayerView& view, std::uint64_t frame);
   void stop_asking();
 
@@ -117,6 +119,7 @@ class ImageLayer {
   std::chrono::milliseconds retry_after_;
   std::optional<NumberColors> numbers_;
   bool has_transparency_ = false;  ///< a loaded tile has transparent pixels
+  std::unique_ptr<PatchBuffers> vertices_;
   std::vector<std::unique_ptr<LayerView>> views_;
 };
 

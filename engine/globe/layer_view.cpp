@@ -23,7 +23,6 @@ bool LayerView::has_tiles(std::size_t patch) const { return std::ranges::any_of(
 bool LayerView::is_full(std::size_t patch) const { return std::ranges::all_of(cells_of(coverage_, patch), has_tile); }
 
 void LayerView::discard_patches() {
-  gpu_.vertices.reset();
   patches_.clear();
   tree_ = layer_.make_tree();
 }
@@ -98,6 +97,7 @@ LayerFrame LayerView::frame(bool is_base, bool has_night) {
           .coverage = &coverage_,
           .tiles = &layer_.tiles(),
           .gpu = &gpu_,
+          .vertices = &layer_.vertices(),
           .opacity = is_base ? 1.0 : look.opacity,
           .daylight = has_night ? look.daylight : Daylight::both,
           .alpha = look.alpha,

@@ -13,7 +13,7 @@ namespace terrella {
 
 class ImageLayer;
 
-/// Names a view of one globe, never a second one of that globe.
+/// Identifier of a view, unique within its globe.
 enum class ViewId : std::uint64_t {};
 
 /// One image layer as one view draws it: the patches, and the tiles that they want. ImageLayer holds the tiles, which
@@ -68,8 +68,8 @@ class LayerView {
   bool hides_ = false;
   double detail_ = 1.0;  ///< part of the layer's texels_per_pixel that the view has room for
   std::vector<TileRequest> requests_;
-  StreamCounts seen_;          ///< of the layer's stream, at the last request
-  std::uint64_t edition_ = 0;  ///< of the source, at the last request
+  StreamCounts seen_;          ///< counts of the layer's stream at the last request
+  std::uint64_t edition_ = 0;  ///< edition of the source at the last request
   int outdated_drawn_ = 0;     ///< outdated tiles that the last frame drew
   std::uint64_t frame_ = 0;    ///< number of the view's last frame
 };

@@ -35,6 +35,9 @@ class ObjectLayer {
   [[nodiscard]] bool has_news() const;  ///< a worker has finished
   [[nodiscard]] bool waits() const;     ///< the layer is drawn, and a worker has not finished
 
+  /// The objects that edits change: those of the last scene that was set.
+  [[nodiscard]] const LayerObjects* newest() const { return &(next_ ? next_ : now_)->objects; }
+
   [[nodiscard]] bool is_drawn() const { return shown && opacity_ > 0.0 && now_ && !now_->objects.empty(); }
   /// The version that is drawn. Call it only if is_drawn().
   [[nodiscard]] DrawnLayer drawn() const { return {&now_->objects, &now_->buffers}; }
@@ -75,8 +78,8 @@ class ObjectLayer {
   std::shared_ptr<ArrivalBell> bell_;
   double opacity_ = 1.0;
   ObjectColor selected_color_ = kSelectedColor;
-  std::unique_ptr<Version> now_;   ///< what is drawn
-  std::unique_ptr<Version> next_;  ///< what will be drawn, once it is cut
+  std::unique_ptr<Version> now_;   ///< version that is drawn
+  std::unique_ptr<Version> next_;  ///< version that is drawn next, once it is cut
   bool replaced_ = false;
 };
 

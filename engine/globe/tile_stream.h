@@ -22,7 +22,7 @@ inline void note(std::deque<MissingTile>& missing, MissingTile tile) {
   if (missing.size() > kMost) missing.pop_front();
 }
 
-/// Counts of a stream. A view remembers those of its last frame, so that it knows whether others took what it wants.
+/// Counts of a stream. A view remembers those of its last frame, and knows by them if others took tiles that it wants.
 struct StreamCounts {
   std::uint64_t taken = 0;    ///< tiles handed over, failed ones too
   std::uint64_t retries = 0;  ///< rounds of retries

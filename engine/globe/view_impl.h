@@ -40,6 +40,7 @@ struct GlobeView::Impl {
   bool render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                             std::chrono::steady_clock::time_point deadline);
   Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);
+  [[nodiscard]] unsigned depth_texture() const { return memory.has_picture() ? memory.targets->depth() : 0; }
   void set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw);
   [[nodiscard]] bool settled() const;
   [[nodiscard]] bool needs_frame() const;
@@ -85,12 +86,12 @@ struct GlobeView::Impl {
   unsigned drawn_into = 0;  ///< framebuffer of the last frame
   bool changed = true;      ///< something changed since the last frame
   bool was_settled = false;
-  StreamCounts heights_seen;  ///< at the last frame
+  StreamCounts heights_seen;  ///< counts of the heights' stream at the last frame
   std::function<void()> on_settled;
   std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
-  Status status = Done{};  ///< of the last frame
+  Status status = Done{};  ///< result of the last frame
 };
 
 }  // namespace terrella

@@ -9,7 +9,7 @@ namespace {
 
 /// Pieces of lines that take about a frame's time.
 constexpr double kMostPiecesAtOnce = 30'000.0;
-/// An area with a fill costs as much as so many pieces of a line.
+/// An area with a fill costs as much as this many pieces of a line.
 constexpr double kPiecesOfAFill = 1500.0;
 
 /// Appends a way with one vertex before and one after it. For a closed way, these are its neighbours round the corner.

@@ -17,13 +17,13 @@ inline constexpr std::size_t kMostFillTriangles = 8'000'000;
 
 /// A line, cut so that it follows the ellipsoid: in the layout for the GPU, without a colour. Pieces are 1 px wide.
 struct LineCut {
-  std::uint32_t index = 0;  ///< of the line, in its layer
+  std::uint32_t index = 0;  ///< index of the line in its layer
   std::vector<LineVertex> vertices;
 };
 
 /// An area, cut likewise: its fill and its outlines.
 struct AreaCut {
-  std::uint32_t index = 0;  ///< of the area, in its layer
+  std::uint32_t index = 0;  ///< index of the area in its layer
   std::vector<FillVertex> fill = {};
   std::vector<std::uint32_t> triangles = {};
   std::vector<LineVertex> outline = {};
@@ -43,7 +43,7 @@ struct CutJob {
     double height_m;     ///< mean height of the places
   };
   Ellipsoid ellipsoid;
-  Angle step{};  ///< of lines and outlines
+  Angle step{};  ///< step between the vertices of lines and outlines (line_step())
   std::size_t most_triangles = kMostFillTriangles;
   std::vector<Line> lines = {};
   std::vector<Area> areas = {};

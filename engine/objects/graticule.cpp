@@ -262,7 +262,7 @@ class Builder {
   const View& view_;
   GraticuleTracer tracer_;
   Geodetic centre_;                                                             ///< place at the picture's centre
-  double south_deg_ = 0.0, north_deg_ = 0.0, west_deg_ = 0.0, east_deg_ = 0.0;  ///< of the ground in the picture
+  double south_deg_ = 0.0, north_deg_ = 0.0, west_deg_ = 0.0, east_deg_ = 0.0;  ///< bounds of the ground in the picture
   double under_lat_deg_ = 0.0, under_lon_deg_ = 0.0;                            ///< place under the eye
   LabelSize label_;
   Graticule out_;

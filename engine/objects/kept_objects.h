@@ -29,7 +29,8 @@ struct Kept {
 struct KeptPoint : Kept {
   PointObject object;
   glm::dvec3 place_m{0.0};
-  Slot slot = {};  ///< of a marker
+  Slot slot = {};           ///< slot of a disc or an icon
+  std::uint32_t image = 0;  ///< index of an icon's picture in LayerBatches::icon_images
 };
 
 /// Lines and areas share their places with the workers that cut them. A slot is empty until the object is cut.

@@ -45,34 +45,39 @@ LabelRoom::LabelRoom(Viewport picture)
       rows_(picture.height_px / kCell_px + 1),
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
+/// Calls with the index of each cell that a box touches.
 template <class Visit>
-void LabelRoom::each_cell(const LabelBox& box, const Visit& visit) {
+void LabelRoom::each_cell(const LabelBox& box, const Visit& visit) const {
   for (int row = int(box.low_px.y) / kCell_px; row <= int(box.high_px.y) / kCell_px; ++row) {
     for (int column = int(box.low_px.x) / kCell_px; column <= int(box.high_px.x) / kCell_px; ++column) {
-      visit(cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                   static_cast<std::size_t>(column)]);
+      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column));
     }
   }
 }
 
 void LabelRoom::claim(const LabelBox& box) {
-  each_cell(box, [&box](std::vector<LabelBox>& cell) { cell.push_back(box); });
+  each_cell(box, [this, &box](std::size_t cell) { cells_[cell].push_back(box); });
 }
 
-bool LabelRoom::take(const LabelBox& box) {
+bool LabelRoom::is_free(const LabelBox& box) const {
   if (!(box.low_px.x >= 0.0F && box.low_px.y >= 0.0F && box.high_px.x <= float(picture_.width_px) &&
         box.high_px.y <= float(picture_.height_px))) {
     return false;
   }
   bool free = true;
-  each_cell(box, [&free, &box](const std::vector<LabelBox>& cell) {
-    free = free && std::ranges::none_of(cell, [&box](const LabelBox& other) {
+  each_cell(box, [this, &free, &box](std::size_t cell) {
+    free = free && std::ranges::none_of(cells_[cell], [&box](const LabelBox& other) {
              return box.low_px.x < other.high_px.x && other.low_px.x < box.high_px.x &&
                     box.low_px.y < other.high_px.y && other.low_px.y < box.high_px.y;
            });
   });
-  if (free) claim(box);
   return free;
+}
+
+bool LabelRoom::take(const LabelBox& box) {
+  if (!is_free(box)) return false;
+  claim(box);
+  return true;
 }
 
 bool is_behind(const glm::dvec3& point_m, const glm::dvec3& eye_m, const glm::dvec3& half_axes_m) {

@@ -28,6 +28,8 @@ struct LabelBox {
 class LabelRoom {
  public:
   explicit LabelRoom(Viewport picture);
+  /// True if a box is wholly in the picture and overlaps no claimed box.
+  [[nodiscard]] bool is_free(const LabelBox& box) const;
   /// Claims a box. False if the box is not wholly in the picture, or overlaps a box claimed before.
   bool take(const LabelBox& box);
   /// Claims a box within the picture, even if it overlaps others.
@@ -35,7 +37,7 @@ class LabelRoom {
 
  private:
   template <class Visit>
-  void each_cell(const LabelBox& box, const Visit& visit);
+  void each_cell(const LabelBox& box, const Visit& visit) const;
 
   Viewport picture_;
   int columns_, rows_;

@@ -33,7 +33,10 @@ struct ModelStands {
 /// All objects of a layer but labels, in the layout for the GPU. The renderer uploads what has changed.
 struct LayerBatches {
   SphereBatch spheres;
-  SlotBatch<DotInstance> markers;
+  SlotBatch<DotInstance> markers;  ///< discs
+  SlotBatch<IconInstance> icons;
+  std::vector<std::shared_ptr<const IconImage>> icon_images;
+  float icons_below_px = 0.0F;  ///< the most that an icon reaches down from its place
   SlotBatch<LineVertex> lines;  ///< n vertices contain n - 3 pieces
   SlotBatch<FillVertex> fill_vertices;
   SlotBatch<std::uint32_t> fill_indices;

@@ -3,7 +3,7 @@
 
 #include "objects/layer_objects.h"
 
-// The lines and areas of a layer: what is to be cut, and what was.
+// The lines and areas of a layer: jobs to cut, and finished cuts.
 namespace terrella {
 namespace {
 

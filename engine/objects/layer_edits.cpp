@@ -21,9 +21,11 @@ bool LayerObjects::move(const ObjectMove& move) {
     }
     if (part.kind == ObjectKind::point) {
       points_[part.index].object.place = move.place;
+      points_[part.index].object.icon.heading = move.heading.value_or(points_[part.index].object.icon.heading);
       points_[part.index].place_m = place_m;
     } else if (part.kind == ObjectKind::mesh) {
       meshes_[part.index].object.place = move.place;
+      meshes_[part.index].object.heading = move.heading.value_or(meshes_[part.index].object.heading);
       meshes_[part.index].place_m = place_m;
     } else {
       continue;
@@ -58,12 +60,31 @@ bool LayerObjects::set_text(const ObjectText& text) {
   return true;
 }
 
+const ObjectFeature* LayerObjects::feature(ObjectId id) const {
+  const auto found = parts_.find(static_cast<std::uint64_t>(id));
+  if (found == parts_.end()) return nullptr;
+  const auto data_of = [this](PartRef part) -> const ObjectFeature* {
+    if (part.kind == ObjectKind::point) return points_[part.index].object.of.feature.get();
+    if (part.kind == ObjectKind::line) return lines_[part.index].object->of.feature.get();
+    if (part.kind == ObjectKind::polygon) return areas_[part.index].object->of.feature.get();
+    if (part.kind == ObjectKind::mesh) return meshes_[part.index].object.of.feature.get();
+    return labels_[part.index].object.of.feature.get();
+  };
+  for (PartRef part = found->second; part; part = kept(part).next) {
+    if (const ObjectFeature* data = data_of(part)) return data;
+  }
+  return nullptr;
+}
+
 void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
   if (change.size_px) most_reach_px_ = std::max(most_reach_px_, 0.5 * double(*change.size_px));
   if (part.kind == ObjectKind::point) {
     PointObject& point = points_[part.index].object;
-    point.color = change.color.value_or(point.color);
+    ObjectColor& color = is_icon(point) ? point.icon.tint : point.color;
+    color = change.color.value_or(color);
     point.size_px = change.size_px.value_or(point.size_px);
+    point.icon.heading = change.heading.value_or(point.icon.heading);
+    most_reach_px_ = std::max(most_reach_px_, reach_px(point));
   } else if (part.kind == ObjectKind::line) {
     KeptLine& line = lines_[part.index];
     line.object->color = change.color.value_or(line.object->color);

@@ -30,7 +30,7 @@ LayerObjects::LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double
   add(std::move(scene));
 }
 
-Kept& LayerObjects::kept(PartRef part) {
+const Kept& LayerObjects::kept(PartRef part) const {
   switch (part.kind) {
     case ObjectKind::point:
       return points_[part.index];
@@ -89,7 +89,7 @@ void LayerObjects::add(PointObject point) {
   const std::uint32_t index = keep(ObjectKind::point, std::move(point), points_);
   KeptPoint& kept = points_[index];
   kept.place_m = ellipsoid_.to_ecef(kept.object.place).xyz_m;
-  most_reach_px_ = std::max(most_reach_px_, 0.5 * double(kept.object.size_px));
+  most_reach_px_ = std::max(most_reach_px_, reach_px(kept.object));
   draw(kept);
   link({ObjectKind::point, index}, kept.object.of.id);
 }
@@ -151,7 +151,8 @@ bool LayerObjects::has(ObjectPart part) const {
   for (const bool opaque : {true, false}) {
     if (batches_.spheres.ranges.range(part, opaque, ObjectChoice::all).count > 0) return true;
   }
-  if (batches_.markers.has(part) || batches_.lines.has(part) || batches_.fill_vertices.has(part)) return true;
+  if (batches_.markers.has(part) || batches_.icons.has(part)) return true;
+  if (batches_.lines.has(part) || batches_.fill_vertices.has(part)) return true;
   return std::ranges::any_of(batches_.models, [part](const ModelStands& model) { return model.stands.has(part); });
 }
 

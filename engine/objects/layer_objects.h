@@ -2,6 +2,7 @@
 
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "geo/object_edits.h"
@@ -12,8 +13,9 @@
 
 namespace terrella {
 
-/// The objects of one layer, kept in the layout for the GPU. An edit costs what it changes. Lines and areas are cut by
-/// jobs, which any thread may do, and are drawn once place() has their cuts. thread: any, but one call at a time
+/// The objects of one layer, kept in the layout for the GPU. The cost of an edit depends on the edited objects alone.
+/// Jobs, which any thread may do, cut lines and areas. These are drawn once place() has their cuts. thread: any, but
+/// one call at a time
 class LayerObjects {
  public:
   LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color);
@@ -34,11 +36,15 @@ class LayerObjects {
 
   [[nodiscard]] bool empty() const { return live_ == 0; }
   [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
-  /// Gives the memory of removed objects back, if it is much, and sorts spheres. Call it before drawing.
+  /// Frees the memory of removed objects if it is large, and sorts spheres. Call it before drawing.
   void tidy();
   [[nodiscard]] LayerBatches& batches() { return batches_; }
+  [[nodiscard]] const LayerBatches& batches() const { return batches_; }
 
-  [[nodiscard]] bool has(ObjectPart part) const;  ///< of what is cut; true if there is something to draw
+  /// Data of a feature; null if the layer does not have the feature, or it has no data.
+  [[nodiscard]] const ObjectFeature* feature(ObjectId id) const;
+
+  [[nodiscard]] bool has(ObjectPart part) const;  ///< true if cut objects have this part to draw
 
   [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
 
@@ -65,7 +71,8 @@ class LayerObjects {
   void add(MeshObject mesh);
   void add(LabelObject label);
   void link(PartRef part, ObjectId id);
-  [[nodiscard]] Kept& kept(PartRef part);
+  [[nodiscard]] Kept& kept(PartRef part) { return const_cast<Kept&>(std::as_const(*this).kept(part)); }
+  [[nodiscard]] const Kept& kept(PartRef part) const;
   void take_away(PartRef part);
   void order_labels(std::size_t first);
   void forget_removed();
@@ -77,6 +84,7 @@ class LayerObjects {
   [[nodiscard]] std::size_t fill_bucket(const KeptArea& area) const;
   void drop(PartRef part);
   void draw(KeptPoint& point);
+  void draw_icon(KeptPoint& point);
   void draw(KeptLine& line);
   void draw(KeptArea& area);
   void draw(KeptMesh& mesh);
@@ -91,6 +99,7 @@ class LayerObjects {
   void place_all_again();
   void sort_spheres();
   [[nodiscard]] DotInstance dot(const KeptPoint& point) const;
+  [[nodiscard]] IconInstance icon(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
   // layer_edits.cpp
   void change_part(PartRef part, const ObjectChange& change);
@@ -117,13 +126,13 @@ class LayerObjects {
   std::array<std::size_t, 2> label_counts_{};  ///< above ground, underground
   LayerBatches batches_;
   std::vector<std::uint32_t> sphere_points_;  ///< per sphere in the groups: index of its point
-  Angle length_{};                            ///< of all lines and outlines
-  std::size_t triangles_ = 0;                 ///< of all fills
+  Angle length_{};                            ///< length of all lines and outlines together
+  std::size_t triangles_ = 0;                 ///< triangles of all fills
   std::size_t fills_dropped_ = 0;
   CutJob job_;
   std::size_t jobs_out_ = 0;  ///< taken, and not placed
   std::unique_ptr<ObjectIndex> index_;
-  double most_reach_px_ = 0.0;  ///< of markers and lines, from their middle
+  double most_reach_px_ = 0.0;  ///< largest half width of markers and lines
 };
 
 }  // namespace terrella

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "objects/layer_objects.h"
+#include "objects/object_shapes.h"
 
 // The objects of a layer in its batches.
 namespace terrella {
@@ -10,13 +12,15 @@ namespace {
 
 /// Directions of a model's x (left), y (up) and z (forward) at its place. Each is as long as a metre of the model.
 std::array<glm::vec3, 3> axes_of(const MeshObject& mesh) {
-  const double sin_lat = std::sin(mesh.place.lat.rad()), cos_lat = std::cos(mesh.place.lat.rad());
-  const double sin_lon = std::sin(mesh.place.lon.rad()), cos_lon = std::cos(mesh.place.lon.rad());
-  const glm::dvec3 up(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat), east(-sin_lon, cos_lon, 0.0);
-  const glm::dvec3 north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
-  const double s = std::sin(mesh.heading.rad()), c = std::cos(mesh.heading.rad());
-  const glm::dvec3 forward = s * east + c * north, left = s * north - c * east;
+  const glm::dvec3 up = Ellipsoid::normal(mesh.place.lat, mesh.place.lon).xyz;
+  const glm::dvec3 forward = level_direction(mesh.place, mesh.heading), left = glm::cross(up, forward);
   return {glm::vec3(mesh.scale * left), glm::vec3(mesh.scale * up), glm::vec3(mesh.scale * forward)};
+}
+
+// A selected object with a picture of its own keeps some of it.
+ObjectColor wash_of(ObjectColor selected) {
+  constexpr std::uint8_t kMixed = 150;
+  return {selected.red, selected.green, selected.blue, kMixed};
 }
 
 template <class T>
@@ -40,7 +44,8 @@ DotInstance LayerObjects::dot(const KeptPoint& point) const {
 }
 
 std::size_t LayerObjects::bucket_of(const KeptPoint& point) const {
-  return bucket_of(is_underground(point.object), point.object.color, point.object.through_surface);
+  const PointObject& object = point.object;
+  return bucket_of(is_underground(object), is_icon(object) ? object.icon.tint : object.color, object.through_surface);
 }
 
 std::size_t LayerObjects::bucket_of(const KeptLine& line) const {
@@ -55,7 +60,40 @@ std::size_t LayerObjects::fill_bucket(const KeptArea& area) const {
   return bucket_of(is_underground(*area.object), area.object->fill, area.object->through_surface);
 }
 
+IconInstance LayerObjects::icon(const KeptPoint& point) const {
+  const PointIcon& icon = point.object.icon;
+  const SplitPosition p = split_position(point.place_m);
+  IconInstance item{p.high, p.low, {}, icon.anchor, point.object.size_px, point.image, icon.tint};
+  if (icon.from_north) {
+    item.up = glm::vec4(glm::vec3(level_direction(point.object.place, icon.heading)), 0.0F);
+  } else {
+    item.up = glm::vec4(std::sin(icon.heading.rad()), std::cos(icon.heading.rad()), 0.0, 1.0);
+  }
+  item.color.alpha = drawn(icon.tint, point).alpha;
+  if (point.selected) item.wash = wash_of(selected_color_);
+  return item;
+}
+
+void LayerObjects::draw_icon(KeptPoint& point) {
+  batches_.icons_below_px = std::max(batches_.icons_below_px, static_cast<float>(below_px(point.object)));
+  const std::size_t bucket = bucket_of(point);
+  if (point.slot.count > 0 && point.slot.bucket == bucket) {
+    batches_.icons.change(point.slot).front() = icon(point);
+    return;
+  }
+  if (point.slot.count == 0) {
+    auto& images = batches_.icon_images;
+    const auto found = std::ranges::find(images, point.object.icon.image);
+    point.image = static_cast<std::uint32_t>(found - images.begin());
+    if (found == images.end()) images.push_back(point.object.icon.image);
+  }
+  batches_.icons.drop(point.slot);
+  const IconInstance item = icon(point);
+  point.slot = batches_.icons.add(bucket, std::span(&item, 1));
+}
+
 void LayerObjects::draw(KeptPoint& point) {
+  if (is_icon(point.object)) return draw_icon(point);
   const std::size_t bucket = bucket_of(point);
   const bool in_place = point.slot.count > 0 && point.slot.bucket == bucket;
   if (point.object.radius_m > 0.0) {
@@ -80,6 +118,8 @@ void LayerObjects::drop(PartRef part) {
     KeptPoint& point = points_[part.index];
     if (point.object.radius_m > 0.0) {
       batches_.spheres.stale = true;
+    } else if (is_icon(point.object)) {
+      batches_.icons.drop(point.slot);
     } else {
       batches_.markers.drop(point.slot);
     }
@@ -131,10 +171,7 @@ MeshStand LayerObjects::stand(const KeptMesh& mesh) const {
   const SplitPosition p = split_position(mesh.place_m);
   MeshStand stand{p.high, p.low, {}};
   if (mesh.visible) stand.ecef_from_model = axes_of(mesh.object);
-  if (mesh.selected) {
-    constexpr std::uint8_t kMixed = 150;
-    stand.tint = {selected_color_.red, selected_color_.green, selected_color_.blue, kMixed};
-  }
+  if (mesh.selected) stand.tint = wash_of(selected_color_);
   return stand;
 }
 

@@ -48,7 +48,7 @@ std::optional<dvec2> MapLabels::place_px(std::size_t name, const View& view, con
 /// Names in the picture that are large enough, the highest rank first.
 std::vector<MapLabels::Candidate> MapLabels::candidates(const View& view, const Ground& ground, double scale) const {
   std::vector<Candidate> found;
-  const double metres = scale / view.pixels_per_radian();  // of a pixel, at a distance of one metre
+  const double metres = scale / view.pixels_per_radian();  // size of a pixel at a distance of one metre
   const double nearest_m = std::max(ellipsoid_.to_geodetic(view.eye).height_m * 0.9 - 2.0e4, 1.0);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     const double kept = shown_[k] == Side::hidden ? 1.0 : kKept;

@@ -34,14 +34,13 @@ struct ShownName {
 struct LabelPage {
   bool moves = false;                                          ///< the camera is in motion
   double scale = 1.0;                                          ///< pixels of a unit at 96 dots per inch
-  std::function<glm::dvec2(const std::string&)> size_px = {};  ///< of a text
+  std::function<glm::dvec2(const std::string&)> size_px = {};  ///< measures a text
   std::vector<LabelBox> taken = {};                            ///< boxes that stay free of names
 };
 
-/// Chooses the names of a map that a picture shows: the highest ranks first, without overlaps. A name that was shown
-/// in the last picture counts a little more, and a name that vanished stays away for a while, so that names do not
-/// flicker while the camera moves. thread: that of the
-/// ground, one call at a time
+/// Chooses the names of a map that a picture shows: the highest ranks first, without overlaps. A name of the last
+/// picture counts a little more, and a name that vanished stays away for a while. So names do not flicker while the
+/// camera moves. thread: that of the ground, one call at a time
 class MapLabels {
  public:
   MapLabels(std::vector<MapName> names, const Ellipsoid& ellipsoid);

@@ -14,7 +14,7 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 constexpr double kStep_deg = 0.25;         // between vertices; a chord lies at most 15 m under the Earth's surface
-constexpr std::size_t kPartVertices = 48;  // of a part that is left out as a whole
+constexpr std::size_t kPartVertices = 48;  // vertices of a part, which is drawn or left out as a whole
 constexpr double kBeyond_px = 16.0;        // lines continue past the picture's edges
 constexpr double kNearest_m = 0.1;         // in front of the eye
 

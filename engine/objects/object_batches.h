@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "geo/objects.h"
@@ -28,6 +30,19 @@ struct DotInstance {
   ObjectColor color;
 };
 static_assert(sizeof(DotInstance) == 32);
+
+/// An icon. `up` is the direction of the picture's upper edge: Earth-fixed, or, if its w is 1, on the screen (y up).
+struct IconInstance {
+  glm::vec3 high_m;
+  glm::vec3 low_m;
+  glm::vec4 up;
+  glm::vec2 anchor;
+  float size_px;
+  std::uint32_t image;           ///< index in LayerBatches::icon_images
+  ObjectColor color;             ///< factor of colours and alpha
+  ObjectColor wash{0, 0, 0, 0};  ///< mixed in by its alpha
+};
+static_assert(sizeof(IconInstance) == 64);
 
 /// A vertex of lines. Each vertex with a width begins a piece that leads to the next vertex. One more vertex before and
 /// one after each line define the mitres of its ends.

@@ -36,7 +36,7 @@ class ObjectIndex {
   void take_out(const Entry& entry);
   void divide(std::uint32_t node);
 
-  std::vector<Node> nodes_;  ///< the root also has what lies outside of it
+  std::vector<Node> nodes_;  ///< the root also has the balls that lie outside of its cube
   std::vector<Entry> entries_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "geo/great_circle.h"
 #include "objects/object_shapes.h"
@@ -85,6 +87,22 @@ double reach_m(const MeshModel& model) {
   return double(reach_m);
 }
 
+glm::dvec2 icon_sides_px(const PointObject& icon) {
+  const glm::dvec2 picture(icon.icon.image->width_px, icon.icon.image->height_px);
+  return picture * (double(icon.size_px) / std::max(picture.x, picture.y));
+}
+
+double reach_px(const PointObject& marker) {
+  if (!is_icon(marker)) return 0.5 * double(marker.size_px);
+  const glm::dvec2 anchor(marker.icon.anchor);
+  return glm::length(glm::max(glm::abs(anchor), glm::abs(1.0 - anchor)) * icon_sides_px(marker));
+}
+
+double below_px(const PointObject& icon) {
+  if (icon.icon.from_north || icon.icon.heading != Angle{}) return reach_px(icon);
+  return std::max(0.0, (1.0 - double(icon.icon.anchor.y)) * icon_sides_px(icon).y);
+}
+
 // At equal distance, a later object wins.
 void ObjectPicker::take(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const glm::dvec3& at_m) {
   const double distance = glm::length(at_m - view_.eye.xyz_m);
@@ -111,8 +129,27 @@ void ObjectPicker::sphere(ObjectKind kind, std::size_t index, const ObjectIdenti
 void ObjectPicker::point(const PointObject& point, const glm::dvec3& place_m, std::size_t index) {
   if (point.radius_m > 0.0) return sphere(ObjectKind::point, index, point.of, {place_m, point.radius_m});
   const auto at = project(view_, Ecef{place_m});
-  if (!at || !(glm::length(*at - pixel_px_) <= 0.5 * double(point.size_px) + options_.slack_px)) return;
+  if (!at) return;
+  if (is_icon(point) ? !in_icon(point, place_m, *at)
+                     : !(glm::length(*at - pixel_px_) <= 0.5 * double(point.size_px) + options_.slack_px)) {
+    return;
+  }
   take(ObjectKind::point, index, point.of, place_m);
+}
+
+// The icon's rectangle, widened as markers are.
+bool ObjectPicker::in_icon(const PointObject& icon, const glm::dvec3& place_m, const glm::dvec2& at_px) const {
+  glm::dvec2 up(std::sin(icon.icon.heading.rad()), -std::cos(icon.icon.heading.rad()));  // pixels, y down
+  if (icon.icon.from_north) {
+    const double step_m = 1e-5 * glm::length(place_m - view_.eye.xyz_m);
+    const auto ahead = project(view_, Ecef{place_m + step_m * level_direction(icon.place, icon.icon.heading)});
+    if (!ahead || *ahead == at_px) return false;
+    up = glm::normalize(*ahead - at_px);
+  }
+  const glm::dvec2 off = pixel_px_ - at_px, right(-up.y, up.x), sides = icon_sides_px(icon);
+  const glm::dvec2 in = glm::dvec2(glm::dot(off, right), -glm::dot(off, up)) + glm::dvec2(icon.icon.anchor) * sides;
+  return glm::all(glm::greaterThanEqual(in, glm::dvec2(-options_.slack_px))) &&
+         glm::all(glm::lessThanEqual(in, sides + options_.slack_px));
 }
 
 void ObjectPicker::mesh(const MeshObject& mesh, const glm::dvec3& place_m, double radius_m, std::size_t index) {

@@ -30,6 +30,14 @@ struct PickArea {
 };
 
 [[nodiscard]] PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid);
+/// True if a point is drawn as an icon.
+[[nodiscard]] inline bool is_icon(const PointObject& point) { return point.icon.image && !(point.radius_m > 0.0); }
+/// Width and height of an icon on the screen, pixels.
+[[nodiscard]] glm::dvec2 icon_sides_px(const PointObject& icon);
+/// Distance from a marker's place within which all of the marker lies, pixels.
+[[nodiscard]] double reach_px(const PointObject& marker);
+/// Distance that an icon reaches down from its place on the screen, at most.
+[[nodiscard]] double below_px(const PointObject& icon);
 /// Radius of a ball around a model's origin that contains the model, metres at scale 1.
 [[nodiscard]] double reach_m(const MeshModel& model);
 
@@ -51,6 +59,7 @@ class ObjectPicker {
   void take(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const glm::dvec3& at_m);
   void sphere(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const Ball& ball);
   void along(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way, float width_px);
+  [[nodiscard]] bool in_icon(const PointObject& icon, const glm::dvec3& place_m, const glm::dvec2& at_px) const;
   [[nodiscard]] bool hidden(const glm::dvec3& at_m) const;
 
   const View& view_;

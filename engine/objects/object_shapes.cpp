@@ -73,6 +73,13 @@ void along_great_circle(const Geodetic& a, const Geodetic& b, int n, const Ellip
 
 }  // namespace
 
+glm::dvec3 level_direction(const Geodetic& place, Angle heading) {
+  const double sin_lat = std::sin(place.lat.rad()), cos_lat = std::cos(place.lat.rad());
+  const double sin_lon = std::sin(place.lon.rad()), cos_lon = std::cos(place.lon.rad());
+  const glm::dvec3 east(-sin_lon, cos_lon, 0.0), north(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
+  return std::sin(heading.rad()) * east + std::cos(heading.rad()) * north;
+}
+
 double sag_m(const Ellipsoid& ellipsoid, Angle step) {
   const double radius_m = ellipsoid.a_m() / (1.0 - ellipsoid.f());  // largest radius of curvature, at a pole
   return radius_m * (1.0 - std::cos(0.5 * step.rad()));

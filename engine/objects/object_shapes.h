@@ -22,10 +22,13 @@ inline constexpr Angle kLineStep = Angle::degrees(0.045);
 [[nodiscard]] std::vector<glm::dvec3> line_along_geodesics(const std::vector<Geodetic>& places,
                                                            const Ellipsoid& ellipsoid, Angle step);
 
-/// The same along the edges of areas: great circles of the sphere of geodetic latitude and longitude
-/// (geo/great_circle.h), closed, and raised by `lift_m`.
+/// Returns ECEF positions, metres, along the edges of an area: great circles of the sphere of geodetic latitude and
+/// longitude (geo/great_circle.h), closed, and raised by `lift_m`.
 [[nodiscard]] std::vector<glm::dvec3> outline(const std::vector<Geodetic>& ring, const Ellipsoid& ellipsoid, Angle step,
                                               double lift_m);
+
+/// Returns the level direction at a place under a heading, clockwise from north: unit, ECEF.
+[[nodiscard]] glm::dvec3 level_direction(const Geodetic& place, Angle heading);
 
 /// Returns the length of a line through places, as an angle on the sphere. The number of pieces follows from this
 /// length.

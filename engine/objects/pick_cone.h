@@ -18,7 +18,7 @@ class PickCone {
     constexpr double kWide = 1.0;
     tangent_ = angle < kWide ? std::tan(1.001 * angle) : -1.0;
   }
-  /// False only if no place of the ball lies in the cone. False for what is not finite.
+  /// False only if no place of the ball lies in the cone, or if a value is not finite.
   [[nodiscard]] bool meets(const glm::dvec3& center_m, double radius_m) const {
     const glm::dvec3 to = center_m - eye_m_;
     const double along = glm::dot(to, ray_);

@@ -1,9 +1,11 @@
-# What an application includes, as <terrella/globe.h> and so on; what these include in turn is public with them. Nothing else is installed.
+# Headers that an application includes, as <terrella/globe.h> and so on. Headers that these include are public with
+# them. No other header is installed.
 set(TERRELLA_PUBLIC_HEADERS
   engine/globe/data_files.h
   engine/globe/globe.h
   engine/geo/great_circle.h
   engine/geo/measure.h
+  engine/geo/split_position.h
   engine/render/caller_glsl.h
   engine/render/gl/offscreen.h
   engine/objects/graticule.h
@@ -19,9 +21,10 @@ set(TERRELLA_PUBLIC_HEADERS
   streaming/remote/grid_check.h
   streaming/remote/remote_source.h
   streaming/sets/open_tile_set.h
+  engine/tiles/painted_tiles.h
   engine/tiles/tile_source.h)
 
-# Which header of the source tree an include of another means; empty: none of the project's.
+# Finds the header of the source tree that an include of another header means; empty: none of the project's.
 function(terrella_find_header source include out)
   foreach(root engine/ "")
     if(EXISTS ${source}/${root}${include})
@@ -84,7 +87,7 @@ function(terrella_write_headers source folder)
     if(EXISTS ${folder}/${installed})
       file(READ ${folder}/${installed} before)
     endif()
-    if(NOT before STREQUAL text)  # what is not touched is not compiled again
+    if(NOT before STREQUAL text)  # an untouched header is not compiled again
       file(WRITE ${folder}/${installed} "${text}")
     endif()
     list(APPEND written ${folder}/${installed})

@@ -48,10 +48,10 @@ Status GlobeRenderer::set_objects(std::vector<DrawnLayer> layers) {
 
 // Programs depend on the samples of the targets, so these come first.
 Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
-  if (Status fits = fit_targets(input, memory.targets, framebuffer); !fits) return fits;
+  if (Status fits = fit_targets(input, memory, framebuffer); !fits) return fits;
   if (objects_) {
     if (Status prepared = objects_->prepare(); !prepared) return prepared;
-    objects_->upload();  // what is drawn besides depends on what there is
+    objects_->upload();  // the choice of further passes depends on the uploaded objects
   }
   if (sky_) sky_->keep_air_in(memory.air);
   FrameCounts counts;
@@ -63,8 +63,8 @@ Status GlobeRenderer::prepare(const FrameInput& input, PictureMemory& memory, GL
 
 // Makes all programs that a frame needs before it draws, so that a frame is drawn as a whole or not at all.
 Status GlobeRenderer::prepare(const Pass& pass) {
-  if (pass.input.sky && sky_) {
-    if (Status s = sky_->prepare(*pass.input.sky); !s) return s;
+  if (pass.input.sky && sky_ && (pass.input.naive_translucency || !under_ground(pass))) {
+    if (Status s = sky_->prepare(pass.eye.view, sky_of(pass)); !s) return s;
   }
   if (Status s = prepare_layers(pass); !s) return s;
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
@@ -88,6 +88,8 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& 
   const std::vector<EyePicture> pictures = pictures_of(input);
   upload_layers(input);
   begin_frame(input, counts);
+  memory.frame = input.frame;
+  targets_->set_frame(input.frame);
   // Places for labels are chosen for the first eye, so that both eyes see the same labels.
   if (objects_) {
     objects_->place_labels(pictures.front().view, label_sight({input, pictures.front(), counts}), memory.labels);

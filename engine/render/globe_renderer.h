@@ -45,6 +45,8 @@ struct LayerFrame {
   const TileCoverage* coverage = nullptr;
   const TileTextures* tiles = nullptr;
   PatchLayer* gpu = nullptr;
+  /// The layer's own vertices, which all views share; empty: those of the base layer.
+  std::unique_ptr<PatchBuffers>* vertices = nullptr;
   double opacity = 1.0;
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
@@ -59,7 +61,7 @@ struct FrameInput {
   glm::ivec2 corner_px{0};         ///< lower left corner of the picture in the framebuffer
   View view;                       ///< view of the eye in a mono picture
   std::optional<EyePair> eyes;     ///< views of both eyes in stereo; `view` is then unused
-  Stereo stereo = Stereo::off;     ///< how the pictures of two eyes are joined
+  Stereo stereo = Stereo::off;     ///< way in which the pictures of two eyes are joined
   std::vector<LayerFrame> layers;  ///< the base layer, which is opaque and has every patch; then the upper layers
   const Relief* relief = nullptr;  ///< relief of the patches; null: the ellipsoid
   SurfaceLook surface;
@@ -82,7 +84,10 @@ struct FrameInput {
 
 /// The memory of one view from frame to frame.
 struct PictureMemory {
-  FrameTargets targets;
+  std::shared_ptr<FrameTargets> targets;  ///< views of equal form share them; null before the first frame
+  std::uint64_t frame = 0;                ///< number of the last picture
+  /// True if the targets still hold the view's last picture.
+  [[nodiscard]] bool has_picture() const { return targets && frame != 0 && targets->frame() == frame; }
   std::unique_ptr<AirTextures> air;
   ShownLabels labels;
 };
@@ -100,8 +105,8 @@ class GlobeRenderer {
  public:
   [[nodiscard]] static Result<std::unique_ptr<GlobeRenderer>> create(const RenderOptions& options,
                                                                      const Ellipsoid& ellipsoid, const SkyAssets* sky);
-  /// Draws patches with or without relief from now on. Call it before the first frame. The caller discards the
-  /// vertices of all layers.
+  /// Draws patches with or without relief from now on. Call it before the first frame. Keeps the programs. The caller
+  /// discards the vertices of all layers.
   void set_relief(bool on);
   /// Draws city lights on the night side from now on; an empty map: none.
   Status set_night_lights(const GreyPicture& map);
@@ -123,7 +128,7 @@ class GlobeRenderer {
   /// the programs that no earlier frame needed; if one cannot be made, returns the error and draws nothing.
   /// A multisampled framebuffer gets the samples of a picture with as many. `memory` is that of the view.
   Result<FrameCounts> draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
-  /// Copies the depth of a view's last picture to each sample of a framebuffer: sample by sample if it has as many.
+  /// Copies the depth of the targets' picture to each sample of a framebuffer: sample by sample if it has as many.
   Status copy_depth(const FrameTargets& from, GLuint framebuffer, glm::ivec2 corner_px);
 
  private:
@@ -183,7 +188,8 @@ class GlobeRenderer {
   void draw_callers(const Pass& pass, DrawStage stage);
 
   // globe_targets.cpp: from the picture to the caller's framebuffer.
-  Status fit_targets(const FrameInput& input, FrameTargets& targets, GLuint framebuffer);
+  Status fit_targets(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
+  [[nodiscard]] std::shared_ptr<FrameTargets> targets_of(const FrameTargets::Form& form, PictureMemory& memory);
   void hand_over(const FrameInput& input, GLuint framebuffer);
   static Status prepare_copy(gl::Program& program, std::string_view fragment, bool samples);
   static void copy_samples(const gl::Program& program, GLuint texture, GLuint framebuffer, const DrawState& state,
@@ -206,7 +212,7 @@ class GlobeRenderer {
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 
-  // globe_sight.cpp: the eyes, and what an eye can see.
+  // globe_sight.cpp: the eyes, and the parts of the planet in their sight.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);
   [[nodiscard]] bool under_ground(const Pass& pass) const;
   [[nodiscard]] SurfaceFromBelow surface_look(const Pass& pass) const;
@@ -231,11 +237,12 @@ class GlobeRenderer {
   std::unique_ptr<InnerSpherePass> inner_sphere_;
   std::unique_ptr<InterlacePass> interlace_;
   std::unique_ptr<SkyPass> sky_;
-  const AirTextures* air_ = nullptr;  ///< of the eye whose picture is drawn; null: none
+  const AirTextures* air_ = nullptr;  ///< air of the eye whose picture is drawn; null: none
   std::optional<NightLights> night_lights_;
   std::unique_ptr<ObjectPass> objects_;
   std::vector<std::byte> label_font_;
-  FrameTargets* targets_ = nullptr;  ///< of the view that is drawn
+  FrameTargets* targets_ = nullptr;  ///< targets of the view that is drawn
+  std::vector<std::weak_ptr<FrameTargets>> all_targets_;
   gl::Program depth_copy_, depth_samples_copy_, color_samples_copy_;
   FrameBlock frame_{};  ///< uniforms of the eye whose picture is drawn
   gl::Buffer frame_block_;

@@ -13,15 +13,18 @@
 namespace terrella {
 namespace {
 
-// In a lit picture, pixels beside the limb are integrated whole, so that ice there shows no dashes. 3 has the same
-// error as 5 and costs a sixth of a frame more; 12 has a tenth more. A picture of the imagery alone keeps to the plain
-// footprint, which measurements compare.
-constexpr double kLitFootprint_texels = 5.0;
+// In a lit picture, longer pixels than this beside the limb are integrated whole, so that ice there shows no dashes. 5
+// has an error up to a twelfth less and costs a tenth of a frame more; 12 has up to a fifth more error. A picture of
+// the imagery alone keeps to the plain footprint, which measurements compare.
+constexpr double kLitFootprint_texels = 8.0;
+// Three taps reach over this many texels.
+constexpr double kShortPixel_texels = 2.0;
 
 }  // namespace
 
 void GlobeRenderer::set_relief(bool on) {
-  make_patches(options_, on);
+  if (!patches_) make_patches(options_, on);
+  patches_->set_relief(on);
   relief_ = on;
   slopes_.reset();
 }
@@ -47,7 +50,7 @@ Status GlobeRenderer::set_night_lights(const GreyPicture& map) {
 }
 
 PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFrame& base) {
-  return layer.gpu->vertices ? *layer.gpu->vertices : *base.gpu->vertices;
+  return *layer.vertices ? **layer.vertices : **base.vertices;
 }
 
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
@@ -72,13 +75,16 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
   for (const LayerFrame& layer : input.layers) {
     const TileGrid& grid = layer.tree->grid();
     const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
-    std::unique_ptr<PatchBuffers>& own = layer.gpu->vertices;
+    std::unique_ptr<PatchBuffers>& own = *layer.vertices;
     if (shares) {
       own.reset();
     } else if (!own) {
-      own = std::make_unique<PatchBuffers>(*layer.tree, input.relief != nullptr ? &input.relief->grid() : nullptr);
+      own = std::make_unique<PatchBuffers>(layer.tree->segments(),
+                                           input.relief != nullptr ? &input.relief->grid() : nullptr);
     }
-    patches_->upload(*layer.gpu, vertices_of(layer, base), *layer.patches, *layer.coverage, input.frame);
+    if (own) own->set_views(input.views);
+    patches_->upload(*layer.gpu, {vertices_of(layer, base), own ? *layer.tree : *base.tree, own != nullptr},
+                     *layer.patches, *layer.coverage, input.frame);
     if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
 }
@@ -225,7 +231,8 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
                              slopes_->slot_share(), 0.0);
   }
   constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
-  block.surface_look = glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight, 0.0F, 0.0F);
+  block.surface_look = glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight,
+                                 pass.input.lit ? kLitFootprint_texels : kShortPixel_texels, 0.0F);
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

@@ -8,7 +8,7 @@
 namespace terrella {
 
 // A driver may have fewer samples in textures than in other framebuffers.
-Status GlobeRenderer::fit_targets(const FrameInput& input, FrameTargets& targets, GLuint framebuffer) {
+Status GlobeRenderer::fit_targets(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
   GLint samples = 0, most_color = 0, most_depth = 0;
   glGetNamedFramebufferParameteriv(framebuffer, GL_SAMPLES, &samples);
   if (samples > 1) {
@@ -23,11 +23,26 @@ Status GlobeRenderer::fit_targets(const FrameInput& input, FrameTargets& targets
   }
   const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
   const bool through = input.sky && input.surface.alpha < 1.0;
-  targets.fit({.size = input.size,
-               .has_stencil = through || selective || input.stereo == Stereo::interlaced,
-               .samples = samples > 1 ? samples : 0});
-  targets_ = &targets;
+  memory.targets = targets_of({.size = input.size,
+                               .has_stencil = through || selective || input.stereo == Stereo::interlaced,
+                               .samples = samples > 1 ? samples : 0},
+                              memory);
+  targets_ = memory.targets.get();
   return Done{};
+}
+
+// Frames are drawn one after the other, so pictures of equal form take turns in the same targets.
+std::shared_ptr<FrameTargets> GlobeRenderer::targets_of(const FrameTargets::Form& form, PictureMemory& memory) {
+  if (memory.targets && memory.targets->form() == form) return memory.targets;
+  std::erase_if(all_targets_, [](const auto& targets) { return targets.expired(); });
+  for (const auto& targets : all_targets_) {
+    if (auto held = targets.lock(); held->form() == form) return held;
+  }
+  memory.targets.reset();  // first, so that there is room for the new ones
+  auto made = std::make_shared<FrameTargets>();
+  made->fit(form);
+  all_targets_.push_back(made);
+  return made;
 }
 
 void GlobeRenderer::hand_over(const FrameInput& input, GLuint framebuffer) {

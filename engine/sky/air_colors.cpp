@@ -17,6 +17,9 @@ constexpr int kRingRows = 24, kLeastRingRows = 10, kRingColumns = 65, kRingTurn 
 constexpr double kRowsAPixel = 1.0, kChord_px = 0.05;
 // Least distance of two rows, in pixels and in heights over which the air thins out to a third, whichever is more.
 constexpr double kRowStep_px = 0.5, kRowStep_scales = 0.15;
+// A ring of fewer pixels is one strip of triangles, with the colours looked up per pixel: many rows would be slivers,
+// each of which a rasteriser shades in squares of several pixels.
+constexpr double kThinRing_px = 16.0, kThinRow_px = 0.5;
 constexpr int kDomeRows = 48, kDomeColumns = 61, kDomeTurn = 120;
 constexpr int kGroundSteps = 20;
 // Satellites look up to 34 degrees away from the vertical, through this many vertical air masses.
@@ -88,13 +91,15 @@ class Ring {
         pixel_(std::max(pixel, 1e-6 * top_)),
         lowest_(-(below + 0.05 * top_ + pixel_)),
         below_(below > 0.0 ? pixel_ - lowest_ : 0.0),
+        thin_(is_thin()),
         rows_(static_cast<int>(
-            std::clamp(3.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
+            thin_ ? 2.0 + (top_ + pixel_ - lowest_) / (kThinRow_px * pixel_)
+                  : std::clamp(3.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
         turn_(2 * static_cast<int>(std::clamp(0.5 * std::numbers::pi / std::sqrt(2.0 * kChord_px * pixel_),
                                               0.5 * kLeastRingTurn, 0.5 * kRingTurn))) {}
 
   SkyColors colors() {
-    SkyColors c{.outside = true, .turn = turn_, .columns = kRingColumns, .rows = rows_};
+    SkyColors c{.outside = true, .turn = turn_, .columns = kRingColumns, .rows = rows_, .thin = thin_};
     c.light_srgb.resize(static_cast<std::size_t>(c.columns) * static_cast<std::size_t>(c.rows));
     c.limb_light_sum.resize(static_cast<std::size_t>(c.columns) * SkyColors::kLimbRows);
     for (int row = 0; row < rows_; ++row) {
@@ -117,9 +122,17 @@ class Ring {
   }
 
  private:
+  // Heights are interpolated along the chord between the directions to the lowest and the highest row.
+  [[nodiscard]] bool is_thin() const {
+    if (top_ + pixel_ - lowest_ > kThinRing_px * pixel_) return false;
+    const auto nadir_rad = [&](double height) { return std::asin(std::min(1.0, (1.0 + height) / eye_.radius)); };
+    const double off = squared(nadir_rad(top_ + pixel_) - nadir_rad(lowest_)) / 8.0;
+    return off < kChord_px * pixel_;
+  }
   // Rows are closest at the limb, where the air is densest.
   [[nodiscard]] double height(int row) const {
     if (row == 0) return lowest_;
+    if (thin_) return lowest_ + (top_ + pixel_ - lowest_) * row / (rows_ - 1.0);
     const double part = (row - 1) / (rows_ - 2.0), whole = top_ + pixel_;
     const double step =
         std::max(kRowStep_px * pixel_, kRowStep_scales * top_ * air_.air().gas_scale_m / air_.air().top_m);
@@ -153,6 +166,7 @@ class Ring {
   double top_, pixel_;
   double lowest_;  ///< height of the first row
   double below_;   ///< depth to which the limb's colour goes on
+  bool thin_;
   int rows_, turn_;
 };
 

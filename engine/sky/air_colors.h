@@ -16,7 +16,8 @@ struct SkyColors {
   bool outside = false;
   int turn = 0;  ///< steps of the mesh all the way round
   int columns = 0, rows = 0;
-  std::vector<glm::vec2> zenith{};      ///< sine and cosine of the angle from the zenith, one a row
+  bool thin = false;                ///< few pixels high: rows are evenly apart in height, for one strip of triangles
+  std::vector<glm::vec2> zenith{};  ///< sine and cosine of the angle from the zenith, one a row
   std::vector<glm::vec4> light_srgb{};  ///< columns a row; w unused
   std::vector<glm::vec4> through{};     ///< part of the background's stored colour that passes, one a row; w unused
   /// Air beside the limb, summed from the limb outwards in steps of a pixel's kLimbSteps-th part: `columns` a row, and

@@ -11,8 +11,8 @@
 namespace terrella {
 namespace {
 
-constexpr int kCosines = 256, kHeights = 64;       // of the table of transmittance
-constexpr int kSunCosines = 32, kSkyHeights = 32;  // of the table of skylight
+constexpr int kCosines = 256, kHeights = 64;       // size of the table of transmittance
+constexpr int kSunCosines = 32, kSkyHeights = 32;  // size of the table of skylight
 constexpr int kDepthSteps = 40, kRaySteps = 24;
 constexpr int kZeniths = 8, kAzimuths = 4;  // directions from which skylight is gathered; azimuths of half a turn
 // Angular radius of the Sun, over which a sunset is spread.

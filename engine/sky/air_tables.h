@@ -9,12 +9,12 @@ namespace terrella {
 
 [[nodiscard]] constexpr double squared(double x) { return x * x; }
 
-/// An atmosphere over a planet of radius 1: its densities, and tables of what takes long to compute. Heights, radii and
-/// lengths are in the planet's radii; cosines are to the local vertical. Light is for a Sun of irradiance 1.
+/// An atmosphere over a planet of radius 1: its densities, and tables of values that take long to compute. Heights,
+/// radii and lengths are in the planet's radii; cosines are to the local vertical. Light is for a Sun of irradiance 1.
 ///
 /// E. Bruneton, "Precomputed atmospheric scattering: a new implementation" (2017), has the table of transmittance. S.
 /// Hillaire, "A scalable and production ready sky and atmosphere rendering technique" (2020), has the table of light
-/// that is scattered more than once, which is taken as equal from all sides after the second time. A table is made in
+/// that is scattered more than once. After the second time, light is taken as equal from all sides. A table is made in
 /// about 40 ms. Values are within 1 % of the integrals. thread: any, for all of this class
 class AirTables {
  public:

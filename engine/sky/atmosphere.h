@@ -19,7 +19,7 @@ struct Atmosphere {
   glm::dvec3 dust_forwardness;  ///< g of Cornette and Shanks' phase function
   glm::dvec3 ozone_absorb_per_m;
   double ozone_height_m;      ///< middle of the layer
-  double ozone_half_width_m;  ///< from the middle to where there is none
+  double ozone_half_width_m;  ///< from the middle to the edge of the layer
   double top_m;               ///< there is no air above this height
   double exposure;            ///< factor of the radiance before 1 - exp(-x), for a Sun of irradiance 1
 };

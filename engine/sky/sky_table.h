@@ -25,9 +25,9 @@ struct AirLight {
 /// A ray from the eye: its elevation, and the part of it that is marched. Coordinates along the ray begin at the point
 /// that is nearest to the planet's centre, and grow away from the eye.
 struct AirRay {
-  double sine = 0.0, cosine = 1.0;  ///< of the angle from the zenith
+  double sine = 0.0, cosine = 1.0;  ///< sine and cosine of the angle from the zenith
   double eye = 0.0;                 ///< the eye's coordinate
-  double begin = 0.0, end = 0.0;    ///< of the part in the air
+  double begin = 0.0, end = 0.0;    ///< coordinates of both ends of the part in the air
 };
 /// The part of a ray in the air: to where it meets the ground, or to the end of the air as if there were no ground.
 enum class RayEnd { ground, air };

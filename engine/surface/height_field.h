@@ -13,7 +13,7 @@
 
 namespace terrella {
 
-/// Heights between which something lies, metres.
+/// Lowest and highest height of an area, metres.
 struct GroundRange {
   double min_m = 0.0;
   double max_m = 0.0;
@@ -32,19 +32,19 @@ class HeightField {
   HeightField(const Ellipsoid& ellipsoid, const TileGrid& grid);
 
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
-  /// A tile that exists in the grid, of its size; replaces the one that was there.
+  /// Adds a tile of the grid, of the grid's tile size. Replaces an earlier tile of the same id.
   void add(HeightTile tile);
-  void remove(const TileId& id);  ///< nothing if it is not there
+  void remove(const TileId& id);  ///< does nothing if the tile is not loaded
   [[nodiscard]] bool has(const TileId& id) const { return tiles_.contains(id); }
   [[nodiscard]] std::size_t size() const { return tiles_.size(); }
-  /// Changes with each add() and remove(): what was worked out under another number is out of date.
+  /// Changes with each add() and remove(). Results computed under another number are out of date.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
   /// Row latitude of the geodetic latitude `lat`, degrees.
   [[nodiscard]] double row_deg(Angle lat) const;
-  /// Metres times `exaggeration`. Longitude may be any turn; NaN gives 0.
+  /// Returns the height at a place, metres times `exaggeration`. Longitude may be any turn; NaN gives 0.
   [[nodiscard]] double height_m(Angle lat, Angle lon, double exaggeration = 1.0) const;
-  /// The same by the row latitude of grid(), degrees.
+  /// Returns the height at a row latitude of grid(), degrees.
   [[nodiscard]] double height_at_row_m(double row_latitude_deg, double lon_deg) const;
   /// Slopes at the pixel middles of a tile and of `border_px` around it: rise per metre towards east and north.
   /// Row-major from the north-west, (tile_px + 2 · border_px)². A slope is the difference over four pixels, of fourth
@@ -53,8 +53,8 @@ class HeightField {
   /// if there is none.
   [[nodiscard]] std::vector<glm::vec2> slopes(const TileId& id, int border_px) const;
 
-  /// No height in the box lies outside, rounding (1 part in 10^12) aside; the pixels that bound it may lie a block
-  /// (kBlock_px) beyond the box. East < west crosses ±180°.
+  /// Returns a range that holds all heights in the box, rounding (1 part in 10^12) aside. The pixels that bound the
+  /// range may lie a block (kBlock_px) beyond the box. East < west crosses ±180°.
   [[nodiscard]] GroundRange range_m(const GeoRect& box, double exaggeration = 1.0) const;
   /// Range of a patch of that tree, whose rows may count another latitude than grid()'s.
   [[nodiscard]] GroundRange range_m(const PatchTree& tree, const PatchNode& node, double exaggeration = 1.0) const;
@@ -64,14 +64,14 @@ class HeightField {
   struct Held {
     HeightTile tile;
     int blocks = 0;                    ///< a side
-    std::vector<GroundRange> extrema;  ///< of kBlock_px² pixels each, row-major
+    std::vector<GroundRange> extrema;  ///< ranges of blocks of kBlock_px² pixels, row-major
     /// Columns and rows of the tile, from its north-west corner, that lie on the planet: beyond them pixels come from
     /// elsewhere.
     std::int64_t own_columns = 0, own_rows = 0;
   };
   /// Values of a level, computed once.
   struct LevelSize {
-    double span_deg = 0.0;  ///< of a tile
+    double span_deg = 0.0;  ///< side of a tile
     double turn_px = 0.0;   ///< from the origin to 180°: 360° or more, no whole number in some grids
     std::int64_t columns = 0, rows = 0;
     std::int64_t last_pixel_row = 0;
@@ -113,7 +113,7 @@ class HeightField {
   TileGrid grid_;
   std::array<LevelSize, kMaxTileLevel + 1> sizes_{};
   std::unordered_map<TileId, Held, TileIdHash> tiles_;
-  std::unordered_map<TileId, int, TileIdHash> below_;  ///< how many finer tiles are there under a place
+  std::unordered_map<TileId, int, TileIdHash> below_;  ///< number of loaded finer tiles under a place
   std::array<int, kMaxTileLevel + 1> of_level_{};
   std::uint64_t version_ = 0;
 };

@@ -8,11 +8,11 @@
 
 namespace terrella {
 
-/// Names a layer of one globe, never a second one of that globe. `none` is no layer.
+/// Identifier of a layer, unique within its globe. `none` is no layer.
 enum class LayerId : std::uint64_t { none = 0 };
 
-/// On which side of the terminator an image layer shows; it fades through civil twilight (surface/daylight.h). A globe
-/// that is unlit or has no time has no night: then layers by day show everywhere, and those by night nowhere.
+/// Side of the terminator on which an image layer shows; the layer fades through civil twilight (surface/daylight.h). A
+/// globe that is unlit or has no time has no night: day layers then show everywhere, and night layers nowhere.
 enum class Daylight {
   both,
   day,   ///< lit as any layer
@@ -22,15 +22,15 @@ enum class Daylight {
 /// Source of a layer's transparency.
 enum class AlphaFrom {
   own,        ///< its tiles' alpha; without any they are opaque
-  brightness  ///< the largest of red, green and blue too: black shows what lies under it, as pictures of clouds have it
+  brightness  ///< the largest of red, green and blue counts too: black shows the layers below, as in cloud pictures
 };
 
-/// How an image layer is shown; can change from frame to frame.
+/// Appearance of an image layer; can change from frame to frame.
 struct ImageLook {
   bool shown = true;
   double opacity = 1.0;           ///< [0, 1]; goes with the alpha of the layer's own tiles
-  int min_level = 0;              ///< where a view asks for coarser tiles than these the layer is not drawn
-  int max_level = kMaxTileLevel;  ///< finer tiles are not asked for: these are magnified
+  int min_level = 0;              ///< the layer is not drawn if the view asks for coarser tiles than this level
+  int max_level = kMaxTileLevel;  ///< finer tiles are not requested: tiles of this level are magnified
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
   /// Height of an upper layer over the ellipsoid, metres, [0, 1e6], such as that of clouds. The layer moves against the

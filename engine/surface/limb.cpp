@@ -14,7 +14,7 @@ namespace {
 
 // Pieces of the curve that are looked at first; each is halved until it is straight or out of view.
 constexpr int kPieces = 48;
-// Less than the error that is promised: the rest is for what lies between the points that were looked at.
+// Less than the promised error: the rest is for the curve between the points that were looked at.
 constexpr double kStraight_px = 0.015;
 // A piece 2^-23 of the limb is a few pixels of the longest lens.
 constexpr int kMostHalvings = 18;
@@ -141,7 +141,7 @@ class RibbonWriter {
   glm::dvec3 down_;
   double half_width_px_;
   std::vector<LimbVertex>& strip_;
-  glm::dvec2 begin_{0.0}, end_{0.0};  ///< of the first segment, and of the last
+  glm::dvec2 begin_{0.0}, end_{0.0};  ///< start of the first segment, end of the last
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace terrella {
 
 /// A vertex of a patch as the GPU keeps it. The position is ECEF metres split in two floats: high + low is the double
-/// position to 2⁻⁴⁸ of its size. Two patches that share a vertex hold the same bits, so that relative to the eye
-/// ((high - eye_high) + (low - eye_low)) and on the screen both patches draw the same point: no cracks.
+/// position to 2⁻⁴⁸ of its size. Two patches that share a vertex hold the same bits. So both draw the same point
+/// relative to the eye ((high - eye_high) + (low - eye_low)) and on the screen: no cracks.
 struct PatchVertex {
   glm::vec3 position_high_m;
   glm::vec3 position_low_m;

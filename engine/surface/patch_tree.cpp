@@ -166,7 +166,7 @@ void PatchTree::copy_relief(const PatchNode& from, const PatchNode& to) {
 
 void PatchTree::end_frame(std::size_t many) {
   const std::size_t most = std::max(many, 3 * used_);
-  // It drops more nodes than it must, so that few frames drop any.
+  // One drop removes more nodes than needed, so that few frames drop any.
   if (size() > most) drop_oldest(size() - most * 3 / 4);
   used_ = 0;
   ++frame_;

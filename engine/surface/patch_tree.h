@@ -15,7 +15,7 @@
 
 namespace terrella {
 
-/// A sphere that holds something, ECEF metres.
+/// A bounding sphere, ECEF metres.
 struct BoundingSphere {
   glm::dvec3 center_m{0.0};
   double radius_m = 0.0;
@@ -52,15 +52,15 @@ struct TileWindow {
 /// A difference of longitudes brought into [-180°, 180°]. thread: any
 [[nodiscard]] double wrapped_deg(double deg);
 
-/// Relief of a patch, as heights change it (surface/relief.h). Nothing changes without relief.
+/// Relief of a patch (surface/relief.h). It changes with the heights; without heights it keeps its first values.
 struct PatchRelief {
-  BoundingSphere flat;         ///< that holds the patch without heights
-  double flat_cone_rad = 0.0;  ///< half angle of the cone that does
-  double middle_m = 0.0;       ///< its heights lie within half_m of this
+  BoundingSphere flat;         ///< sphere that holds the patch without heights
+  double flat_cone_rad = 0.0;  ///< half angle of the cone that holds the patch without heights
+  double middle_m = 0.0;       ///< middle of the patch's heights, which lie within half_m of it
   double half_m = 0.0;
-  std::vector<double> heights_m;  ///< of the vertices, as patch_vertices() has them
-  double error_m = 0.0;           ///< how far the ground lies from the mesh between the vertices
-  std::uint64_t made = 0;         ///< counts up as heights_m changes
+  std::vector<double> heights_m;  ///< heights of the vertices, in the order of patch_vertices()
+  double error_m = 0.0;           ///< largest distance of the ground from the mesh between its vertices
+  std::uint64_t made = 0;         ///< hash of heights_m: equal meshes have equal ones; 0: no heights
   std::uint64_t bounds_seen = 0, mesh_seen = 0;
 };
 
@@ -70,7 +70,7 @@ using PatchFamily = std::array<PatchNode*, 4>;
 /// A patch: values that never change, computed once and kept in the tree.
 struct PatchNode {
   PatchId id;
-  std::uint64_t serial = 0;  ///< a node's own: one that is made anew has another; 0: dropped
+  std::uint64_t serial = 0;  ///< identifier of this node: a node that is made anew gets another; 0: dropped
   BoundingSphere sphere;
   /// Cone that holds the patch in scaled space, where the ellipsoid is the unit sphere: axis, cosine and sine of its
   /// half angle.
@@ -86,16 +86,16 @@ struct PatchNode {
   double row_center_deg = 0.0;                      ///< row latitude of the centre
   double west_deg = 0.0, east_deg = 0.0;            ///< relative to lon_center_deg
   double south_row_deg = 0.0, north_row_deg = 0.0;  ///< row latitudes (TileGrid)
-  double min_colatitude_rad = 0.0;                  ///< of the patch's point nearest to a pole
-  double max_colatitude_rad = 0.0;                  ///< of the point farthest from that pole
+  double min_colatitude_rad = 0.0;                  ///< colatitude of the patch's point nearest to a pole
+  double max_colatitude_rad = 0.0;                  ///< colatitude of the point farthest from that pole
   double row_stretch = 1.0;  ///< ground metres per row degree over those of an equirectangular row, least in the patch
 
-  std::uint32_t index = 0;  ///< place among the nodes that there are
+  std::uint32_t index = 0;  ///< place among the existing nodes
   PatchNode* parent = nullptr;
   PatchFamily children{};              ///< all or none
-  std::uint64_t children_used = 0;     ///< number of the last frame that used them
-  std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found to hold that neighbour
-  std::unique_ptr<TileWindow> window;  ///< of the level that the last plan took
+  std::uint64_t children_used = 0;     ///< number of the last frame that used the children
+  std::array<PatchNode*, 4> beside{};  ///< by PatchSide, across it: the deepest node found that holds that neighbour
+  std::unique_ptr<TileWindow> window;  ///< tile window at the level that the last plan took
   PatchRelief relief;
 };
 
@@ -117,7 +117,7 @@ class PatchTree {
   [[nodiscard]] const PatchNode& root(CubeFace face) const { return roots_[static_cast<std::size_t>(face)]; }
   /// The four children, made if they are not there.
   void ensure_children(PatchNode& node);
-  /// Takes what a plan made and used. The growth must have begun with the tree as it is.
+  /// Takes the nodes that a plan made and used. The growth must have begun with the tree as it is.
   void adopt(TreeGrowth& growth);
   /// The node for changes. A plan refers to nodes of a tree that it must not change.
   [[nodiscard]] static PatchNode& own(const PatchNode& node) { return const_cast<PatchNode&>(node); }

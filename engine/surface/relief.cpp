@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/hash_mix.h"
+
 namespace terrella {
 namespace {
 
@@ -137,7 +139,8 @@ bool Relief::refresh_mesh(const PatchTree& tree, PatchNode& node) const {
   if (!changed) return false;
   measure_vertices(tree, node);
   measure_error(tree, node);
-  ++relief.made;
+  relief.made =
+      name_hash({reinterpret_cast<const char*>(relief.heights_m.data()), relief.heights_m.size() * sizeof(double)});
   return true;
 }
 

@@ -20,7 +20,7 @@ namespace terrella {
 /// alike, and texture coordinates stay the same. thread: main; const functions: any, while nothing changes the relief
 class Relief : public GroundHeights {
  public:
-  /// `exaggeration` is applied to what is drawn, picked and collided with.
+  /// `exaggeration` is the factor of heights for drawing, picking and collisions.
   Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggeration, std::size_t budget_bytes = 256UL << 20);
 
   [[nodiscard]] const TileGrid& grid() const { return field_.grid(); }
@@ -63,14 +63,14 @@ class Relief : public GroundHeights {
   /// True if heights of the tile, or beside it, may have changed since changes_seen() was `since`.
   [[nodiscard]] bool changed_since(const TileId& id, std::uint64_t since) const;
   /// Makes the meshes of nodes whose heights have changed: the heights of their vertices, and the error between them.
-  /// Returns how many it made.
+  /// Returns the number of meshes made.
   int make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const;
 
   /// The tiles that the patches of a view want and that are in TileState::unknown; the coarsest level always. Tiles
   /// that no view has wanted for long are evicted when the budget is used up.
   [[nodiscard]] std::vector<WantedTile> want(const std::vector<SelectedPatch>& patches);
-  /// Appends what the patches of another view want besides. Call it after want(), so that the tiles of all views count
-  /// as wanted at the same time.
+  /// Appends the tiles that the patches of another view want besides. Call it after want(), so that the tiles of all
+  /// views count as wanted at the same time.
   void want_too(const std::vector<SelectedPatch>& patches, std::vector<WantedTile>& wanted);
 
  private:

@@ -26,9 +26,9 @@ class NodeRef {
 /// One patch to draw.
 struct SelectedPatch {
   NodeRef node;
-  int tile_level = 0;         ///< of its window
+  int tile_level = 0;         ///< tile level of its window
   bool squeezed = true;       ///< takes squeezed tiles where there are any, at that level; else those of the full grid
-  int squeeze = 0;            ///< of its window
+  int squeeze = 0;            ///< squeeze of its window
   unsigned coarse_sides = 0;  ///< bit k: the neighbour across PatchSide k is one level coarser
   bool in_band = false;       ///< needs per-fragment coordinates
   bool cut_by_view = false;   ///< part of it may be out of view: its cells are worth testing one by one

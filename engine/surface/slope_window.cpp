@@ -11,7 +11,7 @@ namespace {
 constexpr double kPixelsPerSlope = 2.0;
 // A window of more tiles, or of more heights, takes a coarser level.
 constexpr double kMostTiles = 6.0, kMostHeights = 1536.0;
-// Pixels of a slant of at most so many texels keep their level: more texels would be left out.
+// A slanted pixel of at most this many texels keeps its level: more texels would be left out.
 constexpr double kLongPixel_texels = 2.0;
 
 bool counts_alike(const TileGrid& a, const TileGrid& b) {

@@ -35,7 +35,7 @@ class TreeGrowth {
     if (node.children[0] != nullptr) return &node.children;
     return (kept_marks_[node.index] & kGrown) == 0 ? nullptr : &children_.at(&node);
   }
-  /// The node that stands in the tree or in the growth under this name, made if there is none.
+  /// Returns the node of this id in the tree or the growth; makes the node if there is none.
   [[nodiscard]] const PatchNode& node(const PatchId& id);
   /// The deepest node that holds the neighbour across a side.
   [[nodiscard]] const PatchNode& beside(const PatchNode& node, PatchSide side) {
@@ -71,8 +71,8 @@ class TreeGrowth {
 
  private:
   friend class PatchTree;
-  static constexpr std::uint8_t kUsed = 1, kGrown = 2;             // of kept_marks_
-  static constexpr std::uint8_t kLeaf = 1, kSplit = 2, kMesh = 4;  // of marks_
+  static constexpr std::uint8_t kUsed = 1, kGrown = 2;             // bits of kept_marks_
+  static constexpr std::uint8_t kLeaf = 1, kSplit = 2, kMesh = 4;  // bits of marks_
 
   struct Beside {
     const PatchNode* node;
@@ -94,8 +94,8 @@ class TreeGrowth {
   std::vector<std::uint8_t> kept_marks_;  ///< by PatchNode::index
   std::vector<std::uint8_t> marks_;       ///< the same, of one selection
   std::vector<std::unique_ptr<PatchFamilyNodes>> made_;
-  std::unordered_map<const PatchNode*, PatchFamily> children_;  ///< of nodes with kGrown
-  std::vector<NodeRef> parents_;                                ///< of made_
+  std::unordered_map<const PatchNode*, PatchFamily> children_;  ///< children of nodes with kGrown
+  std::vector<NodeRef> parents_;                                ///< parents of the families in made_
   std::vector<NodeRef> used_;
   std::vector<Beside> beside_;
   std::unordered_map<const PatchNode*, std::unique_ptr<TileWindow>> windows_;

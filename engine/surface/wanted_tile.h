@@ -4,7 +4,7 @@
 
 namespace terrella {
 
-/// A tile that the view wants, with how much.
+/// A tile that the view wants, and its priority.
 struct WantedTile {
   TileId id;
   double priority = 0.0;  ///< larger first: coarse before fine, then large on the screen

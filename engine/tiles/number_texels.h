@@ -12,7 +12,7 @@ namespace terrella {
 /// A float texel that has no data. NaN would not be safe: shaders may take it for a number.
 inline constexpr float kNoNumber = -FLT_MAX;
 
-/// How texels store the numbers of a set: as codes of 16 bits, number = least + code / steps, or as 32-bit floats.
+/// Storage of a set's numbers in texels: as codes of 16 bits, number = least + code / steps, or as 32-bit floats.
 struct NumberSlots {
   bool codes = false;
   double least = 0.0;  ///< number of code 0
@@ -28,7 +28,7 @@ struct NumberSlots {
 [[nodiscard]] double number_of(const NumberSlots& slots, double texel);
 
 /// Decodes a tile of numbers to texels, one number each, with the mips and the gutter of make_texels(). A mip's texel
-/// is the mean of those numbers under it that have data, and has none if less than half of them have. Fails as
+/// is the mean of those numbers under it that have data. It has no data if less than half of them have data. Fails as
 /// decode_numbers() does. thread: worker
 [[nodiscard]] Result<TileTexels, TileFailure> make_number_texels(const EncodedTile& tile, const NumberInfo& info,
                                                                  int tile_px, int gutter, int mips);

@@ -25,7 +25,7 @@ inline constexpr double kMercatorEndDeg = 85.05112877980659;
 /// Returns the row of Web Mercator of a latitude in [-90°, 90°]: -180 at the square's southern end and beyond, 180 at
 /// its northern end and beyond. EPSG guidance note 7-2, 3.2.1.2 ("Popular Visualisation Pseudo Mercator").
 [[nodiscard]] double mercator_row_deg(double latitude_deg);
-/// The inverse, in [-kMercatorEndDeg, kMercatorEndDeg].
+/// Returns the latitude of a row of Web Mercator, in [-kMercatorEndDeg, kMercatorEndDeg].
 [[nodiscard]] double latitude_of_mercator_row_deg(double row_deg);
 
 /// The latitude that rows count: `graphic` geodetic (planetographic), `centric` planetocentric.
@@ -106,7 +106,7 @@ struct RowLatitudes {
 /// Row latitude of a geodetic normal, in [-90°, 90°]: latitude, planetocentric latitude, or 90° · sine of either. In
 /// [-180°, 180°] for web_mercator. Computed with atan2, accurate at the poles. NaN gives NaN.
 [[nodiscard]] double row_latitude_deg(const TileGrid& grid, const Ellipsoid& ellipsoid, const EcefDir& normal);
-/// The inverse: geodetic latitude of a row latitude, which is clamped to its range.
+/// Returns the geodetic latitude of a row latitude, which is clamped to its range.
 [[nodiscard]] Angle latitude_of_row(const TileGrid& grid, const Ellipsoid& ellipsoid, double row_latitude_deg);
 
 /// Continuous tile coordinates of (row latitude, longitude) at a level. The longitude is not wrapped.

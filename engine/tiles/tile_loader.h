@@ -48,7 +48,7 @@ struct LoaderCounts {
   std::size_t fetching = 0;  ///< requested from the network
   std::size_t finished = 0;  ///< waiting to be polled
   std::size_t read = 0;      ///< tiles finished since the start
-  std::size_t missing = 0;   ///< of those, tiles that failed
+  std::size_t missing = 0;   ///< those among `read` that failed
 };
 
 /// Reads, fetches and decodes tiles. Workers read and decode. A tile that the source has to fetch waits in the network,

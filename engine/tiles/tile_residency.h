@@ -21,12 +21,12 @@ namespace terrella {
 enum class TileState : std::uint8_t {
   unknown,   ///< never requested, or dropped since; a frame that wants it requests it
   resident,  ///< decoded and in its place: texels in a texture slot, heights in the height field
-  missing,   ///< it failed: an ancestor is shown, and nobody requests it until a retry
+  missing,   ///< failed: an ancestor is shown, and nobody requests the tile until a retry
   outside,   ///< not in the grid or its bounds: an ancestor is shown, and nobody requests it
 };
 
-/// The states of all tiles of one kind, with the rules for retry, eviction and forgetting. Plain data: what loads tiles
-/// fills it, selection reads it. "Frame" is any number that grows from frame to frame. thread: main
+/// The states of all tiles of one kind, with the rules for retry, eviction and forgetting. Plain data: loaders fill it,
+/// selection reads it. "Frame" is any number that grows from frame to frame. thread: main
 class TileResidency {
  public:
   using Clock = std::chrono::steady_clock;
@@ -57,7 +57,8 @@ class TileResidency {
         std::ranges::count_if(entries_, [state](const auto& item) { return item.second.state == state; }));
   }
 
-  /// The tile failed. `retry_at`: when it may be requested again; none: never. Times must come in ascending order.
+  /// Marks a failed tile as missing. `retry_at`: time of the next request; none: never. Times must come in ascending
+  /// order.
   void set_missing(const TileId& id, std::optional<Clock::time_point> retry_at) {
     entries_[id].state = TileState::missing;
     if (retry_at) retries_.emplace_back(*retry_at, id);
@@ -65,7 +66,7 @@ class TileResidency {
   [[nodiscard]] bool has_retry(Clock::time_point now) const {
     return !retries_.empty() && retries_.front().first <= now;
   }
-  /// Missing tiles whose time has come are unknown again.
+  /// Makes missing tiles unknown again if their time to retry has come.
   void retry(Clock::time_point now) {
     for (; has_retry(now); retries_.pop_front()) {
       Entry* entry = find(retries_.front().second);
@@ -73,14 +74,14 @@ class TileResidency {
     }
   }
 
-  /// The resident tile to evict: of those that the last frame did not need, the one drawn longest ago. None if every
-  /// tile is in use. Tiles of the coarsest level are never evicted.
+  /// Returns the tile to evict: the resident tile drawn longest ago among those that the last frame did not need. None
+  /// if every tile is in use. Tiles of the coarsest level are never evicted.
   [[nodiscard]] std::optional<TileId> to_evict(std::uint64_t frame, int coarsest_level) const {
     const std::pair<const TileId, Entry>* oldest = nullptr;
     for (const auto& item : entries_) {
       const Entry& entry = item.second;
       if (entry.state != TileState::resident || item.first.level == coarsest_level) continue;
-      // What the last frame's view needs would be requested again at once.
+      // Tiles that the last frame's view needs would be requested again at once.
       if (entry.last_drawn >= frame || entry.last_needed + 1 >= frame) continue;
       if (oldest == nullptr || entry.last_drawn < oldest->second.last_drawn) oldest = &item;
     }

@@ -37,8 +37,8 @@ struct NumberInfo {
   /// Set: all numbers at full resolution are whole and lie in this range, `nodata` included. Such numbers take half the
   /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
   std::optional<WholeRange> whole = {};
-  std::string unit = {};      ///< of values, for a person: "m", "°C"; empty: unknown, heights in metres
-  std::string quantity = {};  ///< for a person: "height", "temperature"; empty: unknown
+  std::string unit = {};      ///< unit of values, for a person: "m", "°C"; empty: unknown, heights in metres
+  std::string quantity = {};  ///< quantity of the values, for a person: "height", "temperature"; empty: unknown
   bool operator==(const NumberInfo&) const = default;
 };
 
@@ -70,7 +70,7 @@ struct TileSetInfo {
   std::optional<NumberInfo> numbers = {};  ///< set: the tiles are numbers; none: pictures
   /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
   std::optional<TileGrid> made_of = {};
-  std::optional<CrsSquare> square = {};  ///< of a `projected` grid: this set's, or that of `made_of`
+  std::optional<CrsSquare> square = {};  ///< square of a `projected` grid: this set's, or that of `made_of`
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.
@@ -121,8 +121,8 @@ class TileSource {
   [[nodiscard]] virtual const TileSetInfo& info() const = 0;
   /// Reads one tile; absent outside the grid, the levels or the bounds.
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read(const TileId& id) = 0;
-  /// The same for a source whose read() may take long. It may fail early once `stop` is requested, because nobody needs
-  /// the tile any more. By default calls read(id). thread: worker, several at once
+  /// Reads one tile of a source whose read() may take long. May fail early once `stop` is requested, because nobody
+  /// needs the tile any more. By default calls read(id). thread: worker, several at once
   [[nodiscard]] virtual Result<EncodedTile, TileFailure> read_or_stop(const TileId& id, const std::stop_token& stop) {
     static_cast<void>(stop);
     return read(id);
@@ -137,7 +137,7 @@ class TileSource {
   /// Counts the changes of the source's tiles. 0: tiles never change. The globe reads drawn tiles again that have
   /// changed since they were read, and shows the earlier ones meanwhile. thread: any
   [[nodiscard]] virtual std::uint64_t edition() const { return 0; }
-  /// Count of the last change of a tile that could be read before. thread: any
+  /// Returns the count at the last change of a tile that could be read before. thread: any
   [[nodiscard]] virtual std::uint64_t edition_of(const TileId& id) const {
     static_cast<void>(id);
     return edition();

@@ -10,7 +10,7 @@ namespace terrella {
 
 /// The matrices and the depth format with which a frame of a globe is drawn, for drawing of the application's own.
 struct FrameMatrices {
-  View view;                       ///< of the eye whose picture is drawn; `view.eye` in double
+  View view;                       ///< view of the eye whose picture is drawn; `view.eye` in double
   glm::dmat4 view_from_ecef{1.0};  ///< metres; axes of the view: right, up, back
   /// OpenGL clip space with depths from 0 to 1 (glClipControl with GL_ZERO_TO_ONE), without a far plane if depth is
   /// reversed. Logarithmic depth is written per fragment, so here it equals standard depth.

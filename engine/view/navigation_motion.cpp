@@ -1,4 +1,4 @@
-// How the ground limits the navigator's eye, and how each motion goes on.
+// The navigator's motions, step by step, and the limits that the ground sets to its eye.
 
 #include <algorithm>
 #include <cmath>

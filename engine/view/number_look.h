@@ -9,8 +9,8 @@
 
 namespace terrella {
 
-/// How a layer of numbers is coloured: a stretch and a colour map. A change of it loads and uploads no tile. Values are
-/// in the unit of the numbers (NumberInfo), after scale and offset.
+/// Colours of a layer of numbers: a stretch and a colour map. A change loads and uploads no tile. Values are in the
+/// unit of the numbers (NumberInfo), after scale and offset.
 struct NumberLook {
   double low = 0.0;   ///< value at the map's position 0; values below it have the colour of `low`
   double high = 1.0;  ///< value at position 1, above `low`; values above it have the colour of `high`
@@ -21,7 +21,7 @@ struct NumberLook {
   bool operator==(const NumberLook&) const = default;
 };
 
-/// Colours of a look as a texture has them: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
+/// Number of colours in a look's texture: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
 inline constexpr int kBakedColors = 1024;
 
 /// Fails if low and high are not finite with low < high, or if the map has no stops or stops out of order. The error

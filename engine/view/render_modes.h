@@ -16,13 +16,13 @@ enum class Texturing { vertex, paper, exact, automatic };
 /// Depth format (engine/DESIGN.md, 6).
 enum class DepthMode { reversed, logarithmic, standard };
 
-/// How a translucent surface is blended with the picture under it; paper 2, formulas (2.7) and (2.9).
+/// Blending of a translucent surface with the picture under it; paper 2, formulas (2.7) and (2.9).
 enum class Blend {
   normal,    ///< A · surface + (1 - A) · below
   additive,  ///< A · surface + below: brighter, may saturate
 };
 
-/// How the surface looks to an eye under it; paper 2, 2.9.
+/// Appearance of the surface to an eye under it; paper 2, 2.9.
 enum class SurfaceFromBelow {
   opaque,
   translucent,

@@ -23,9 +23,9 @@ struct Grab {
 /// (parallel transport), so that nothing swirls around a pole in view.
 enum class HeadingRule { keep, carry };
 
-/// `carry` where the eye or the held point is so near a pole, measured against how far the eye sees, that a constant
-/// heading would spin the picture. A gesture asks once, when it starts, so that the rule stays for the gesture. thread:
-/// any
+/// Returns `carry` if the eye or the held point is near a pole, measured against how far the eye sees. A constant
+/// heading would then spin the picture. A gesture asks once, when it starts, so that the rule stays for the gesture.
+/// thread: any
 [[nodiscard]] HeadingRule heading_rule(const Camera& camera, const Ellipsoid& ellipsoid, const Ecef& held);
 
 /// Moves the camera at constant height and pitch so that `point`, on the ellipsoid or raised, appears at `pixel_px`.

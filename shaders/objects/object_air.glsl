@@ -2,7 +2,7 @@
 layout(binding = 7) uniform sampler2D ground_through;    // GroundColors of engine/sky/air_colors.h
 layout(binding = 8) uniform sampler2D ground_light;
 
-// Objects under the ground have no air of their own: what is drawn over them has it.
+// Objects under the ground have no air of their own: the surface drawn over them has air.
 bool in_air() { return horizon_from_ecef[3].z > 0.0 && depth_bias > 0.0; }
 
 void air_before(vec3 position_from_eye, out vec3 through, out vec3 light) {

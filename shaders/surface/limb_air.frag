@@ -20,7 +20,8 @@ in vec2 outward;
 in float outside_px;
 layout(location = 0) out vec4 color_srgb;
 
-const int kSlices = 4;                         // the pixel's square as strips along the limb
+const int kSlices = 2;                         // the pixel's square as strips along the limb
+const float kSlice = 0.57735;                  // Gauss: twice the distance of a strip from the middle, in their range
 const int kAside = 3;                          // pixels to each side along the limb that show a pixel's ground
 #if defined(FROM_SAMPLES)
 const float kInside_px = 0.9;                  // the square of a pixel this far inside or outside is on one side
@@ -101,6 +102,19 @@ vec3 ground_near(ivec2 step, float apart, Air air) {
   return sum.rgb / sum.w;
 }
 
+// Integral of clamp(x, 0, 1).
+float ramp_sum(float x) {
+  float within = clamp(x, 0.0, 1.0);
+  return 0.5 * within * within + max(x - 1.0, 0.0);
+}
+
+// Part of a pixel's square inside the limb: the mean of the parts of its strips along the limb, `width` wide, whose
+// middles lie evenly in the range around the pixel's.
+float covered_part(float distance_px, float width, float range) {
+  float middle = 0.5 - distance_px / width, half_range = 0.5 * range / width;
+  return (ramp_sum(middle + half_range) - ramp_sum(middle - half_range)) / (2.0 * half_range);
+}
+
 void main() {
   if (rows_apart == 0) {
     color_srgb = texelFetch(frame_srgb, ivec2(gl_FragCoord.xy), 0);
@@ -109,11 +123,11 @@ void main() {
   ivec2 step;
   float apart = step_px(step);
   vec2 sides = abs(outward);
-  float width = max(sides.x, sides.y), offset = min(sides.x, sides.y) / float(kSlices);
+  float width = max(sides.x, sides.y), range = max(min(sides.x, sides.y), 0.02);
 #if defined(AIR)
   const float kClear_px = max(0.8, kInside_px);   // thick air differs from pixel to pixel, and a pixel outside the limb has only air
   Air air = air_here();
-  vec3 light = vec3(0.0), through = vec3(0.0), ground_sum = vec3(0.0);
+  vec3 light = vec3(0.0), through = vec3(0.0);
 #elif defined(FROM_SAMPLES)
   const float kClear_px = kInside_px;
   Air air = Air(0.0, 1.0);
@@ -123,26 +137,29 @@ void main() {
 #endif
   int outwards = int(ceil(max(0.0, kClear_px - outside_px) / apart));
   vec3 beyond = color_at(outwards * step), ground_sq = ground_near(step, apart, air);
-  float covered = 0.0;
-  // A number of turns that the compiler does not know keeps the loop a loop: unrolled, it takes long to compile.
-  int slices = (rows_apart + 3) & kSlices;
-  for (int k = 0; k < slices; ++k) {
-    float from_px = outside_px + (float(k) - 0.5 * float(kSlices - 1)) * offset - 0.5 * width;
-    float part = clamp(-from_px / width, 0.0, 1.0);
-    covered += part / float(kSlices);
+  float covered = covered_part(outside_px, width, range);
 #if defined(AIR)
-    vec3 thick, thick_light;
-    ground_air(air, -from_px - 0.5 * part * width, thick, thick_light);
-    ground_sum += part * sqrt(max(vec3(0.0), ground_sq * thick + thick_light));
+  float parts = 0.0, depths = 0.0;
+  // A number of turns that the compiler does not know keeps the loop a loop: unrolled, it takes long to compile.
+  int slices = (rows_apart + 1) & kSlices;
+  for (int k = 0; k < slices; ++k) {
+    float from_px = outside_px + (float(k) - 0.5) * kSlice * range - 0.5 * width;
+    float part = clamp(-from_px / width, 0.0, 1.0);
+    parts += part;
+    depths += part * (-from_px - 0.5 * part * width);
     light += mean_over(limb_light, air, from_px, from_px + width) / width;
     through += mean_over(limb_through, air, from_px, from_px + width) / width;
-#endif
   }
-#if defined(AIR)
+  vec3 thick, thick_light;
+  ground_air(air, depths / max(parts, 1e-3), thick, thick_light);
+  vec3 ground = sqrt(max(vec3(0.0), ground_sq * thick + thick_light));
   float d = outside_px + float(outwards) * apart;
   vec3 own = mean_over(limb_light, air, d - 0.5, d + 0.5), passed = mean_over(limb_through, air, d - 0.5, d + 0.5);
   vec3 background = clamp((beyond - own) / max(passed, 0.01), 0.0, 1.0);
-  color_srgb = vec4((ground_sum + light + background * through) / float(kSlices), 1.0);
+  // The strips give the mean of the air. Its part of the pixel is known exactly.
+  float part_of_strips = max(1.0 - parts / float(kSlices), 0.01);
+  vec3 air_srgb = (light + background * through) / (float(kSlices) * part_of_strips);
+  color_srgb = vec4(mix(air_srgb, ground, covered), 1.0);
 #else
   color_srgb = vec4(mix(beyond, sqrt(ground_sq), covered), 1.0);
 #endif

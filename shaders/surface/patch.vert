@@ -123,8 +123,8 @@ void main() {
   window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
   row_direction = direction;
 #if defined(SPECIAL_LAYER)
-  // The shadow of a layer over the ground: what lies towards the Sun. surface_look.x is then its height in radii, less
-  // than 0.
+  // The shadow that the layer towards the Sun throws on the ground. surface_look.x is then the layer's height in radii,
+  // less than 0.
   vec3 sun_enu = in_enu(normal, sun_ecef.xyz);
   shadow_of_layer = 0.5 * sun_ecef.w * smoothstep(0.0, 0.2, sun_enu.z);
   vec2 towards_sun = -min(surface_look.x, 0.0) * sun_enu.xy / max(sun_enu.z, 0.15);

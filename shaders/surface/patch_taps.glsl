@@ -44,7 +44,7 @@ vec2 mip_tap(Cell cell, vec2 p, float level) {
   return mix(level_tap(at, finer), level_tap(at, min(finer + 1, int(texels.z) - 1)), fract(level));
 }
 
-// Nothing is seen where less than half of the weight has data.
+// Colour of a mean; clear if less than half of the weight has data.
 Imagery seen(vec2 mean) {
   float position = mean.x / max(mean.y, 1e-6) * number_look.z + number_look.w;
   vec4 color = textureLod(number_colors, vec2(position, 0.5), 0.0) * step(0.5, mean.y);

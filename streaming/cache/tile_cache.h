@@ -94,8 +94,8 @@ class TileCache {
   }
   /// Queues a record, which replaces the present record. A missing-tile record never replaces a tile: the tile then
   /// takes the record's expiry (`failed` changes nothing). `on_durable` is called on the writer's thread when the
-  /// record would survive kill -9, or with the reason why it could not be written (disk full, no room under the limit).
-  /// After a failure later records are still tried. thread: any
+  /// record would survive kill -9. If the record cannot be written (disk full, no room under the limit), `on_durable`
+  /// gets the reason. After a failure later records are still tried. thread: any
   virtual void store(const TileId& id, CacheRecord record, std::function<void(const StoreStatus&)> on_durable = {}) = 0;
   /// Records that a tile was found unchanged (304): new expiry, same bytes. thread: any
   virtual void renew(const TileId& id, std::int64_t stored_unix_s, std::optional<std::int64_t> expires_unix_s,

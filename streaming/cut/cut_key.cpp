@@ -25,7 +25,7 @@ std::string elevation_text(const std::optional<CutElevation>& elevation) {
                      number_text(elevation->nodata));
 }
 
-/// Nothing for pictures and heights, so that their keys stay as they were.
+/// Options about numbers; empty for pictures and heights, so that their keys stay as they were.
 std::string numbers_text(const CutOptions& options) {
   std::string text;
   if (const auto& numbers = options.numbers) {

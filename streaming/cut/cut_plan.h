@@ -39,7 +39,7 @@ struct CutPiece {
 
 /// A cut before its first pixel is read.
 struct PlannedCut {
-  TileSetInfo info;  ///< of the result
+  TileSetInfo info;  ///< description of the result
   CutPlan plan;
 };
 /// Opens the pictures and plans their cut; fails as cut() would. Blocks. thread: any

@@ -10,9 +10,8 @@
 
 namespace terrella {
 
-/// Pages of the system, which go back to it. malloc() would keep blocks of this size, and the more of other memory the
-/// larger they are.
-/// Throws std::bad_alloc. thread: any
+/// Returns memory in whole pages, which go back to the system when freed. malloc() would keep blocks of this size, and
+/// the larger they are the more of other memory. Throws std::bad_alloc. thread: any
 [[nodiscard]] void* take_pages(std::size_t bytes);
 /// thread: any
 void give_pages_back(void* pages, std::size_t bytes);

@@ -23,7 +23,7 @@ struct DirectOptions {
   PlaceWords place{};
   /// Grid of the raster's own pixels, so that tiles are copies of them; default: warp_grid().
   std::optional<TileGrid> grid = {};
-  RasterOptions reading = {};  ///< what is read: a picture, numbers of a band, three bands
+  RasterOptions reading = {};  ///< content to read: a picture, numbers of a band, three bands
 };
 
 /// Place of a raster on the globe.
@@ -63,7 +63,7 @@ inline constexpr double kMostBlocksOfStep = 1024.0;
                                                                const RasterPlace& place, const DirectOptions& options,
                                                                const std::string& where);
 
-/// Tiles of a file, and what to tell the user.
+/// Tiles of a file, and remarks for the user.
 struct DirectFile {
   std::unique_ptr<TileSource> tiles;  ///< null: the file must be cut
   std::vector<std::string> remarks{};

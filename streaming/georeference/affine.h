@@ -40,7 +40,7 @@ struct Affine {
 
 /// Place of a picture: the transform of its pixels to a coordinate system that PROJ knows.
 struct CrsPlace {
-  Affine to_crs;    ///< of the full-size picture, pixel-is-area
+  Affine to_crs;    ///< transform of the full-size picture, pixel-is-area
   std::string crs;  ///< text for Crs::open()
 };
 

@@ -28,7 +28,7 @@ using ProjHandle = std::unique_ptr<PJconsts, FreeProj>;
 /// Properties of a coordinate reference system.
 struct CrsFacts {
   std::string name;
-  std::string code;        ///< such as "EPSG:32633"; empty if unknown
+  std::string code;        ///< code, for example "EPSG:32633"; empty if unknown
   bool geographic = true;  ///< longitudes and latitudes; false: projected
   std::string method;      ///< name of the projection
   std::optional<double> central_meridian_deg;

@@ -23,7 +23,7 @@ namespace terrella {
 /// Identity of a coordinate system, as a GeoPackage lists it.
 struct CrsIdentity {
   std::string name;
-  std::string authority = "NONE";  ///< such as "EPSG"
+  std::string authority = "NONE";  ///< authority of the code, for example "EPSG"
   int code = 0;                    ///< > 0; 0 if the system has no code
   std::string wkt = "undefined";   ///< WKT 1 in GDAL's dialect
 };

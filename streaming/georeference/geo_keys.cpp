@@ -114,7 +114,7 @@ Status check_against_register(GTIF* keys, const GTIFDefn& defn, geokey_t key, co
                            code)};
 }
 
-/// Adds what libgeotiff leaves out of its PROJ string.
+/// Adds the parameters that libgeotiff leaves out of its PROJ string.
 void complete(const GTIFDefn& defn, std::string& text) {
   constexpr std::string_view kNoParallel = "+lat_ts=0.000000000 ";
   constexpr int kObliqueMercatorB = 9815;

@@ -32,8 +32,9 @@ Result<std::optional<Affine>> scaled_transform(const GeoTags& tags) {
   if (tags.pixel_scale.size() < 2 || tags.tie_points.size() != 6) {
     return Error{"its GeoTIFF tags give a pixel size and no tie point"};
   }
-  const double width = tags.pixel_scale[0], height = tags.pixel_scale[1];
-  if (!(width > 0.0) || !(height > 0.0)) {
+  // GDAL writes the width of columns that run westwards with a minus, and ignores a minus of the height.
+  const double width = tags.pixel_scale[0], height = std::abs(tags.pixel_scale[1]);
+  if (!(std::abs(width) > 0.0) || !(height > 0.0)) {
     return Error{fmt::format("its GeoTIFF tags give pixels of {:g} by {:g}", width, height)};
   }
   const auto& tie = tags.tie_points;

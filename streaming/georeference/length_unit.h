@@ -10,7 +10,7 @@ namespace terrella {
 /// metres. None for a name that is no known length. thread: any
 [[nodiscard]] std::optional<double> metres_of_unit(std::string_view unit);
 
-/// Why numbers in such a unit are no heights, and what helps. thread: any
+/// Returns the reason why numbers in this unit are no heights, and a cure. thread: any
 [[nodiscard]] std::string no_length(std::string_view unit);
 
 }  // namespace terrella

@@ -26,7 +26,7 @@ struct PlacedPicture {
   std::optional<CrsPlace> projected;   ///< place in any system; none: not stated, the picture is a whole planet
   std::optional<Placement> placement;  ///< the same place in even steps of degrees, if it is one: every pixel corner is
                                        ///< within 0.01 pixels of PROJ's result
-  std::string claim;                   ///< who states the system: "PATH: its GeoTIFF tags say that it is …"
+  std::string claim;                   ///< source of the system: "PATH: its GeoTIFF tags say that it is …"
   std::vector<std::string> remarks;    ///< statements of the picture that the user's words overrule, for the user
 };
 

@@ -100,10 +100,11 @@ Result<std::optional<SideClaim>> read_world_file(const fs::path& file) {
       SideClaim{.file = file, .transform = centre.from_centre(), .crs = {}, .has_control_points = false});
 }
 
+fs::path aux_xml_of(const fs::path& picture) { return picture.string() + ".aux.xml"; }
+
 Result<std::optional<SideClaim>> read_aux_xml(const fs::path& picture) {
-  fs::path file = picture;
-  file += ".aux.xml";
-  const auto text = side_text(file, kMostAuxBytes);
+  const fs::path file = aux_xml_of(picture);
+  const auto text = aux_xml_text(picture);
   if (!text) return text.error();
   if (!*text) return std::optional<SideClaim>{};
   pugi::xml_document document;
@@ -136,6 +137,10 @@ Result<std::optional<SideClaim>> read_prj(const fs::path& picture) {
 }
 
 }  // namespace
+
+Result<std::optional<std::string>> aux_xml_text(const fs::path& picture) {
+  return side_text(aux_xml_of(picture), kMostAuxBytes);
+}
 
 Result<std::vector<SideClaim>> read_side_files(const fs::path& picture) {
   std::vector<SideClaim> claims;

@@ -26,4 +26,7 @@ struct SideClaim {
 /// - A .prj, which counts only beside a world file.
 [[nodiscard]] Result<std::vector<SideClaim>> read_side_files(const std::filesystem::path& picture);
 
+/// The text of PICTURE.aux.xml; none if there is no such file. The error names it. thread: any
+[[nodiscard]] Result<std::optional<std::string>> aux_xml_text(const std::filesystem::path& picture);
+
 }  // namespace terrella

@@ -82,7 +82,7 @@ class RangeReader {
   const std::function<bool()> go_on_;
   const std::uint64_t block_bytes_;
   std::mutex network_;        ///< held by the one call that waits for the network; taken before mutex_
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   FileVersion version_;
   bool has_version_ = false;
   std::map<std::uint64_t, Block> blocks_;  ///< by number

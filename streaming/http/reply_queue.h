@@ -40,7 +40,7 @@ class ReplyQueue {
   [[nodiscard]] static HttpReply finished(Item&& item);
 
   const std::size_t wake_at_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable pushed_;
   std::deque<Item> items_;
   bool closed_ = false;

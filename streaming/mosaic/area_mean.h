@@ -13,11 +13,11 @@ struct MeanBox {
   int width = 0, height = 0;
 };
 
-/// How pixels of a file's level lie on pixels of the result: result = corner + size · pixel.
+/// Position of the pixels of a file's level on the pixels of the result: result = corner + size · pixel.
 struct PixelScale {
   double corner_x = 0.0, corner_y = 0.0;
   double size_x = 1.0, size_y = 1.0;         ///< result pixels in a pixel of the file, (0, 1.1]
-  std::int64_t width_px = 0, height_px = 0;  ///< of the level; blocks may reach beyond it
+  std::int64_t width_px = 0, height_px = 0;  ///< size of the level; blocks may reach beyond it
 };
 
 /// Means of files' pixels by area, for a rectangle of the result. Each file's pixel counts by the area that it covers,
@@ -30,7 +30,7 @@ class AreaMean {
 
   /// Adds a block of the file on top of those left; (x, y) is the block's first pixel in the file's level.
   void add(const Block& block, std::int64_t x, std::int64_t y, const PixelScale& scale);
-  /// Ends a file: what it covers is covered for the files below.
+  /// Ends a file: its pixels cover those of the files below.
   void end_file();
   /// True if every pixel is covered.
   [[nodiscard]] bool is_full() const;
@@ -44,7 +44,7 @@ class AreaMean {
   const MeanBox box_;
   const bool numbers_;
   const std::size_t channels_;
-  std::vector<float> file_;   ///< of the file being added: values times weight, and the weight last
+  std::vector<float> file_;   ///< sums of the file being added: values times weight, and the weight last
   std::vector<float> total_;  ///< the same of all files
 };
 

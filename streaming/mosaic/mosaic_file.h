@@ -16,7 +16,7 @@
 
 namespace terrella {
 
-/// How the files of a mosaic are measured and opened. The defaults read TIFFs.
+/// Functions that measure and open the files of a mosaic. The defaults read TIFFs.
 struct MosaicReading {
   /// Size of a picture that is no TIFF. Reads the header alone.
   std::function<Result<PictureFile>(const std::filesystem::path&)> measure = {};
@@ -30,7 +30,7 @@ struct MosaicFile {
   std::filesystem::path path;
   std::int64_t bytes = 0;
   std::int64_t changed_ns = 0;                               ///< time of the last change, nanoseconds since 1970
-  std::vector<std::pair<std::int64_t, std::int64_t>> sizes;  ///< of the levels, pixels, the coarsest first
+  std::vector<std::pair<std::int64_t, std::int64_t>> sizes;  ///< sizes of the levels, pixels, the coarsest first
   CrsPlace place;
   bool is_numbers = false;  ///< one band of other than 8 bits; shown as numbers by default
   bool one_band = false;    ///< can be read as numbers

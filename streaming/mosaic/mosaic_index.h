@@ -31,7 +31,7 @@ struct MosaicIndexOptions {
 struct MosaicIndex {
   std::vector<PlacedFile> files;    ///< the lowest first
   std::vector<MosaicSheet> sheets;  ///< the lowest first
-  std::vector<int> sheet_of;        ///< of each file
+  std::vector<int> sheet_of;        ///< index in `sheets` for each file
   bool numbers = false;
   LatitudeKind latitude = LatitudeKind::graphic;
   std::vector<std::string> left_out;  ///< reasons, each with the file's name
@@ -42,9 +42,9 @@ struct MosaicIndex {
   [[nodiscard]] std::vector<int> files_in(const MosaicBox& box) const;
 };
 
-/// Reads the headers, those that changed since the store has them, and arranges the files. Files that cannot be read
-/// are left out. Fails if none can, or if some are pictures and others numbers: the error names one of each. `store`
-/// may be null. Blocks. thread: any
+/// Reads the headers that are new or changed since the store kept them, and arranges the files. Files that cannot be
+/// read are left out. Fails if no file can be read. Also fails if some are pictures and others numbers: the error names
+/// one of each. `store` may be null. Blocks. thread: any
 [[nodiscard]] Result<MosaicIndex> index_mosaic(const MosaicList& list, const std::string& where,
                                                const MosaicIndexOptions& options, MosaicStore* store);
 

@@ -109,7 +109,7 @@ Result<MosaicList> read_lines(const fs::path& path) {
   return list;
 }
 
-/// Reads an item of "mosaic": a path, or an object with a path and what replaces the file's own statements.
+/// Reads an item of "mosaic": a path, or an object with a path and values that replace the file's own.
 Result<MosaicEntry> read_item(const nlohmann::json& item, const fs::path& folder, const std::string& where) {
   if (item.is_string()) return MosaicEntry{.path = folder / item.get<std::string>()};
   if (!item.is_object()) return Error{where + ": an item of \"mosaic\" is neither a path nor an object with \"file\""};

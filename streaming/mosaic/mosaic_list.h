@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// A file of a mosaic, and what the description says about it.
+/// A file of a mosaic, with the values that the description states for it.
 struct MosaicEntry {
   std::filesystem::path path;
   PlaceWords words{};                 ///< replaces the place that the file states

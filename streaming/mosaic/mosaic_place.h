@@ -53,7 +53,7 @@ struct MosaicPlace {
 class MosaicPlacer {
  public:
   explicit MosaicPlacer(const MosaicFigure& figure) : figure_(figure) {}
-  /// The error names the file, its statement and what helps. Blocks.
+  /// The error names the file, its statement and a cure. Blocks.
   [[nodiscard]] Result<MosaicPlace> place(const MosaicFile& file, const PlaceWords& words);
 
  private:

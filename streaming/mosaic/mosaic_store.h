@@ -17,8 +17,8 @@
 namespace terrella {
 
 /// The part of a mosaic that the cache folder keeps: facts from the headers of its files, and the overview of the
-/// whole. Several processes may use one file. Whatever cannot be read or written counts as missing, because everything
-/// in it can be made again. thread: any, several at once
+/// whole. Several processes may use one file. Entries that cannot be read or written count as missing, because all of
+/// them can be made again. thread: any, several at once
 class MosaicStore {
  public:
   /// The error says why the file can neither be opened nor made.

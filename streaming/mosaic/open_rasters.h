@@ -57,7 +57,7 @@ class OpenRasters {
 
   const std::vector<PlacedFile>& files_;
   const OpenRasterOptions options_;
-  std::mutex mutex_;      ///< guards what follows
+  std::mutex mutex_;      ///< guards the members below
   std::list<Open> open_;  ///< most recently used first
   std::unordered_map<int, std::list<Open>::iterator> places_;
   std::unordered_set<int> named_;  ///< files that could not be read

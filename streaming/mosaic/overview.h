@@ -61,7 +61,7 @@ class Overview : public RemoteTiles {
 
   const Parts parts_;
   DecodedBlocks made_{8UL << 20};
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable wake_;
   bool closing_ = false;
   bool begun_ = false;

@@ -39,7 +39,7 @@ class SheetTiles {
   OpenRasters& rasters_;
   const TileGrid grid_;
   const Body body_;
-  std::mutex mutex_;                           ///< guards what follows
+  std::mutex mutex_;                           ///< guards the members below
   std::list<std::pair<int, OpenSheet>> open_;  ///< most recently used first
 };
 

@@ -20,7 +20,7 @@ struct CodingOptions {
   std::optional<double> nodata = {};
   std::optional<double> scale = {};
   std::optional<double> offset = {};
-  std::optional<std::size_t> band = {};  ///< of numbers, counted from 0; none: the only one
+  std::optional<std::size_t> band = {};  ///< band of numbers, counted from 0; none: the only one
   std::optional<BandComposite> composite = {};
 };
 

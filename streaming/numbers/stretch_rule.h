@@ -9,7 +9,7 @@
 // thread: any, for all of this header
 namespace terrella {
 
-/// How the first and the last shown value are chosen.
+/// Choice of the first and the last shown value.
 struct StretchRule {
   enum class Kind {
     range,    ///< `low` to `high`, in values

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,14 @@ constexpr double kMostHeight_m = 1.0e9;
 constexpr double kMetresOfKm = 1000.0;
 constexpr int kMostCollections = 4;  // RFC 7946 advises against nested collections
 constexpr double kMostPieces = 2.0e6;
+
+/// Twice the way from a marker's place to its right end.
+float width_px(const PointObject& point) {
+  const PointIcon& icon = point.icon;
+  if (!icon.image || icon.from_north || icon.heading.rad() != 0.0) return point.size_px;
+  const int longest = std::max(icon.image->width_px, icon.image->height_px);
+  return 2.0F * (1.0F - icon.anchor.x) * point.size_px * float(icon.image->width_px) / float(longest);
+}
 
 class GeometryReader {
  public:
@@ -111,7 +120,7 @@ class GeometryReader {
     if (style_.label.text.empty()) return Done{};
     LabelObject label = style_.label;
     label.place = *place;
-    label.size_px = point.radius_m > 0.0 ? 0.0F : point.size_px;
+    label.size_px = point.radius_m > 0.0 ? 0.0F : width_px(point);
     label.radius_m = point.radius_m;
     label.through_surface = point.through_surface;
     scene_.labels.push_back(std::move(label));

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "streaming/json_text.h"
 #include "streaming/objects/feature_objects.h"
+#include "streaming/objects/icon_shelf.h"
 #include "streaming/objects/model_shelf.h"
 #include "streaming/objects/quake_catalogue.h"
 #include "streaming/preload/geojson_text.h"
@@ -17,19 +19,21 @@ namespace {
 
 using nlohmann::json;
 
-/// Names the objects of a feature by its number in the file, and gives them its properties.
-void name_feature(ObjectStyle& style, std::size_t index, const json& properties) {
+/// Names the objects of a feature, and gives them its properties.
+void name_feature(ObjectStyle& style, ObjectId id, const json& properties) {
   auto feature = std::make_shared<ObjectFeature>();
   feature->properties = properties.dump(-1, ' ', false, json::error_handler_t::replace);
   style.point.of = style.line.of = style.polygon.of = style.label.of =
-      style.mesh.of = {.id = ObjectId{index + 1}, .feature = std::move(feature)};
+      style.mesh.of = {.id = id, .feature = std::move(feature)};
 }
 
 /// Takes each feature out of the document as soon as it is complete. No more than one feature is held as JSON.
 class FeatureTaker {
  public:
-  FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectFile& file)
-      : where_(std::move(where)), models_(folder), file_(file) {}
+  FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file)
+      : where_(std::move(where)), models_(folder), icons_(folder), first_(first), file_(file) {
+    file_.next = first;
+  }
 
   /// For JsonBuilder: keeps everything except features.
   bool keep(std::size_t depth, const std::string& member, const json& value) {
@@ -51,7 +55,10 @@ class FeatureTaker {
     const auto properties = feature.find("properties");
     ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
     if (quakes_) style_quake(feature, style);
-    name_feature(style, index, properties == feature.end() ? json::object() : *properties);
+    const ObjectId id{static_cast<std::uint64_t>(first_) + index};
+    file_.next = ObjectId{static_cast<std::uint64_t>(id) + 1};
+    name_feature(style, id, properties == feature.end() ? json::object() : *properties);
+    if (!style.icon.empty()) set_icon(style, complain);
     if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
     add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,
                  complain);
@@ -73,8 +80,18 @@ class FeatureTaker {
   [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
+  void set_icon(ObjectStyle& style, const Complain& complain) {
+    PointObject& point = style.point;
+    point.icon.image = icons_.get(style.icon, complain);
+    if (!point.icon.image) return;
+    const int side_px = std::max(point.icon.image->width_px, point.icon.image->height_px);
+    point.size_px = style.icon_size_px.value_or(static_cast<float>(side_px));
+  }
+
   std::string where_;
   ModelShelf models_;
+  IconShelf icons_;
+  ObjectId first_;
   ObjectFile& file_;
   std::size_t count_ = 0;
   bool quakes_ = false;
@@ -98,9 +115,9 @@ Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
 }  // namespace
 
 Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
-                                         const std::filesystem::path& folder) {
+                                         const std::filesystem::path& folder, ObjectId first) {
   ObjectFile file;
-  FeatureTaker taker(where, folder, file);
+  FeatureTaker taker(where, folder, first, file);
   const auto broken = [&](const std::string& what) -> Result<ObjectFile> {
     if (file.scene.empty()) return Error{fmt::format("{}: {}", where, what)};
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
@@ -114,7 +131,7 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
   return file;
 }
 
-Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path) {
+Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first) {
   std::error_code problem;
   const auto bytes = std::filesystem::file_size(path, problem);
   if (problem) return Error{fmt::format("{}: {}", path.string(), problem.message())};
@@ -124,7 +141,7 @@ Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path) {
   }
   std::ifstream text(path, std::ios::binary);
   if (!text) return Error{fmt::format("{}: it cannot be opened", path.string())};
-  return parse_geojson_objects(text, path.string(), path.has_parent_path() ? path.parent_path() : ".");
+  return parse_geojson_objects(text, path.string(), path.has_parent_path() ? path.parent_path() : ".", first);
 }
 
 }  // namespace terrella

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/number.h"
+#include "streaming/preload/geojson_text.h"
 
 namespace terrella {
 namespace {
@@ -70,7 +71,27 @@ class StyleReader {
     return text(name);
   }
 
-  /// A digit or a letter. Empty for the name of an icon, because there are no icons.
+  /// A place of an icon, in the words of MapLibre's icon-anchor.
+  std::optional<glm::vec2> anchor() const {
+    const json* value = find("icon-anchor");
+    if (value == nullptr) return std::nullopt;
+    constexpr std::array<std::pair<const char*, glm::vec2>, 9> kAnchors{{{"center", {0.5F, 0.5F}},
+                                                                         {"left", {0.0F, 0.5F}},
+                                                                         {"right", {1.0F, 0.5F}},
+                                                                         {"top", {0.5F, 0.0F}},
+                                                                         {"bottom", {0.5F, 1.0F}},
+                                                                         {"top-left", {0.0F, 0.0F}},
+                                                                         {"top-right", {1.0F, 0.0F}},
+                                                                         {"bottom-left", {0.0F, 1.0F}},
+                                                                         {"bottom-right", {1.0F, 1.0F}}}};
+    for (const auto& [name, place] : kAnchors) {
+      if (*value == name) return place;
+    }
+    complain_("\"icon-anchor\" must be center, left, right, top, bottom, or a corner such as bottom-left");
+    return std::nullopt;
+  }
+
+  /// A digit or a letter. Empty for the name of an icon: there are no icons by name.
   std::string marker_symbol() const {
     const json* value = find("marker-symbol");
     if (value == nullptr) return {};
@@ -82,7 +103,14 @@ class StyleReader {
     const auto& symbol = value->get_ref<const std::string&>();
     const bool drawn =
         symbol.size() == 1 && ((symbol[0] >= '0' && symbol[0] <= '9') || (symbol[0] >= 'a' && symbol[0] <= 'z'));
-    return drawn ? symbol : std::string();
+    if (drawn || symbol.empty()) return symbol;
+    if (text("icon").empty()) {
+      complain_(
+          fmt::format("\"marker-symbol\" {}: there are no icons by name; give a picture file as \"icon\". A disc is "
+                      "drawn",
+                      in_quotes(symbol)));
+    }
+    return {};
   }
 
  private:
@@ -103,6 +131,22 @@ void set_opacity(ObjectColor& color, std::optional<double> opacity) {
 /// Sets a colour, but not its opacity.
 void set_color(ObjectColor& color, std::optional<ObjectColor> said) {
   if (said) color = {said->red, said->green, said->blue, color.alpha};
+}
+
+/// Reads an icon. Other programs may use its properties differently without one.
+void read_icon(const StyleReader& reader, ObjectStyle& style) {
+  constexpr double kMostSize_px = 1024.0;
+  style.icon = reader.text("icon");
+  if (style.icon.empty()) return;
+  PointIcon& icon = style.point.icon;
+  if (const auto size = reader.number("icon-size", 1.0, kMostSize_px)) style.icon_size_px = static_cast<float>(*size);
+  icon.anchor = reader.anchor().value_or(icon.anchor);
+  icon.tint = reader.color("icon-color").value_or(icon.tint);
+  if (const auto turn = reader.number("icon-rotate", -360.0, 360.0)) icon.heading = Angle::degrees(*turn);
+  if (const auto heading = reader.number("heading_deg", -360.0, 360.0)) {
+    icon.heading = Angle::degrees(*heading);
+    icon.from_north = true;
+  }
 }
 
 /// Defaults of simplestyle 1.1.0, section 3. The specification gives no size for "medium"; this one is Terrella's.
@@ -149,6 +193,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   set_color(style.polygon.fill, reader.color("fill"));
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
   const bool through = reader.flag("through_surface");
+  read_icon(reader, style);
   style.model = reader.text("model");
   if (!style.model.empty()) {  // other programs may use these names differently
     if (const auto scale = reader.number("scale", kLeastScale, kMostScale)) style.mesh.scale = *scale;

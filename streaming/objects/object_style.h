@@ -11,12 +11,14 @@ namespace terrella {
 
 /// Appearance of the objects of a feature.
 struct ObjectStyle {
-  PointObject point;      ///< all but its place
-  LineObject line;        ///< all but its places
-  PolygonObject polygon;  ///< all but its rings
-  LabelObject label;      ///< text, empty for no label, and priority
-  std::string model;      ///< file of a point's model; empty: none
-  MeshObject mesh;        ///< all but its place; without a model the point is drawn
+  PointObject point;                  ///< all but its place
+  LineObject line;                    ///< all but its places
+  PolygonObject polygon;              ///< all but its rings
+  LabelObject label;                  ///< text, empty for no label, and priority
+  std::string icon;                   ///< file or data: URI of a marker's icon; empty: none
+  std::optional<float> icon_size_px;  ///< none: the picture's own size
+  std::string model;                  ///< file of a point's model; empty: none
+  MeshObject mesh;                    ///< all but its place; without a model the point is drawn
 };
 
 /// Called with a message for each fault.

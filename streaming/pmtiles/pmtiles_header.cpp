@@ -37,7 +37,7 @@ Result<PmtilesCompression> compression_at(std::span<const std::byte> head, std::
                            what, value < kNames.size() ? kNames.at(value) : kNames.front())};
 }
 
-/// Type 0 is "unknown or other": the tiles themselves then say what they are.
+/// Type 0 is "unknown or other": the bytes of the tiles then tell their format.
 Status check_tile_type(std::uint64_t type) {
   if (type == 0 || (type >= 2 && type <= 4)) return Done{};
   const char* name = type == 1 ? "vector tiles (MVT)" : type == 5 ? "AVIF pictures" : "of a type that is not known";

@@ -57,7 +57,7 @@ class PmtilesIndex {
 
   const PmtilesHeader header_;
   const std::shared_ptr<const PmtilesDirectory> root_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::map<ByteRange, KeptLeaf> leaves_;
   std::size_t kept_bytes_ = 0;
   std::uint64_t uses_ = 0;

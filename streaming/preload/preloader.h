@@ -73,13 +73,13 @@ struct PreloadResult {
 /// tiles. thread: any but the cache's writer
 [[nodiscard]] Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pinned);
 
-/// Brings what a plan names into a cache: passes over what is there and fresh without a request, asks for the rest,
-/// with validators where there is something, checks what comes and stores it; at the end asks once more for what
-/// failed. What is missing is not noted in the cache, so that the next run asks for it again, and never takes the place
-/// of an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has no room for a tile,
-/// tiles that it does not have are not asked for any more: they are missing too. `make_origin` gets the queue that
-/// takes the answers. Fails only if the cache cannot be read or written (disk full); what was stored before stays.
-/// Blocks. thread: any but the cache's writer
+/// Brings the tiles of a plan into a cache. Fresh tiles are passed over without a request. The others are requested,
+/// with validators if the cache has an outdated tile. Answers are checked and stored. At the end failed tiles are
+/// requested once more. Tiles that stay missing (PreloadMissing) are not recorded, so that the next run requests them
+/// again. They never replace an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has
+/// no room for a tile, tiles that it does not have are not requested any more and count as missing. `make_origin` gets
+/// the queue that takes the answers. Fails only if the cache cannot be read or written (disk full); tiles stored before
+/// stay. Blocks. thread: any but the cache's writer
 [[nodiscard]] Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
                                             const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                                             const PreloadOptions& options);

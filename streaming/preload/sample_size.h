@@ -20,8 +20,8 @@ struct SizeSample {
   std::string why;                ///< reason of the last failure
 };
 
-/// Asks for at most `most` tiles spread over the plan, one after the other; finer levels, which most tiles are of, more
-/// often. Stops at the first two that do not answer, or when `go_on` says so. Blocks. thread: any
+/// Asks for at most `most` tiles spread over the plan, one after the other. Finer levels, which have most of the tiles,
+/// are asked more often. Stops at the first two tiles without an answer, or when `go_on` says so. Blocks. thread: any
 [[nodiscard]] SizeSample sample_sizes(const TilePlan& plan, int most,
                                       const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                                       const std::function<bool()>& go_on);

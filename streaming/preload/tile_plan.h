@@ -46,16 +46,16 @@ class TilePlan {
 };
 
 /// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
-/// the whole planet. Nothing is kept but the region: counting and walking go down the quadtree, pass over what lies
-/// outside as a whole and take what lies inside as a whole. thread: any
+/// the whole planet. Only the region is kept: counting and walking go down the quadtree, and take subtrees inside the
+/// region, or pass over those outside, as a whole. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
                                                     int first_level, int last_level);
 
 /// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);
 
-/// thread: any. Part `index` of `count`, index in [1, count]: of every level its share of the walk, in one piece. Parts
-/// are disjoint, together the whole, and differ by at most a tile a level.
+/// Part `index` of `count`, index in [1, count]: its share of the walk on every level, in one piece. Parts are
+/// disjoint, together the whole, and differ by at most a tile a level. thread: any
 struct Shard {
   std::int64_t index = 1;
   std::int64_t count = 1;

@@ -79,7 +79,7 @@ Result<std::vector<std::string>> stretch_notes(const TiffPyramid& pyramid) {
 
 bool holds_numbers(const TiffPyramid& pyramid) {
   const TiffSamples& samples = pyramid.whole().part.picture.samples;
-  return samples.colour == TiffColour::gray && samples.type != SampleType::uint8;
+  return samples.colour == TiffColour::gray && samples.type != SampleType::uint8 && !pyramid.metadata.colour_bands();
 }
 
 bool holds_numbers(const std::filesystem::path& path) {
@@ -95,7 +95,7 @@ Result<RasterFacts> describe_raster(const TiffPyramid& pyramid, const DescribedB
   RasterFacts facts{.width_px = picture.width_px,
                     .height_px = picture.height_px,
                     .bands = static_cast<int>(picture.samples.per_pixel),
-                    .samples = sample_title(picture.samples.type),
+                    .samples = picture.samples.title(),
                     .layout = layout_title(picture),
                     .overviews = {},
                     .has_mask = pyramid.whole().mask.has_value(),

@@ -66,9 +66,7 @@ Result<Numbers, TileFailure> heights_of(TiffParts& parts, const TileId& block) {
   return stored_numbers(*part.store, block.x, block.y);
 }
 
-bool is_wider_than_floats(SampleType type) {
-  return type == SampleType::uint32 || type == SampleType::int32 || type == SampleType::float64;
-}
+bool is_wider_than_floats(SampleType type) { return type != SampleType::float32 && sample_bytes(type) >= 4; }
 
 Result<double> exact_sample_at(RasterPart& part, std::int64_t column, std::int64_t row, std::size_t band) {
   if (part.tiles) return part.tiles->exact_sample_at(column, row, band);

@@ -25,7 +25,7 @@ struct RasterOptions {
   std::optional<double> offset = {};
   /// With `heights`: blocks have the stored numbers, and RasterInfo::numbers has scale and offset.
   bool stored = false;
-  int band = 0;                                 ///< of the numbers, counted from 1; 0: the only one
+  int band = 0;                                 ///< band that holds the numbers, counted from 1; 0: the only one
   std::optional<BandComposite> composite = {};  ///< a picture of three bands, each stretched
   /// For the temporary file of a large picture that is read row by row; empty: the system's folder (TMPDIR).
   std::filesystem::path work_folder = {};
@@ -60,7 +60,7 @@ struct RasterFacts {
   std::vector<std::string> notes;
 };
 
-/// Which numbers of a TIFF are described.
+/// Choice of the numbers of a TIFF that are described.
 struct DescribedBand {
   int band = 0;                       ///< counted from 1; 0: the only one
   std::optional<double> nodata = {};  ///< instead of the file's

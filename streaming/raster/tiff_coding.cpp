@@ -52,6 +52,12 @@ Result<ColourConverter> colours_of(const TiffPyramid& pyramid, const CodingOptio
   TiffSamples samples = pyramid.whole().part.picture.samples;
   samples.nodata = options.nodata ? options.nodata : pyramid.metadata.nodata;
   if (options.composite) return composite_of(pyramid, std::move(samples), *options.composite);
+  const auto said = pyramid.metadata.colour_bands();
+  const bool usual = samples.colour == TiffColour::palette ||
+                     (samples.colour == TiffColour::rgb && said == std::array<std::size_t, 3>{0, 1, 2});
+  if (said && !usual && std::ranges::max(*said) < samples.per_pixel) {
+    return composite_of(pyramid, std::move(samples), {.bands = *said, .stretch = {}});
+  }
   const auto stretch = find_stretch(pyramid, samples.nodata);
   if (!stretch) return stretch.error();
   samples.stretch = *stretch;

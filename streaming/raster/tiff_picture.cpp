@@ -21,15 +21,16 @@ T tiff_tag(TIFF* tiff, ttag_t tag, T otherwise) {
 std::optional<SampleType> type_of(int format, int bits) {
   const bool is_signed = format == SAMPLEFORMAT_INT;
   if (format == SAMPLEFORMAT_IEEEFP) {
-    if (bits == 32) return SampleType::float32;
+    if (bits == 16 || bits == 32) return SampleType::float32;
     return bits == 64 ? std::optional(SampleType::float64) : std::nullopt;
   }
   if (format != SAMPLEFORMAT_UINT && format != SAMPLEFORMAT_VOID && !is_signed) return {};
-  if (bits == 1 || bits == 2 || bits == 4) return is_signed ? std::nullopt : std::optional(SampleType::uint8);
-  if (bits == 8) return is_signed ? SampleType::int8 : SampleType::uint8;
-  if (bits == 16) return is_signed ? SampleType::int16 : SampleType::uint16;
-  if (bits == 32) return is_signed ? SampleType::int32 : SampleType::uint32;
-  return {};
+  if (bits == 8 && is_signed) return SampleType::int8;
+  if (bits == 16 && is_signed) return SampleType::int16;
+  if (bits == 32 && is_signed) return SampleType::int32;
+  if (bits == 64) return is_signed ? SampleType::int64 : SampleType::uint64;
+  if (bits < 1 || bits > 32 || is_signed) return {};
+  return bits <= 8 ? SampleType::uint8 : bits <= 16 ? SampleType::uint16 : SampleType::uint32;
 }
 
 /// Fills a TiffPicture from the current directory of a reader.
@@ -116,8 +117,8 @@ class PictureTags {
   Status read_palette() {
     TiffSamples& samples = picture_.samples;
     std::array<std::uint16_t*, 3> maps{};
-    if (samples.stored_bits > 16 || samples.type == SampleType::int8 || samples.type == SampleType::int16) {
-      return refuse(fmt::format("a palette for {}", sample_title(samples.type)));
+    if (samples.type != SampleType::uint8 && samples.type != SampleType::uint16) {
+      return refuse(fmt::format("a palette for {}", samples.title()));
     }
     if (TIFFGetField(tiff_, TIFFTAG_COLORMAP, &maps[0], &maps[1], &maps[2]) != 1) return refuse("no palette");
     samples.palette.resize(std::size_t{1} << samples.stored_bits);
@@ -143,6 +144,9 @@ class PictureTags {
   Status read_compression() {
     picture_.compression = tiff_tag<std::uint16_t>(tiff_, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
     const auto scheme = static_cast<std::uint16_t>(picture_.compression);
+    if (scheme == COMPRESSION_JPEG && picture_.samples.stored_bits != 8) {
+      return refuse(fmt::format("JPEG compression of {}", picture_.samples.title()));
+    }
     if (scheme != COMPRESSION_OJPEG && TIFFIsCODECConfigured(scheme) != 0) return Done{};
     return refuse(fmt::format("compression {} is not supported", picture_.compression));
   }

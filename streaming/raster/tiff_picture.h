@@ -21,7 +21,7 @@ struct TiffPicture {
   int orientation = ORIENTATION_TOPLEFT;  ///< the Orientation tag: another value turns the stored rows
   bool tiled = false;
   bool separate = false;            ///< each sample has a plane of blocks of its own
-  std::int64_t tile_width_px = 0;   ///< of a tile, or of a block of strips (make_strip_blocks()); 0: strips alone
+  std::int64_t tile_width_px = 0;   ///< width of a tile, or of a block of strips (make_strip_blocks()); 0: strips alone
   std::int64_t tile_height_px = 0;  ///< likewise
   std::int64_t rows_per_strip = 1;  ///< at most height_px
   bool even_strips = false;         ///< the rows of a strip have packed_bytes()

@@ -153,6 +153,11 @@ Result<TiffPyramid> read_parts(const std::shared_ptr<const ByteFile>& file, cons
   const auto reader = TiffReader::open(file);
   if (!reader) return reader.error();
   TiffPyramid pyramid{.levels = {}, .metadata = read_metadata(**reader)};
+  if (!path.empty()) {
+    const auto beside = aux_xml_text(path);
+    if (!beside) return Error{fmt::format("{}: {}", file->name(), beside.error().message)};
+    if (*beside) add_side_metadata(**beside, pyramid.metadata);
+  }
   auto directories = read_directories(file, **reader);
   if (!directories) return directories.error();
   if (Status upright = check_orientation(file, path, directories->front().picture); !upright) return upright.error();

@@ -20,7 +20,7 @@ struct TiffPart {
 
 struct TiffLevel {
   TiffPart part;
-  std::optional<TiffPart> mask;  ///< of the same size
+  std::optional<TiffPart> mask;  ///< mask of the same size
 
   /// True if parts of the level, and of its mask, can be read by themselves.
   [[nodiscard]] bool has_blocks() const { return part.picture.has_blocks() && (!mask || mask->picture.has_blocks()); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <limits>
 #include <type_traits>
 
@@ -25,6 +26,10 @@ void with_sample_type(SampleType type, const Use& use) {
       return use(std::uint32_t{});
     case SampleType::int32:
       return use(std::int32_t{});
+    case SampleType::uint64:
+      return use(std::uint64_t{});
+    case SampleType::int64:
+      return use(std::int64_t{});
     case SampleType::float32:
       return use(float{});
     case SampleType::float64:
@@ -44,8 +49,9 @@ template <class T>
 std::optional<T> as_sample(std::optional<double> value) {
   if (!value) return {};
   if constexpr (std::is_integral_v<T>) {
+    // The limit above the largest value is a power of two, which a double holds exactly.
     if (*value != std::round(*value) || *value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
-        *value > static_cast<double>(std::numeric_limits<T>::max())) {
+        *value >= std::ldexp(1.0, std::numeric_limits<T>::digits)) {
       return {};
     }
   } else if (std::abs(*value) > static_cast<double>(std::numeric_limits<T>::max())) {
@@ -54,16 +60,29 @@ std::optional<T> as_sample(std::optional<double> value) {
   return static_cast<T>(*value);
 }
 
+/// Integers follow each other without gaps, their highest bits first.
+template <class T>
+void unpack_integers(int bits, const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
+  const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+  std::uint64_t held = 0;
+  int held_bits = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (; held_bits < bits; held_bits += 8) held = held << 8 | *from++;
+    held_bits -= bits;
+    const auto sample = static_cast<T>(held >> held_bits & mask);
+    std::memcpy(to + i * sizeof(T), &sample, sizeof(T));
+  }
+}
+
 std::uint8_t without_alpha(std::uint8_t colour, std::uint8_t alpha) {
   return alpha == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(std::min(255, (colour * 255 + alpha / 2) / alpha));
 }
 
 template <class T>
 std::uint8_t alpha_level(T value, int stored_bits) {
-  if constexpr (std::is_same_v<T, std::uint8_t>) {
-    return static_cast<std::uint8_t>(value * 255 / ((1 << stored_bits) - 1));
-  } else if constexpr (std::is_same_v<T, std::uint16_t>) {
-    return static_cast<std::uint8_t>((value + 128U) / 257U);
+  if constexpr (std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t>) {
+    const std::uint32_t most = (1U << stored_bits) - 1U;
+    return static_cast<std::uint8_t>((value * 255U + most / 2U) / most);
   } else {
     return value > T{0} ? 255 : 0;
   }
@@ -77,11 +96,14 @@ std::size_t sample_bytes(SampleType type) {
   return bytes;
 }
 
-std::string sample_title(SampleType type) {
-  const std::string bits = std::to_string(8 * sample_bytes(type)) + "-bit ";
-  if (type == SampleType::float32 || type == SampleType::float64) return bits + "floats";
-  const bool has_sign = type == SampleType::int8 || type == SampleType::int16 || type == SampleType::int32;
-  return bits + (has_sign ? "signed integers" : "unsigned integers");
+std::string TiffSamples::title() const {
+  const std::string bits = std::to_string(stored_bits) + "-bit ";
+  std::string kind;
+  with_sample_type(type, [&](auto value) {
+    using T = decltype(value);
+    kind = std::is_floating_point_v<T> ? "floats" : std::is_signed_v<T> ? "signed integers" : "unsigned integers";
+  });
+  return bits + kind;
 }
 
 bool TiffSamples::may_be_clear() const {
@@ -210,13 +232,18 @@ double exact_sample(const TiffSamples& samples, std::size_t band, const std::uin
   return exact;
 }
 
-void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to) {
-  const auto each = static_cast<std::size_t>(bits);
-  const auto mask = static_cast<std::uint8_t>((1U << each) - 1U);
-  for (std::size_t i = 0; i < samples; ++i) {
-    const std::size_t bit = i * each;
-    to[i] = static_cast<std::uint8_t>(from[bit / 8] >> (8 - each - bit % 8)) & mask;
-  }
+void unpack_row(const TiffSamples& samples, const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
+  with_sample_type(samples.type, [&](auto zero) {
+    using T = decltype(zero);
+    if constexpr (std::is_same_v<T, float>) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const float number = glm::unpackHalf1x16(sample_at<std::uint16_t>(from, i));
+        std::memcpy(to + i * sizeof(T), &number, sizeof(T));
+      }
+    } else if constexpr (std::is_unsigned_v<T> && sizeof(T) <= 4) {
+      unpack_integers<T>(samples.stored_bits, from, count, to);
+    }
+  });
 }
 
 void fill_samples(const TiffSamples& samples, double value, std::size_t pixels, std::uint8_t* to) {

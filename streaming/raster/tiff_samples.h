@@ -12,25 +12,22 @@ namespace terrella {
 
 enum class TiffColour { gray, gray_inverted, rgb, palette };
 enum class TiffAlpha { none, straight, premultiplied };
-enum class SampleType { uint8, int8, uint16, int16, uint32, int32, float32, float64 };
+enum class SampleType { uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64 };
 
 [[nodiscard]] std::size_t sample_bytes(SampleType type);
-/// "8-bit unsigned integers"
-[[nodiscard]] std::string sample_title(SampleType type);
-
 /// One of three bands that are shown as red, green and blue.
 struct BandStretch {
   std::size_t band = 0;  ///< index of the sample in its pixel
   Stretch stretch;
 };
 
-/// Layout and meaning of the samples in a TIFF's pixels, after unpacking: samples of a pixel together, none shorter
-/// than a byte.
+/// Layout and meaning of the samples in a TIFF's pixels, after unpacking: samples of a pixel together, each of a type
+/// of the machine.
 struct TiffSamples {
   TiffColour colour = TiffColour::rgb;
   TiffAlpha alpha = TiffAlpha::none;
   SampleType type = SampleType::uint8;
-  int stored_bits = 8;                               ///< 1, 2 and 4 are unpacked to SampleType::uint8
+  int stored_bits = 8;                               ///< fewer than those of `type`: samples are unpacked
   std::size_t per_pixel = 3;                         ///< colours first, then alpha if present, then ignored samples
   std::vector<std::array<std::uint8_t, 3>> palette;  ///< 2^stored_bits entries, for TiffColour::palette
   std::optional<double> nodata = {};                 ///< a pixel whose colours all have this value is transparent
@@ -40,6 +37,10 @@ struct TiffSamples {
 
   [[nodiscard]] std::size_t colours() const { return colour == TiffColour::rgb ? 3 : 1; }
   [[nodiscard]] std::size_t pixel_bytes() const { return per_pixel * sample_bytes(type); }
+  /// True if the file stores samples in other bits than those of `type`.
+  [[nodiscard]] bool is_packed() const { return static_cast<std::size_t>(stored_bits) != 8 * sample_bytes(type); }
+  /// "12-bit unsigned integers"
+  [[nodiscard]] std::string title() const;
   /// True if a pixel may be transparent.
   [[nodiscard]] bool may_be_clear() const;
 };
@@ -78,11 +79,12 @@ struct NumberCoding {
 void to_floats(const TiffSamples& samples, const NumberCoding& coding, const std::uint8_t* from, std::size_t pixels,
                float* numbers);
 
-/// One sample of a pixel as a double, which holds the values of every type exactly. thread: any
+/// One sample of a pixel as a double, which holds the values of every type exactly, integers of 64 bits up to 2^53.
+/// thread: any
 [[nodiscard]] double exact_sample(const TiffSamples& samples, std::size_t band, const std::uint8_t* pixel);
 
-/// Unpacks samples of 1, 2 or 4 bits, the first in the highest bits, to a byte each. thread: any
-void unpack_bits(int bits, const std::uint8_t* from, std::size_t samples, std::uint8_t* to);
+/// Unpacks the samples of a row that is_packed(), as libtiff gives it, to samples of `type`. thread: any
+void unpack_row(const TiffSamples& samples, const std::uint8_t* from, std::size_t count, std::uint8_t* to);
 
 /// Fills pixels with a value in every sample, or with the nearest value that the type has. thread: any
 void fill_samples(const TiffSamples& samples, double value, std::size_t pixels, std::uint8_t* to);

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::int64_t kSampledPieces = 64;
 constexpr std::int64_t kSampledPixels = 1 << 25;
-/// From here on, 16-bit values fill enough of the range to be shown unstretched.
-constexpr double kUpperHalf = 32768.0;
 
 /// Number of pieces to read, of `count` pieces of `pixels` pixels each.
 std::int64_t pieces_to_read(std::int64_t count, std::int64_t pixels) {
@@ -98,7 +96,9 @@ Result<std::optional<Stretch>> find_stretch(const TiffPyramid& pyramid, const st
     if (!sampled) return sampled.error();
     range = *sampled;
   }
-  if (samples.type == SampleType::uint16 && range.high >= kUpperHalf) return std::optional<Stretch>{};
+  // Values up to the upper half of 16 bits or fewer fill enough of the range to be shown unstretched.
+  const double upper_half = std::ldexp(1.0, samples.stored_bits - 1);
+  if (samples.type == SampleType::uint16 && range.high >= upper_half) return std::optional<Stretch>{};
   // A picture of one value is shown in the middle of the range.
   if (!(range.low < range.high)) range = {.low = range.low - 0.5, .high = range.low + 0.5};
   return std::optional(range);

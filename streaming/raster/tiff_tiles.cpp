@@ -78,9 +78,9 @@ void place_plane(const TiffPicture& picture, std::size_t plane, const std::uint8
   const std::size_t count = static_cast<std::size_t>(pixels) * picture.plane_samples();
   const std::size_t bytes = sample_bytes(samples.type);
   std::vector<std::uint8_t> unpacked;
-  if (samples.stored_bits < 8) {
-    unpacked.resize(count);
-    unpack_bits(samples.stored_bits, packed, count, unpacked.data());
+  if (samples.is_packed()) {
+    unpacked.resize(count * bytes);
+    unpack_row(samples, packed, count, unpacked.data());
     packed = unpacked.data();
   }
   if (!picture.separate) {
@@ -103,7 +103,7 @@ Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPict
     fill_samples(picture.samples, picture.samples.nodata.value_or(0.0), static_cast<std::size_t>(rows * width),
                  samples.data());
   }
-  const bool direct = !picture.separate && picture.samples.stored_bits >= 8;
+  const bool direct = !picture.separate && !picture.samples.is_packed();
   std::vector<std::uint8_t> packed(direct ? 0 : static_cast<std::size_t>(rows) * row_bytes);
   const std::vector<TilePart> parts = parts_of(picture, column, row);
   for (std::size_t i = 0; i < parts.size(); ++i) {

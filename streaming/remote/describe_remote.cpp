@@ -76,6 +76,16 @@ Status check_pointer(const Url& from, const Url& to, const RemoteOptions& option
   return Done{};
 }
 
+/// Refuses the address of a picture or of a tile set on this machine, which programs open by its path alone.
+Status check_local(const Url& address) {
+  const auto file = http::parse_http_address(address);
+  if (!file || file->scheme != http::Address::Scheme::file || kind_of_name(file->path) != Kind::unknown ||
+      is_remote(file->path) || file_name(file->path).find('.') == std::string_view::npos) {
+    return Done{};
+  }
+  return Error{fmt::format("{}: leave \"file://\" out: give the path {}", address.redacted(), file->path)};
+}
+
 /// Checks the host of a set's tiles for each sub-domain, by the address of the first tile.
 Result<RemoteTileSet> checked(Result<RemoteTileSet> set, const Url& from) {
   if (!set) return set;
@@ -96,6 +106,7 @@ class Describing {
   Result<RemoteTileSet> describe(const Url& address, const RemoteOptions& options) {
     const Kind kind = kind_of_name(address.with_secrets());
     if (kind == Kind::url_template) return template_tile_set(address, options, true, "tile set");
+    if (Status fine = check_local(address); !fine) return fine.error();
     const Result<std::string> text =
         read(kind == Kind::wms ? read_wms_address(address).capabilities : address, options);
     if (!text) return text.error();

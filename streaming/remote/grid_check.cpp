@@ -16,7 +16,7 @@ using Verdict = GridCheck::Verdict;
 // JPEG at quality 50 changes the mean of a cell by one or two levels, and different sharpening of the coarse level by
 // about three.
 constexpr double kLeastContrast = 8.0;
-/// A picture looks like one of two if its distance to that one is below this fraction of the distance to the other.
+/// A picture looks like the nearer of two if its distance to it is below this share of the distance to the other.
 constexpr double kClearly = 0.5;
 
 struct Fault {

@@ -36,7 +36,7 @@ Encoded tile_of(CacheRecord&& record) {
   return EncodedTile{std::move(record.bytes)};
 }
 
-/// The threads of a source, and what they use.
+/// The threads of a source, and the data that they use.
 class RemoteDesk : public RemoteTiles {
  public:
   RemoteDesk(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)

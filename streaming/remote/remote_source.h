@@ -10,11 +10,11 @@
 
 namespace terrella {
 
-/// Tiles behind a network, with the cache before them (engine/DESIGN.md, 8 to 11). What becomes of a tile:
-///   cached and fresh: read() gives it, or why it is missing, without a request;
-///   cached and expired: fetch() asks with its validators; unchanged (304) or unreachable, the cached one serves;
-///   not cached: fetch() asks, and what comes is stored: a tile, or that it is absent, blank or broken, each with its
-///   own life; what failed for now is not stored.
+/// Tiles behind a network, with the cache before them (engine/DESIGN.md, 8 to 11). Ways of a tile:
+///   cached and fresh: read() returns the tile, or the reason why it is missing, without a request;
+///   cached and expired: fetch() asks with its validators; unchanged (304) or unreachable, the cached tile serves;
+///   not cached: fetch() asks, and the answer is stored: a tile, or an absent, blank or broken one, each with a life of
+///   its own; failures for now are not stored.
 /// Without a cache (nullptr) everything is fetched. A cache that cannot be read counts as empty for that tile: the
 /// network still serves. The cache may be slow: two threads of the source call it, never the network thread. The
 /// destructor waits for these threads, never for a server. An answer may release the last owner of the source.

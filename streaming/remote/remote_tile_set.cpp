@@ -56,7 +56,7 @@ std::string quadkey_of(const TileId& id, int level) {
   return key;
 }
 
-/// Row from the south, of those that the server has.
+/// Row counted from the south, among the rows that the server has.
 std::int64_t row_from_south(const RemoteTileSet& set, const TileId& id) {
   const auto level = static_cast<std::size_t>(id.level);
   const std::int64_t all = level < set.shifts.size() ? set.shifts[level].south_rows : 0;

@@ -48,7 +48,7 @@ struct RemoteTileSet {
   std::string refuse_bulk{};  ///< reason why `preload` is forbidden; empty: allowed
   std::vector<int> missing_statuses{};  ///< HTTP statuses that also mean "no tile here", besides 204, 404 and 410
   bool exception_is_missing = false;    ///< an exception of the server as XML means "no tile here"
-  std::optional<std::chrono::seconds> timeout{};  ///< of one request; none: the program's
+  std::optional<std::chrono::seconds> timeout{};  ///< longest time of one request; none: the program's
   int connections = 0;                            ///< most connections at once; 0: the program's
 };
 

@@ -53,7 +53,7 @@ class TileFetcher {
 
   const RemoteTileSet set_;
   ReplyQueue& replies_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::unordered_map<std::uint64_t, Waiting> waiting_;
   std::map<std::uint64_t, Directory> directories_;  ///< by the number of the request
   std::uint64_t last_directory_;

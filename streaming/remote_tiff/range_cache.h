@@ -38,7 +38,7 @@ class RangeCache : public RangeStore {
 
   /// True if the version needs no request until later, by the latest call of set_checked().
   [[nodiscard]] bool is_checked(std::int64_t now_unix_s);
-  /// Notes that the server has this version, and until when that may be taken for granted.
+  /// Notes that the server has this version, and the time until which no request is needed to know.
   void set_checked(std::int64_t now_unix_s, std::int64_t until_unix_s);
 
  private:

@@ -87,7 +87,7 @@ class RemoteFile {
   const std::shared_ptr<RangeCache> cache_;
   const FileAddress address_;
   std::shared_ptr<const ByteFile> held_, fetching_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::list<std::vector<FilePiece>> lent_;
   mutable std::string fault_;
 };

@@ -16,7 +16,7 @@ namespace terrella {
 /// such overviews are left out. The error names the address and a cure. Waits for the network. thread: any
 [[nodiscard]] Result<TiffPyramid> read_remote_pyramid(RemoteFile& file);
 
-/// Why the parts of a picture in large strips are not fetched, and what helps. thread: any
+/// Returns the reason why parts of a picture in large strips are not fetched, and a cure. thread: any
 [[nodiscard]] Error no_blocks(const std::string& name, const TiffPyramid& pyramid);
 
 }  // namespace terrella

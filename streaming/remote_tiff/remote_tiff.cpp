@@ -30,10 +30,10 @@ struct Wish {
   RemoteTiles::Done done;
   bool looked_up = false;
   std::vector<FilePiece> pieces{};       ///< those that came
-  std::vector<std::uint64_t> numbers{};  ///< of spans that are requested
+  std::vector<std::uint64_t> numbers{};  ///< numbers of the spans that are in flight
 };
 
-/// The threads of a raster, and what they use.
+/// The threads of a raster, and the data that they use.
 class RemoteTiffDesk : public RemoteTiles {
  public:
   RemoteTiffDesk(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
@@ -251,7 +251,7 @@ class RemoteTiffDesk : public RemoteTiles {
 
   const std::shared_ptr<RemoteFile> file_;
   const std::unique_ptr<TiffSource> tables_;   ///< looks up the bytes of blocks, waiting for the network
-  const std::unique_ptr<TiffSource> decoder_;  ///< of what is there
+  const std::unique_ptr<TiffSource> decoder_;  ///< decodes the blocks whose bytes are there
   std::mutex mutex_;                           ///< guards what follows
   std::condition_variable wished_;
   bool stopping_ = false;

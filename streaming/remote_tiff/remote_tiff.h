@@ -21,7 +21,7 @@ class RemoteTiff : public RasterSource {
   [[nodiscard]] static Result<std::unique_ptr<RemoteTiff>> make(std::shared_ptr<RemoteFile> file, TiffPyramid pyramid,
                                                                 const CrsPlace& place, const RasterOptions& options);
   /// Looks up the bytes of a block. Waits for the network if its part of the table of tiles is not there. Fails if that
-  /// cannot be had (failed) or is damaged (broken). The reason names the address. thread: any, one at a time
+  /// part cannot be had (failed) or is damaged (broken). The reason names the address. thread: any, one at a time
   [[nodiscard]] virtual Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) = 0;
 };
 

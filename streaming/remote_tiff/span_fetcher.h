@@ -65,7 +65,7 @@ class SpanFetcher {
   const FileAddress file_;
   const std::size_t most_in_flight_;
   ReplyQueue& answers_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::condition_variable came_;
   bool stopping_ = false;
   bool new_spans_ = false;

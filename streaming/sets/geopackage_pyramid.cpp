@@ -19,7 +19,7 @@ namespace terrella {
 namespace {
 
 constexpr double kMaxCoordinateDeg = 1e6;
-constexpr double kMaxCoordinate = 1e12;  // of any unit
+constexpr double kMaxCoordinate = 1e12;  // in any unit
 constexpr int kMaxTables = 1000;
 
 /// A row of gpkg_contents with its row of gpkg_tile_matrix_set.
@@ -28,9 +28,9 @@ struct TileTable {
   Extent set;
   std::optional<Extent> data;
   bool is_coverage = false;
-  GpkgCrs crs;                           ///< of Terrella's own files only the projection
-  std::optional<CrsSquare> square = {};  ///< of a projected table
-  GridUnits units = {};                  ///< of its reference system
+  GpkgCrs crs;                           ///< reference system; Terrella's own files have only its projection
+  std::optional<CrsSquare> square = {};  ///< square of a projected table
+  GridUnits units = {};                  ///< units of the table's reference system
 };
 
 std::optional<CrsBounds> get_bounds(const SqliteQuery& query, int first_column) {

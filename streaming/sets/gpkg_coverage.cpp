@@ -21,7 +21,7 @@ Status check_words(const SqliteQuery& row) {
   return Done{};
 }
 
-/// "value" is what `cut` writes where nothing is known, and "Height" the table's default.
+/// Quantity of a coverage. `cut` writes "value" for an unknown one, and "Height" is the table's default.
 std::string quantity_of(const std::string& stated) {
   if (stated == "value") return {};
   return stated == "Height" ? "height" : stated;

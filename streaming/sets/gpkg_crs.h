@@ -12,7 +12,7 @@ namespace terrella {
 
 /// The reference system of a tile table.
 struct GpkgCrs {
-  std::string name;  ///< such as "EPSG:4326", for messages
+  std::string name;  ///< name for messages, for example "EPSG:4326"
   Projection projection = Projection::equirectangular;
   std::string text{};  ///< for Crs::open(); empty for EPSG:4326 and the tiles of Web Mercator
   std::string body{};  ///< value of --body; empty for EPSG:4326 and the tiles of Web Mercator, as they say nothing more

@@ -8,16 +8,16 @@
 
 namespace terrella {
 
-/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), a GeoPackage in any system
-/// that PROJ knows (ours, GDAL's), PMTiles, or MBTiles; `geodetic_mbtiles` says that the latter's profile is, whatever
-/// it says. Sets in Web Mercator and `projected` sets become geodetic ones (streaming/warp/web_mercator.h). The error
+/// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), a GeoPackage in any system that PROJ
+/// knows (ours, GDAL's), PMTiles, or MBTiles. `geodetic_mbtiles`: an MBTiles file is in the geodetic profile, whatever
+/// it states. Sets in Web Mercator and `projected` sets become geodetic ones (streaming/warp/web_mercator.h). The error
 /// names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h). Blocks for the disk.
 /// thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,
                                                                 bool geodetic_mbtiles = false);
 
-/// The same with sets in Web Mercator and `projected` sets as they are stored: of a grid that nothing can draw, to be
-/// copied. thread: any
+/// Opens a tile set for copying: sets in Web Mercator and `projected` sets keep their stored grid, which nothing can
+/// draw. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::path& path,
                                                                        bool geodetic_mbtiles = false);
 

@@ -12,8 +12,8 @@
 
 namespace terrella {
 
-/// Fetches for many tiles at once what they are made of: each block once, however many tiles wait for it. Its lock is
-/// never held while a block is looked for, because the disk may be slow and `main` takes the lock.
+/// Fetches the blocks of many tiles at once: each block once, however many tiles wait for it. No block is looked up
+/// under the desk's lock, because the disk may be slow and `main` takes the lock.
 class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
  public:
   using Encoded = Result<EncodedTile, TileFailure>;
@@ -39,7 +39,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
     double priority;
     RemoteTiles::Done done;
     bool in_work = false;
-    std::vector<Answer> answers;  ///< that came and were not worked on yet
+    std::vector<Answer> answers;  ///< answers that came and were not worked on yet
     std::vector<TileId> missing;  ///< the blocks that it waits for
   };
   using Lock = std::unique_lock<std::mutex>;
@@ -57,7 +57,7 @@ class FetchDesk : public std::enable_shared_from_this<FetchDesk> {
   RemoteTiles& network_;
   const std::shared_ptr<const StoredBlocks> blocks_;
   const bool numbers_;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable idle_;
   bool closed_ = false;
   int working_ = 0;             ///< threads in work_on()

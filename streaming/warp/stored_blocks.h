@@ -20,7 +20,7 @@ struct FoundBlock {
   [[nodiscard]] static FoundBlock of(Result<EncodedTile, TileFailure>&& answer);
 };
 
-/// How messages name a block: "made of the Web Mercator tile 5/10/13: …".
+/// Words for a block in messages: "made of the Web Mercator tile 5/10/13: …".
 struct BlockNames {
   std::string noun = "raster's block";
   int first_level = 0;  ///< name of level 0

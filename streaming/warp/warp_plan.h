@@ -43,7 +43,7 @@ struct WarpLines {
 /// Recipe of a tile: blocks, source pixels and weights.
 struct WarpPlan {
   int tile_px = 0;
-  int rows = 0;   ///< that lie on the planet; those beyond the south pole repeat the last
+  int rows = 0;   ///< rows that lie on the planet; those beyond the south pole repeat the last
   int level = 0;  ///< index in WarpFrame::levels
   std::vector<WarpPiece> pieces;
   std::optional<WarpLines> lines;  ///< none: chunks

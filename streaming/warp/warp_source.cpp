@@ -112,7 +112,7 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   auto planner = TilePlanner::open(from, options.figure, *grid, Overviews::made, detail);
   if (!planner) return Error{where + ": " + planner.error().message};
   TileSetInfo info{.name = from.name, .attribution = from.attribution, .body = options.body, .grid = *grid};
-  info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // of tiles inside the raster
+  info.format = from.opaque ? ImageFormat::jpeg : ImageFormat::png;  // format of the tiles inside the raster
   if (from.numbers) info.numbers = decoded(*from.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, options.decoded_bytes);
 }

@@ -1,5 +1,5 @@
 // Six scenes as the globe draws them, and as marched rays show them, as pairs of PNG files. The ground's own colours in
-// the truth are those of the globe without air; relief has the air of the ellipsoid under it.
+// the truth are those of the globe without air. Its rays meet relief by steps through the loaded heights.
 
 #include <fmt/format.h>
 
@@ -31,7 +31,6 @@ struct Scene {
 };
 
 constexpr Viewport kSize{240, 180};
-constexpr double kExaggeration = 2.0;
 constexpr Scene kScenes[] = {{"disc", "earth", "15,20,18000000", "2026-06-21T10:30Z"},
                              {"terminator", "earth", "25,60,12000000", "2026-03-20T15:30Z"},
                              {"horizon", "earth", "35,15,400000,60,-20,40", "2026-06-21T10:00Z"},
@@ -51,6 +50,46 @@ test::Color maria(double lon, double lat) {
   return {grey, grey, grey};
 }
 
+/// The ground of a scene, for rays in double: the ellipsoid, or the heights over it.
+class GroundTruth {
+ public:
+  GroundTruth(const Globe& globe, const Ellipsoid& ellipsoid, bool relief)
+      : globe_(globe), ellipsoid_(ellipsoid), relief_(relief) {}
+
+  /// Distance to the ground; none: the ray meets only sky.
+  [[nodiscard]] std::optional<double> hit_m(const Ecef& eye, const EcefDir& ray) const {
+    if (!relief_) return ellipsoid_.intersect_m(eye, ray);
+    double before_m = 0.0;
+    for (double at_m = 0.0; at_m < kFarthest_m;) {
+      const double over_m = clearance_m(eye, ray, at_m);
+      if (over_m <= 0.0) return crossing_m(eye, ray, before_m, at_m);
+      before_m = at_m;
+      at_m += std::max(kStep_m, kClearPart * over_m);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // Slopes of the Alps reach 2; a step of this part of the height over the ground cannot pass through one.
+  static constexpr double kFarthest_m = 1.0e6, kStep_m = 20.0, kClearPart = 0.3, kExact_m = 0.1;
+
+  [[nodiscard]] double clearance_m(const Ecef& eye, const EcefDir& ray, double at_m) const {
+    const Geodetic place = ellipsoid_.to_geodetic(Ecef{eye.xyz_m + at_m * ray.xyz});
+    return place.height_m - globe_.ground_height_m(place.lat, place.lon);
+  }
+  [[nodiscard]] double crossing_m(const Ecef& eye, const EcefDir& ray, double over_m, double under_m) const {
+    while (under_m - over_m > kExact_m) {
+      const double middle_m = 0.5 * (over_m + under_m);
+      (clearance_m(eye, ray, middle_m) > 0.0 ? over_m : under_m) = middle_m;
+    }
+    return under_m;
+  }
+
+  const Globe& globe_;
+  const Ellipsoid& ellipsoid_;
+  bool relief_;
+};
+
 class Page {
  public:
   Page(std::string tiles, std::string elevation, std::string folder)
@@ -69,7 +108,8 @@ class Page {
     const View view = globe->view(kSize);
     const Almanac almanac = value_or_throw(almanac_at(value_or_throw(parse_utc(scene.time))));
     save(scene, "truth",
-         air ? through_air(own, view, body, test::AirTruth(*air, body.ellipsoid), almanac.sun.xyz)
+         air ? through_air(own, view, {*globe, body.ellipsoid, scene.relief && !elevation_.empty()},
+                           test::AirTruth(*air, body.ellipsoid), almanac.sun.xyz)
              : dust(own, view, body, body_sun(body, scene)));
   }
 
@@ -83,7 +123,6 @@ class Page {
     options.sky = !unlit;
     options.unlit = unlit;
     if (!unlit) options.time = value_or_throw(parse_utc(scene.time));
-    options.exaggeration = kExaggeration;
     std::shared_ptr<TileSource> source;
     if (body.name == "moon") {
       source = std::make_shared<test::PaintedSource>(TileGrid{.tile_px = 128, .max_level = 3}, maria);
@@ -112,27 +151,27 @@ class Page {
     globe.render(target.framebuffer(), kSize);
     return {kSize.width_px, kSize.height_px, target.read()};
   }
-  static bool on_limb(const View& view, const Body& body, const glm::dvec2& px) {
+  static bool on_limb(const View& view, const GroundTruth& true_ground, const glm::dvec2& px) {
     int ground = 0;
     for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(2, -1), glm::dvec2(-1, 2), glm::dvec2(2, 2)}) {
-      ground += body.ellipsoid.intersect_m(view.eye, pixel_ray(view, px + corner)) ? 1 : 0;
+      ground += true_ground.hit_m(view.eye, pixel_ray(view, px + corner)) ? 1 : 0;
     }
     return ground != 0 && ground != 4;
   }
-  static Image through_air(const Image& own, const View& view, const Body& body, const test::AirTruth& truth,
+  static Image through_air(const Image& own, const View& view, const GroundTruth& ground, const test::AirTruth& truth,
                            const glm::dvec3& sun) {
     Image out = own;
     for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
       const auto at = static_cast<std::size_t>(4 * k);
       const glm::dvec3 thing(own.rgba[at], own.rgba[at + 1], own.rgba[at + 2]);
       glm::dvec3 sum(0.0);
-      const int rays = on_limb(view, body, {k % kSize.width_px, k / kSize.width_px}) ? 4 : 1;
+      const int rays = on_limb(view, ground, {k % kSize.width_px, k / kSize.width_px}) ? 4 : 1;
       for (int r = 0; r < rays; ++r) {
         const glm::dvec2 px = rays == 1 ? glm::dvec2(k % kSize.width_px + 0.5, k / kSize.width_px + 0.5)
                                         : glm::dvec2(k % kSize.width_px + 0.25 + 0.5 * (r % 2),
                                                      k / kSize.width_px + 0.25 + 0.5 * (r / 2));
         const glm::dvec3 ray = pixel_ray(view, px).xyz;
-        const auto metres = body.ellipsoid.intersect_m(view.eye, EcefDir{ray});
+        const auto metres = ground.hit_m(view.eye, EcefDir{ray});
         sum += metres ? truth.thing(view.eye.xyz_m, ray, *metres, sun,
                                     thing * truth.ground_tint(view.eye.xyz_m + *metres * ray, sun))
                       : truth.color(view.eye.xyz_m, ray, sun, 0.0);

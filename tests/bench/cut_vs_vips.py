@@ -19,7 +19,7 @@ WIDTH = 21600
 
 
 class Cost:
-    """What one command took: seconds on the clock, seconds of all cores, peak resident MiB."""
+    """Cost of one command: seconds on the clock, seconds of all cores, peak resident MiB."""
 
     def __init__(self, command):
         start = time.monotonic()

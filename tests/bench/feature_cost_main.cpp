@@ -73,8 +73,13 @@ GlobeOptions unlit() {
 /// Globes and what is drawn of them; all on one target.
 class Features {
  public:
+  /// `only`: the names of the subjects that are measured; empty: all of them.
+  explicit Features(std::vector<std::string> only) : only_(std::move(only)) {
+    if (!only_.empty()) only_.insert(only_.end(), {"plain opaque globe", "unlit"});
+  }
   /// A frame of a new globe.
   void add(const std::string& name, std::unique_ptr<Globe> globe) {
+    if (!only_.empty() && std::ranges::find(only_, name) == only_.end()) return;
     globes_.push_back(std::move(globe));
     Globe& added = *globes_.back();
     if (!added.render_until_settled(target_.framebuffer(), kSize, Clock::now() + std::chrono::seconds(60))) {
@@ -86,7 +91,9 @@ class Features {
   void add_moving(const std::string& name, std::unique_ptr<Globe> globe) {
     constexpr double kStep = 1.01;
     Camera camera = globe->camera();
+    const std::size_t before = subjects_.size();
     add(name, std::move(globe));
+    if (subjects_.size() == before) return;
     subjects_.back().draw = [this, &moving = *globes_.back(), camera, far = false]() mutable {
       far = !far;
       camera.eye.height_m *= far ? kStep : 1.0 / kStep;
@@ -100,6 +107,7 @@ class Features {
   }
 
  private:
+  std::vector<std::string> only_;
   OffscreenTarget target_{kSize};
   std::vector<std::unique_ptr<Globe>> globes_;
   std::vector<Subject> subjects_;
@@ -148,10 +156,13 @@ int main(int argc, char** argv) {
   Inputs inputs;
   std::string camera;
   int rounds = 15;
+  std::vector<std::string> only;
   app.add_option("--tiles", inputs.tiles, "tile set for the globe")->required();
   app.add_option("--elevation", inputs.elevation, "tile set of heights; none: relief is not measured");
   app.add_option("--camera", camera, "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]] (default: four radii, over 10 N 20 E)");
   app.add_option("--rounds", rounds, "frames of each subject");
+  app.add_option("--only", only,
+                 "the named frames alone, in place of all; \"plain opaque globe\" and \"unlit\" come along");
   CLI11_PARSE(app, argc, argv);
   try {
     inputs.camera.eye = {.lat = Angle::degrees(10.0), .lon = Angle::degrees(20.0), .height_m = kHeight_m};
@@ -159,13 +170,13 @@ int main(int argc, char** argv) {
     const auto context = value_or_throw(HeadlessContext::create());
     fmt::print("{}\n\n| frame | processor | wall | processor, to unlit |\n|---|---|---|---|\n",
                reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-    Features features;
+    Features features(std::move(only));
     add_all(inputs, features);
     bench::time_frames(features.subjects(), rounds);
     const Subject& base = features.subjects().front();
     for (const Subject& s : features.subjects()) {
-      fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} |\n", s.name, median(s.cpu_ms) / median(base.cpu_ms),
-                 median(s.ms) / median(base.ms), median(s.cpu_ms) / median(features.subject("unlit").cpu_ms));
+      fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} |\n", s.name, bench::median_ratio(s.cpu_ms, base.cpu_ms),
+                 bench::median_ratio(s.ms, base.ms), bench::median_ratio(s.cpu_ms, features.subject("unlit").cpu_ms));
     }
     fmt::print("\nplain opaque globe: {:.1f} ms of processor time, {:.1f} ms\n", median(base.cpu_ms), median(base.ms));
   } catch (const std::exception& wrong) {

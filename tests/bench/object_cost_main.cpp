@@ -1,4 +1,4 @@
-// What objects cost: an opaque globe by itself, and with 100,000 spheres over it; a translucent one by itself, and with
+// Cost of objects: an opaque globe by itself, and with 100,000 spheres over it; a translucent one by itself, and with
 // 100,000 spheres under it. In turn in one run, as whole frames of the globe.
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ struct Spread {
   double low, middle, high;
 };
 
-/// Of the ratios of two subjects' frames, round by round: the middle one, and the quarters around it.
+/// Median and quartiles of the ratios of two subjects' frames, round by round.
 Spread ratios(const std::vector<double>& of, const std::vector<double>& to) {
   std::vector<double> all;
   for (std::size_t k = 0; k < of.size(); ++k) all.push_back(of[k] / to[k]);

@@ -24,7 +24,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 NGINX = HERE.parent / "http/nginx.py"
-LEVELS = 8  # of the western hemisphere: 21,845 tiles
+LEVELS = 8  # levels of the western hemisphere: 21,845 tiles
 JOBS = 16
 SLOW = ("aria2c", "mapproxy-seed")  # once is enough to tell ten times the time from others
 

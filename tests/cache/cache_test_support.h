@@ -27,7 +27,7 @@ inline constexpr const char* kSource = "https://tiles.example/{z}/{x}/{y}.jpg";
 /// Opens a cache of planet(); fails the test if that fails.
 [[nodiscard]] std::shared_ptr<TileCache> open_cache(const std::filesystem::path& path,
                                                     const CacheOptions& options = {});
-/// What is found; fails the test on an error.
+/// Looks a tile up; fails the test on an error.
 [[nodiscard]] std::optional<CacheRecord> found(TileCache& cache, const TileId& id);
 
 /// The first column of the first row, by a connection of its own.

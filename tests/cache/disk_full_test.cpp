@@ -20,7 +20,7 @@ using test::open_cache;
 using test::tile_record;
 
 constexpr std::size_t kSpace = 8UL << 20;
-constexpr int kTiles = 2000;  // of 8 kB: twice the space
+constexpr int kTiles = 2000;  // tiles of 8 kB: twice the space
 constexpr std::size_t kTileBytes = 8000;
 
 /// Stores tiles until there is no space for more, makes space, and stores the others.

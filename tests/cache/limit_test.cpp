@@ -15,7 +15,7 @@ using test::open_cache;
 using test::tile_record;
 
 constexpr std::uint64_t kLimit = 12UL << 20;
-/// What the issue allows a limit to be missed by.
+/// A cache file may miss its limit by this share.
 constexpr double kLimitSlack = 0.05;
 constexpr std::size_t kLimitedTileBytes = 11'000;
 
@@ -97,7 +97,7 @@ TEST_F(CacheLimit, PinnedTilesStayAndWhatHasNoRoomIsSaidAndNotKept) {
   ASSERT_TRUE(cache->flush());
   EXPECT_EQ(no_room, 300);
   EXPECT_FALSE(found(*cache, nth_tile(9, 0)));
-  // What is as large as before goes in its place, however full the file is.
+  // A record as large as its predecessor goes in its place, however full the file is.
   cache->store(nth_tile(8, 0), tile_record(nth_tile(8, 0), kLimitedTileBytes, 1));
   ASSERT_TRUE(cache->flush());
   for (int n = 0; n < pinned_tiles; ++n) ASSERT_TRUE(found(*cache, nth_tile(8, n))) << n;

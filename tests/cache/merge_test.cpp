@@ -211,7 +211,7 @@ TEST_F(Merge, WhatAKilledMergeLeftGoesWithTheNextIntoThatName) {
   ASSERT_GE(names().size(), 2U);  // the part, and the journal that SQLite may have at that moment
   const std::string left = *names().begin();
   ASSERT_TRUE(left.starts_with(".out.gpkg.") && left.ends_with(".part")) << left;
-  // Of a process that lives, of another machine, of another output, and not of a merge.
+  // Names of a process that lives, of another machine, of another output, and two that no merge makes.
   const std::string host = left.substr(10, left.rfind('.', left.size() - 6) - 10);
   const std::string dead = left.substr(left.rfind('.', left.size() - 6) + 1);
   std::set<std::string> kept{"a.gpkg",

@@ -23,7 +23,7 @@ INSERT INTO gpkg_tile_matrix_set VALUES ('tiles', 4326, -180, -90, 180, 90);
 INSERT INTO gpkg_tile_matrix VALUES ('tiles', 0, 2, 1, 256, 256, 0.703125, 0.703125);
 """
 
-# What a hostile or broken GeoPackage does beside a good one: name, and the SQL that spoils it.
+# Faults of hostile or broken GeoPackages: name, and the SQL that spoils a good one.
 SPOILT = {
     "no tile tables": "DELETE FROM gpkg_contents",
     "contents without matrix set": "DELETE FROM gpkg_tile_matrix_set",

@@ -152,7 +152,7 @@ def exif(orientation, order="<"):
     return b"\xff\xe1" + struct.pack(">H", len(block) + 2) + block
 
 
-# What ImageMagick does to the upright picture so that the orientation turns it back.
+# Options by which ImageMagick turns the upright picture so that the orientation turns it back.
 STORED = {2: ["-flop"], 3: ["-rotate", "180"], 4: ["-flip"], 5: ["-transpose"], 6: ["-rotate", "270"], 7: ["-transverse"],
           8: ["-rotate", "90"]}
 

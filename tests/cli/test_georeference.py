@@ -32,7 +32,7 @@ class GeoreferenceTest(ProgramTest):
         return json.loads(self.assert_done("info", name, "--json").stdout)
 
     def options_for(self, name):
-        """What `info` says must be given with the picture."""
+        """Options that `info` says must be given with the picture."""
         words = shlex.split(self.info(name)["command"])
         return words[3:]
 
@@ -280,7 +280,7 @@ class Refused(GeoreferenceTest):
 
 
 class Words(GeoreferenceTest):
-    """What the user says wins, and a message says so if the picture says otherwise."""
+    """The user's words win, and a message says so if the picture says otherwise."""
 
     UTM = "-a_srs", "EPSG:32633", "-a_ullr", 500000, 4650000, 1140000, 4330000
 

@@ -49,7 +49,7 @@ class MapTest(ProgramTest):
         spots = [line[len(line) // 3] for line in lines]
         coasts = [list(places("coasts", k)) for k in range(len(MAP["coasts"]))]
         spots.append(max((line[len(line) // 2] for line in coasts), key=lambda spot: abs(spot[1])))  # at the antimeridian
-        spots.append(min((line[len(line) // 2] for line in coasts), key=lambda spot: spot[0]))  # of Antarctica
+        spots.append(min((line[len(line) // 2] for line in coasts), key=lambda spot: spot[0]))  # in Antarctica
         for lat, lon in spots:
             with self.subTest(lat=lat, lon=lon):
                 camera = ["--camera", f"{lat},{lon},60000"]

@@ -35,7 +35,7 @@ def square_tile(z, x, y):
 
 
 def radius_px_of(lat_deg):
-    """Of a parallel around the pole in POLE's pictures, 40° high; formulas of the ellipsoid WGS 84."""
+    """Radius of a parallel around the pole in POLE's pictures, 40° high; formulas of the ellipsoid WGS 84."""
     a, b = 6378137.0, 6356752.314245
     e2 = 1 - (b / a) ** 2
     lat = math.radians(lat_deg)

@@ -4,9 +4,14 @@ import base64
 import json
 import random
 import struct
+import sys
 import unittest
 
-from program import DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
+from pictures import png
+from program import DONE_IN_PART, FAILED, SOURCE, WRONG_USAGE, ProgramTest
+
+sys.path.insert(0, str(SOURCE / "tests/window"))
+import png as pngs  # noqa: E402
 
 SMALL = ["--size", "64x64", "--unlit", "--sky", "off"]
 
@@ -54,6 +59,22 @@ class Objects(ProgramTest):
     def test_a_file_without_fault(self):
         self.write("f.geojson", collection(GOOD, feature("Point", [0, 0], title="Null Island")))
         self.assertEqual(self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", *SMALL).stderr, "")
+
+    def test_an_icon_is_drawn_from_a_file_beside_the_objects(self):
+        self.write("red.png", png(40, 20, (255, 0, 0)))
+        self.write("f.geojson", collection(feature("Point", [0, 0], icon="red.png")))
+        self.assert_done("render", "--objects", "f.geojson", "-o", "out.png", "--camera", "0,0,5000000", *SMALL)
+        seen = pngs.read(self.folder / "out.png")
+        red = [(x, y) for x in range(64) for y in range(64) if tuple(pngs.pixel(seen, x, y)) == (255, 0, 0)]
+        self.assertEqual((min(red), max(red)), ((12, 22), (51, 41)), "40 by 20 pixels around the middle")
+
+    def test_an_icon_that_is_not_there_is_told_and_a_disc_is_drawn(self):
+        self.assert_drawn_in_part(collection(GOOD, feature("Point", [0, 0], icon="plane.png", name="Kilo 7")),
+                                  'feature 2 ("Kilo 7")', "plane.png", "a disc is drawn")
+        self.write("plane.png", b"GIF89a")
+        self.assert_drawn_in_part(collection(feature("Point", [0, 0], icon="plane.png")), "feature 1", "PNG")
+        self.write("plane.png", png(300, 20))
+        self.assert_drawn_in_part(collection(feature("Point", [0, 0], icon="plane.png")), "300x20", "at most 256")
 
     def test_no_such_file(self):
         self.assert_fails(FAILED, "render", "--objects", "nowhere.geojson", "-o", "out.png", *SMALL,

@@ -133,7 +133,7 @@ PARTS = {
                                          *box(1e6, 5e6, 10000, SIDE)),
 }
 
-# What gdaltransform has to be told, because it fails at UTM's code for a sphere: the same but for a micrometre.
+# Systems for gdaltransform, which fails at UTM's code for a sphere: the same but for a micrometre.
 SAID = {"sphere, utm's parameters": ("-s_srs", "+proj=tmerc +lon_0=9 +k=0.9996 +x_0=500000.000001 +R=6378137 +no_defs"),
         "sphere, utm's parameters in the south": ("-s_srs", "+proj=tmerc +lon_0=-75 +k=0.9996 +x_0=500000.000001 "
                                                   "+y_0=10000000 +R=1737400 +no_defs")}

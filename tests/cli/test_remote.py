@@ -13,7 +13,7 @@ import servers  # noqa: E402
 LEVELS = 3
 VIEW = ("--unlit", "--camera", "30,20,6000000", "--size", "512x512")
 
-# What a tile suffers, and what the summary must say of it. Each of the program's attempts meets it.
+# Faults of a tile, and the words that the summary must have for them. Each of the program's attempts meets the fault.
 FAULTS = {
     "403": "403",
     "404": "404",
@@ -109,7 +109,7 @@ class RemoteTest(PyramidTest):
         times = sorted(entry["time_s"] for entry in log if entry["path"] == f"/{path}")
         self.assertEqual(len(times), 2, log)
         self.assertGreaterEqual(times[1] - times[0], 1.0)
-        # What was with the host at that moment may still be answered; nothing new for a second.
+        # Requests that the host had at that moment may still be answered; no new ones come for a second.
         soon = [e for e in log if times[0] + 0.2 < e["time_s"] < times[0] + 0.9]
         self.assertEqual(soon, [], "the pause holds for the host")
 

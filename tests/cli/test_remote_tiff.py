@@ -74,7 +74,7 @@ class ShownTest(RemoteTiffTest):
             self.assertEqual(self.pixels(url, "--cache", "c.gpkg"), whole)
             self.assertEqual(len(server.asked), len(cold), "the second run asked the server")
         self.assertEqual(self.pixels(url, "--cache", "c.gpkg", "--offline"), whole)
-        # What was never looked at is drawn from what was.
+        # Parts that were never looked at are drawn from parts that were.
         self.shot(url, "--cache", "c.gpkg", "--offline", camera=FAR, code=DONE_IN_PART)
 
     def test_neighbours_are_one_request(self):
@@ -133,7 +133,7 @@ class ShownTest(RemoteTiffTest):
                 heads = [last + 1 - first for first, last in cold if first % HEAD == 0 and last + 1 - first == HEAD]
                 self.assertLessEqual(len(heads), 3, cold)
                 self.assertLessEqual(sum(heads), 128 << 10, cold)
-                # How many neighbours become one request depends on which of them are wanted at the same moment.
+                # The number of neighbours in one request depends on which of them are wanted at the same moment.
                 self.assertGreaterEqual(len(cold) - len(heads), 2, cold)
                 tiles = list(tiles_in(server.data))
                 for first, last in cold[len(heads):]:

@@ -51,7 +51,7 @@ def garbage_server(answer):
 class SecretsTest(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.outside = self.folder / "outside"  # what the servers and the user have, secrets included
+        self.outside = self.folder / "outside"  # files of the servers and the user, secrets included
         self.outside.mkdir()
         self.pyramid = self.outside / "tiles"
         servers.write_pyramid(self.pyramid, LEVELS)
@@ -95,12 +95,12 @@ class ProgramKeepsSecretsTest(SecretsTest):
             # The overlay has more levels by what is said of it, so that some of its tiles are missing.
             self.keeps(DONE_IN_PART, "render", source, "--max-level", "2", "--overlay", f"{source}:0.5", "--cache", "off", "-o",
                        "c.png", *VIEW)
-            place = {"XDG_CACHE_HOME": str(self.folder / "cache2")}  # of another grid, by what is not said of it
+            place = {"XDG_CACHE_HOME": str(self.folder / "cache2")}  # cache of another grid, which the source does not state
             self.keeps(DONE, "info", source, says=["token=***"], environment=place)
             self.keeps(DONE, "info", source, "--json", says=["token=***"], environment=place)
             self.keeps(DONE, "info", "a.gpkg", "--verify")
             self.keeps(DONE, "info", "a.gpkg", "--json")
-            # They were sent, or all this would show nothing.
+            # The secrets were sent; without that the checks above would show nothing.
             asked = [entry for entry in server.log() if entry["headers"].get("X-Key") == HEADER]
             self.assertTrue(asked)
             self.assertTrue(all(f"token={TOKEN}" in entry["path"] for entry in asked))
@@ -158,7 +158,7 @@ class ProgramKeepsSecretsTest(SecretsTest):
         self.keeps(WRONG_USAGE, "render", source, "-o", "a.png", "--header", f"X Key: {HEADER}", says=["Name: value"])
         self.keeps(FAILED, "render", source.replace("{z}", ""), "-o", "a.png", says=["{z}"])
         self.keeps(FAILED, "render", source.replace(PASSWORD, f"a/{PASSWORD}?{PASSWORD}"), "-o", "a.png")
-        # Where only files go.
+        # Options that take files only.
         self.keeps(FAILED, "cut", source, "-o", "b.gpkg")
         self.keeps(FAILED, "merge", source, "-o", "b.gpkg")
         self.keeps(FAILED, "render", "--objects", source, "-o", "a.png", *VIEW)

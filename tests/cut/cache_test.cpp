@@ -17,7 +17,7 @@ class Cache : public testing::Test {
  protected:
   Cache() { write_png(options_.images.front(), noise(512, 256)); }
 
-  /// Whether the call had to cut.
+  /// True if the call had to cut.
   bool cuts(const CutOptions& options) {
     bool cut_now = false;
     CutOptions watched = options;

@@ -17,7 +17,7 @@ namespace terrella::test {
 /// Cuts; a failure of the test if that fails.
 bool must_cut(const CutOptions& options);
 
-/// That cutting fails, with a message that holds all parts.
+/// Expects a cut to fail with a message that holds all parts.
 void expect_refused(const CutOptions& options, const std::vector<std::string>& parts);
 
 }  // namespace terrella::test

@@ -93,7 +93,7 @@ class Elevation : public testing::Test {
     return tiles && (*tiles)->info().numbers ? *(*tiles)->info().numbers : NumberInfo{};
   }
 
-  /// What GDAL says stands at a pixel, `overview` levels above the finest; NaN: nothing, or nodata.
+  /// Value that GDAL finds at a pixel, `overview` levels above the finest; NaN: nothing, or nodata.
   [[nodiscard]] double by_gdal(int x, int y, int overview = -1) const {
     const std::string command = fmt::format("{} -valonly {} '{}' {} {} > '{}' 2> '{}'", TERRELLA_GDALLOCATIONINFO,
                                             overview < 0 ? std::string() : fmt::format("-overview {}", overview + 1),
@@ -122,7 +122,7 @@ TEST_F(Elevation, GdalReadsTheHeightsOfA16BitPng) {
 }
 
 TEST_F(Elevation, MeansAreByAreaAndRoundedOnce) {
-  constexpr double kOneRounding = 0.5 + 0.02;  // of numbers up to 65535, in floats of 24 bits
+  constexpr double kOneRounding = 0.5 + 0.02;  // rounding of numbers up to 65535, in floats of 24 bits
   const auto heights = random_heights<std::uint16_t>(64, 32, 0, 65535);
   write_gray_png(folder_ / "in.png", heights);
   ASSERT_TRUE(must_cut(options("in.png")));

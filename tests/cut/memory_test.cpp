@@ -37,7 +37,7 @@ void write_tall_tiff(const std::filesystem::path& path, int width_px, int height
   TIFFClose(tiff);
 }
 
-/// What stands in a row of a tile or strip of write_wide_bigtiff().
+/// Value of the pixels in a row of a tile or strip of write_wide_bigtiff().
 std::uint8_t value_of(std::uint32_t block, std::size_t row) {
   return static_cast<std::uint8_t>(std::size_t{block} * 31 + row * 7);
 }
@@ -123,7 +123,7 @@ TEST_P(WidePictureTest, FitsInto300Megabytes) {
   constexpr int kWidth_px = 86400;
   constexpr int kHeight_px = 1100;  // the strips of three levels are full once and begun anew
   constexpr double kPixel_deg = 360.0 / kWidth_px;
-  // What a process of nothing holds is counted in; under a sanitizer that is much more than in a program to use.
+  // The memory of an idle process does not count; under a sanitizer that is much more than in a program to use.
   constexpr long kProgram_KiB = 16L << 10;
   constexpr long kMost_KiB = 300'000'000L / 1024;
   const ScratchFolder folder;

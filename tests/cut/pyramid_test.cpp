@@ -207,7 +207,7 @@ TEST(PyramidTest, TransparentPicturesBecomePngsByThemselves) {
   }
 }
 
-/// Where columns no longer lie on the finest level's, a smooth picture still goes on smoothly over ±180°.
+/// A smooth picture goes on smoothly over ±180° even if the columns no longer lie on the finest level's.
 TEST(PyramidTest, OddWidthsAtEveryLevelLeaveNoSeam) {
   constexpr double kSmooth =
       2.0;  // 8-bit levels; neighbours at level 0 differ by up to 39; columns not mixed are off by 5

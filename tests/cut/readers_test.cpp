@@ -53,7 +53,7 @@ struct TiffCase {
 
 class Tiff : public testing::TestWithParam<TiffCase> {};
 
-/// What a reader should give for a picture that write_tiff() wrote.
+/// Result that a reader should give for a picture that write_tiff() wrote.
 Image as_read(const Image& picture, const TiffKind& kind) {
   return painted(picture.width_px, picture.height_px, [&](int x, int y, int c) {
     const std::uint8_t* pixel = picture.rgba.data() + (y * picture.width_px + x) * 4;

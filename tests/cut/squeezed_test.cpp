@@ -15,7 +15,7 @@ namespace {
 constexpr int kWaves = 8;
 constexpr double kAmplitude = 100.0;
 
-// What a wave along the parallel has at a longitude, in 8-bit levels.
+// Value of a wave along the parallel at a longitude, in 8-bit levels.
 double wave_at(double lon_deg) { return 128.0 + kAmplitude * std::sin(kWaves * lon_deg * std::numbers::pi / 180.0); }
 
 Image waves(int width_px, int height_px) {

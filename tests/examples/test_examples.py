@@ -2,10 +2,12 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 import unittest
 
@@ -56,6 +58,7 @@ class ExampleTest(unittest.TestCase):
     def run_example(self, name, *arguments):
         done = subprocess.run([BUILD / "examples" / name, *arguments], capture_output=True, text=True, timeout=120)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
 
     def open_example(self, name, *arguments):
         """The example in a window on a display of its own; the display."""
@@ -91,10 +94,10 @@ class WithoutWindow(ExampleTest):
 
     def test_aircraft(self):
         picture = self.folder / "aircraft.png"
-        self.run_example("aircraft", EARTH, picture, "0.1")
+        self.run_example("aircraft", EARTH, BUILD / "data", picture, "0.1")
         drawn = Picture("convert", picture)
-        red = sum(1 for k in range(0, len(drawn.rgb), 3) if drawn.rgb[k] > 200 and drawn.rgb[k + 2] < 80)
-        self.assertGreater(red, 1000, "aircraft are red")
+        yellow = sum(1 for _ in drawn.places((255, 210, 60)))
+        self.assertGreater(yellow, 1000, "aircraft are yellow")
 
     def test_flight_frames(self):
         self.run_example("flight_frames", EARTH, self.folder, "0.2")
@@ -102,6 +105,13 @@ class WithoutWindow(ExampleTest):
         self.assertEqual([frame.name for frame in frames], [f"{k:04}.png" for k in range(6)])
         self.assertEqual(len({frame.read_bytes() for frame in frames}), 6, "each frame is another")
 
+    def test_tasks(self):
+        picture = self.folder / "tasks.png"
+        says = self.run_example("tasks", EARTH, picture)
+        self.assertEqual(says, '{"name": "TE 1"}\n', "the aircraft has moved to the middle")
+        drawn = Picture("convert", picture)
+        self.assertGreater(len(list(drawn.places((255, 255, 0)))), 150, "the application's own triangle")
+        self.assertGreater(len(list(drawn.places((230, 60, 50)))), 100, "two markers")
 
     def test_overview(self):
         file = self.folder / "overview.png"
@@ -112,6 +122,29 @@ class WithoutWindow(ExampleTest):
         above = Picture("convert", file, "-crop", "160x90+0+180", "+repage")
         self.assertGreater(corner.colours(), 500, "the map has many colours")
         self.assertNotEqual(corner.rgb, above.rgb)
+
+
+class Tasks(unittest.TestCase):
+    """The page about six tasks quotes the code that is built, and counts its lines."""
+
+    def setUp(self):
+        self.page = (SOURCE / "apps/examples/TASKS.md").read_text(encoding="utf-8")
+        text = (SOURCE / "apps/examples/tasks.cpp").read_text(encoding="utf-8")
+        self.code = {name: textwrap.dedent(code)
+                     for name, code in re.findall(r"^ *// \[([^]\n]*)\]\n(.*?)^ *// \[end\]$", text, re.MULTILINE | re.DOTALL)}
+
+    def test_quotes(self):
+        quoted = re.findall(r"^## (.*?)\n(?:(?!^## ).)*?^```cpp\n(.*?)^```$", self.page, re.MULTILINE | re.DOTALL)
+        self.assertEqual({name.lower(): code for name, code in quoted}, self.code)
+        self.assertEqual(len(quoted), 6)
+
+    def test_counts(self):
+        rows = re.findall(r"^\| (.*?) \| (\d+) \| (.*) \|$", self.page, re.MULTILINE)
+        self.assertEqual([name for name, _, _ in rows], list(self.code))
+        for name, count, others in rows:
+            lines = [line for line in self.code[name].splitlines() if line.strip() and not line.strip().startswith("//")]
+            self.assertEqual(int(count), len(lines), name)
+            self.assertLessEqual(int(count), min(map(int, re.findall(r"\d+", others))), name)
 
 
 class InWindow(ExampleTest):
@@ -140,7 +173,7 @@ class InQt(ExampleTest):
         self.assertLess(abs(found[1] - y), HELD_PX, found)
 
     def test_mouse(self):
-        """What was grabbed goes where the hand goes; the wheel zooms to what is under the cursor."""
+        """A grabbed place goes where the hand goes; the wheel zooms to the place under the cursor."""
         mark = self.folder / "mark.geojson"
         mark.write_text(MARK)
         display = self.open_example("qt_globe", EARTH, mark)

@@ -1,4 +1,4 @@
-// Whom a picture is owed to: what the last frame had in view, each text once.
+// Attribution of the layers that the last frame had in view, each text once.
 #include <gtest/gtest.h>
 
 #include "tests/gl/gl_fixture.h"
@@ -142,7 +142,7 @@ TEST_F(Attributions, LevelsAndTilesThatAreLackingHaveNone) {
   EXPECT_EQ(of(camera_at(0, 20, 5.0e5)), Texts{"near"}) << "hides the globe";
 }
 
-/// Another's tiles, and whom they are owed to.
+/// Tiles of another provider, and their attribution.
 class Owed : public TileSource {
  public:
   Owed(std::shared_ptr<TileSource> tiles, const std::string& who) : tiles_(std::move(tiles)), info_(tiles_->info()) {

@@ -12,14 +12,7 @@ namespace {
 class CallerDrawing : public GlTest, public testing::WithParamInterface<DepthMode> {
  protected:
   static std::unique_ptr<Globe> globe_of(double alpha) { return test::globe_of(GetParam(), alpha); }
-  std::vector<bool> inked(int least_red) {
-    const Picture shot = picture();
-    std::vector<bool> is;
-    for (int y = 0; y < kScene.height_px; ++y) {
-      for (int x = 0; x < kScene.width_px; ++x) is.push_back(shot.at(x, y)[0] >= least_red);
-    }
-    return is;
-  }
+  std::vector<bool> inked(int least_red) { return reds(picture(), least_red); }
 };
 
 TEST_P(CallerDrawing, ABoxMeetsTheGroundWhereRaysSayAtEachStage) {
@@ -43,7 +36,7 @@ TEST_P(CallerDrawing, ABoxMeetsTheGroundWhereRaysSayAtEachStage) {
     EXPECT_GT(calls, 0);
     const auto truth = truth_of(*globe, *box, false);
     EXPECT_GT(std::ranges::count(truth, true), 300);
-    EXPECT_EQ(off_by_more_than_a_pixel(inked(128), truth), 0);
+    EXPECT_EQ(off_by_more_than_a_pixel(inked(128), truth), 0U);
     // The next frames are drawn as ever.
     globe->on_draw({});
     settle(*globe, kScene);
@@ -62,8 +55,8 @@ TEST_P(CallerDrawing, ABoxShowsThroughATranslucentSurface) {
     if (at == DrawStage::below_ground || at == DrawStage::all) box->draw();
   });
   settle(*globe, kScene);
-  EXPECT_EQ(off_by_more_than_a_pixel(inked(64), truth_of(*globe, *box, true)), 0);
-  EXPECT_EQ(off_by_more_than_a_pixel(inked(200), truth_of(*globe, *box, false)), 0);
+  EXPECT_EQ(off_by_more_than_a_pixel(inked(64), truth_of(*globe, *box, true)), 0U);
+  EXPECT_EQ(off_by_more_than_a_pixel(inked(200), truth_of(*globe, *box, false)), 0U);
 }
 
 // The matrices say the same as the functions in GLSL, and as View.
@@ -133,7 +126,7 @@ TEST_P(CallerDrawing, DepthIsCopiedToAMultisampledFramebuffer) {
       got.push_back(rgba[4 * static_cast<std::size_t>(y * kScene.width_px + x)] >= 128);
     }
   }
-  EXPECT_EQ(off_by_more_than_a_pixel(got, truth_of(*globe, *box, false)), 0);
+  EXPECT_EQ(off_by_more_than_a_pixel(got, truth_of(*globe, *box, false)), 0U);
   glDeleteFramebuffers(1, &framebuffer);
   glDeleteFramebuffers(1, &flat);
   glDeleteRenderbuffers(1, &color);

@@ -20,11 +20,11 @@ const TileGrid kSidesGrid{.tile_px = 64, .max_level = 4};
 constexpr const char* kEvening = "2026-03-20T18:30Z";  // the terminator lies across Europe
 // A level for the rounding of a blend.
 constexpr int kOneRounding = 1;
-constexpr int kTwoRoundings = 2;    // of the base layer, and of the layer over it
-constexpr int kThreeRoundings = 3;  // of a translucent surface's blends
+constexpr int kTwoRoundings = 2;    // one for the base layer, one for the layer over it
+constexpr int kThreeRoundings = 3;  // one more for a translucent surface's blends
 // Half a degree: the Sun's own width, five times the error that the terminator is allowed.
 constexpr double kBeside_deg = 0.5;
-// What the twilight may be off by: the larger of these two. The Sun of the test is good to 0.02 degrees, a level of 255
+// Allowed error of the twilight: the larger of these two. The Sun of the test is good to 0.02 degrees, a level of 255
 // is 0.02 degrees, and the globe's mesh lies 0.2 pixels off.
 constexpr double kTwilight_deg = 0.1, kTwilight_px = 0.5;
 constexpr double kDegree = std::numbers::pi / 180.0;

@@ -173,7 +173,7 @@ class ForeignState {
     }
   }
 
-  const GlState kept_;  ///< what tests go on with
+  const GlState kept_;  ///< state that later tests go on with
   std::mt19937 random_;
   GLint draw_buffers_ = 0;
   std::vector<GLuint> buffers_, textures_, samplers_;

@@ -13,7 +13,7 @@ constexpr double kLineWidth_px = 0.4;  // edges are smooth to a part of a pixel;
 
 class GraticuleLayer : public GlTest {
  protected:
-  /// How many pixels of white a column has from a row to another.
+  /// White in a column from a row to another, in pixels.
   static double white_px(const Picture& shown, int x, int from, int to) {
     double sum = 0.0;
     for (int y = from; y < to; ++y) sum += shown.at(x, y)[1] / 255.0;

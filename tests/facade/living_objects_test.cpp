@@ -230,7 +230,7 @@ TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
   EXPECT_FALSE(beside(at(9, -9), 55.0)) << "at once";
 }
 
-// So many areas that a worker cuts them. What was drawn before stays until then, and an edit meanwhile is not lost.
+// A worker cuts this many areas. The earlier scene stays until then, and an edit meanwhile is not lost.
 TEST_F(LivingObjects, ALargeSceneIsDrawnOnceItIsCut) {
   const LayerId layer = *globe_->add_objects({.polygons = {box(1, -2, -2, kGreen)}});
   settle(*globe_, kLiving);

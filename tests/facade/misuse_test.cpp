@@ -1,4 +1,4 @@
-// What is told to who uses a globe wrongly. Nothing of it may crash where assertions are off.
+// Errors for misuse of the Globe API. None of it may crash if assertions are off.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>

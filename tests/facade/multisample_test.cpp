@@ -5,66 +5,9 @@
 #include <cstdlib>
 
 #include "caller_scene.h"
-#include "render/gl/gl_handle.h"
 
 namespace terrella::test {
 namespace {
-
-constexpr int kSamples = 4;
-
-/// A framebuffer of an application with four samples.
-class SampledTarget {
- public:
-  explicit SampledTarget(Viewport size)
-      : size_(size),
-        color_(gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE)),
-        depth_(gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE)),
-        framebuffer_(gl::make_framebuffer()) {
-    glTextureStorage2DMultisample(color_.name(), kSamples, GL_RGB8, size.width_px, size.height_px, GL_TRUE);
-    glTextureStorage2DMultisample(depth_.name(), kSamples, GL_DEPTH_COMPONENT32F, size.width_px, size.height_px,
-                                  GL_TRUE);
-    glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
-    glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
-  }
-  [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
-  /// The means of the samples.
-  [[nodiscard]] Picture read() const {
-    gl::Texture flat = gl::make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(flat.name(), 1, GL_RGB8, size_.width_px, size_.height_px);
-    const gl::Framebuffer target = gl::make_framebuffer();
-    glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, flat.name(), 0);
-    glBlitNamedFramebuffer(framebuffer_.name(), target.name(), 0, 0, size_.width_px, size_.height_px, 0, 0,
-                           size_.width_px, size_.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    std::vector<std::uint8_t> rows(4UL * static_cast<std::size_t>(size_.width_px * size_.height_px));
-    glGetTextureImage(flat.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rows.size()), rows.data());
-    Picture picture{size_, {}};
-    const auto row = 4 * static_cast<std::ptrdiff_t>(size_.width_px);
-    for (int y = size_.height_px; y-- > 0;) {
-      picture.rgba.insert(picture.rgba.end(), rows.begin() + y * row, rows.begin() + (y + 1) * row);
-    }
-    return picture;
-  }
-
- private:
-  Viewport size_;
-  gl::Texture color_, depth_;
-  gl::Framebuffer framebuffer_;
-};
-
-void settle_into(Globe& globe, const SampledTarget& target, Viewport size) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  EXPECT_TRUE(globe.render_until_settled(target.framebuffer(), size, deadline)) << globe.status().ok();
-  globe.render(target.framebuffer(), size);
-  EXPECT_TRUE(globe.status());
-}
-
-std::vector<bool> reds(const Picture& picture, int least) {
-  std::vector<bool> is;
-  for (int y = 0; y < picture.size.height_px; ++y) {
-    for (int x = 0; x < picture.size.width_px; ++x) is.push_back(picture.at(x, y)[0] >= least);
-  }
-  return is;
-}
 
 /// Pixels with some red, but not the most.
 int partly_red(const Picture& picture, int most) {
@@ -93,7 +36,7 @@ TEST_P(Multisample, ACallersBoxMeetsTheGroundWhereRaysSay) {
     const Picture picture = target.read();
     const auto truth = truth_of(*globe, *box, false);
     EXPECT_GT(std::ranges::count(truth, true), 300);
-    EXPECT_EQ(off_by_more_than_a_pixel(reds(picture, 128), truth), 0);
+    EXPECT_EQ(off_by_more_than_a_pixel(reds(picture, 128), truth), 0U);
     EXPECT_GT(partly_red(picture, 255), 40) << "all samples of a pixel have one colour";
   }
 }
@@ -106,8 +49,8 @@ TEST_P(Multisample, ABoxShowsThroughATranslucentSurface) {
     if (at == DrawStage::below_ground || at == DrawStage::all) box->draw();
   });
   settle_into(*globe, target, kScene);
-  EXPECT_EQ(off_by_more_than_a_pixel(reds(target.read(), 64), truth_of(*globe, *box, true)), 0);
-  EXPECT_EQ(off_by_more_than_a_pixel(reds(target.read(), 200), truth_of(*globe, *box, false)), 0);
+  EXPECT_EQ(off_by_more_than_a_pixel(reds(target.read(), 64), truth_of(*globe, *box, true)), 0U);
+  EXPECT_EQ(off_by_more_than_a_pixel(reds(target.read(), 200), truth_of(*globe, *box, false)), 0U);
 }
 
 // After the frame the application draws by itself, with the depth of each sample.
@@ -127,7 +70,7 @@ TEST_P(Multisample, DepthOfEachSampleIsCopied) {
   });
   globe->render(target.framebuffer(), kScene);
   const Picture picture = own.read();
-  EXPECT_EQ(off_by_more_than_a_pixel(reds(picture, 128), truth_of(*globe, *box, false)), 0);
+  EXPECT_EQ(off_by_more_than_a_pixel(reds(picture, 128), truth_of(*globe, *box, false)), 0U);
   EXPECT_GT(partly_red(picture, 255), 40);
 }
 
@@ -135,6 +78,29 @@ INSTANTIATE_TEST_SUITE_P(Depths, Multisample,
                          testing::Values(DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard));
 
 class MultisampleOutline : public GlTest {};
+
+// The edges of icons are blended, so they are the same with four samples. The icon is turned, so its edges are slanted.
+TEST_F(MultisampleOutline, IconsAreThoseOfOneSample) {
+  constexpr Viewport kSeen{96, 96};
+  auto globe = make_globe(unlit_options(), one_colour({.tile_px = 16, .max_level = 1}, {0, 160, 0}));
+  globe->set_camera(camera_at(0, 0, 3.0e6));
+  const auto white = std::make_shared<const IconImage>(IconImage{2, 1, {255, 255, 255, 255, 200, 0, 0, 255}});
+  ASSERT_TRUE(
+      globe->add_objects({.points = {{.size_px = 50.0F, .icon = {.image = white, .heading = Angle::degrees(20.0)}}}}));
+  settle(*globe, kSeen);
+  const Picture one = picture();
+  const SampledTarget target(kSeen);
+  settle_into(*globe, target, kSeen);
+  const Picture four = target.read();
+  int worst = 0, icon = 0;
+  for (std::size_t k = 0; k < one.rgba.size(); ++k) {
+    if (k % 4 == 3) continue;
+    worst = std::max(worst, std::abs(one.rgba[k] - four.rgba[k]));
+    icon += k % 4 == 0 && one.rgba[k] > 100 ? 1 : 0;
+  }
+  EXPECT_NEAR(icon, 50 * 25, 60);
+  EXPECT_LE(worst, 2) << "rounding";
+}
 
 // The smooth limb is computed in both, with and without air: the pictures differ by rounding, on and beside the limb.
 TEST_F(MultisampleOutline, TheLimbIsThatOfOneSample) {

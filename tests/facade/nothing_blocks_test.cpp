@@ -1,9 +1,11 @@
 // A source that is slow, or never answers, holds up nobody who no longer needs it.
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <set>
 
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/painted_heights.h"
@@ -158,6 +160,31 @@ TEST_F(NothingBlocks, AnInvalidLayerIsReadAgainAndShowsTheEarlierTilesMeanwhile)
   settle(*globe, kSmall);
   EXPECT_LE(source->reads() - before, 1);
   EXPECT_FALSE(globe->invalidate(static_cast<LayerId>(99)));
+}
+
+// Software drivers wait for the last frame when a program that it used is deleted.
+TEST_F(NothingBlocks, ElevationGoesAndComesBackWithTheSamePrograms) {
+  const auto programs = [] {
+    std::set<GLuint> there;
+    for (GLuint name = 1; name < 5000; ++name) {
+      if (glIsProgram(name)) there.insert(name);
+    }
+    return there;
+  };
+  const auto heights = [] { return *ElevationSource::open(hills(), "hills"); };
+  auto globe = Globe::create({}, land(), heights());
+  ASSERT_TRUE(globe) << globe.error().message;
+  settle(**globe, kSmall);
+  const std::set<GLuint> raised = programs();
+  EXPECT_FALSE(raised.empty());
+  ASSERT_TRUE((*globe)->set_elevation({}));
+  EXPECT_EQ(programs(), raised);
+  settle(**globe, kSmall);
+  const std::set<GLuint> both = programs();
+  EXPECT_GT(both.size(), raised.size()) << "level ground has programs of its own";
+  ASSERT_TRUE((*globe)->set_elevation(heights()));
+  settle(**globe, kSmall);
+  EXPECT_EQ(programs(), both) << "a program was made again";
 }
 
 // After a resize, or for another framebuffer, nothing has been drawn yet.

@@ -10,7 +10,7 @@ namespace terrella::test {
 namespace {
 
 constexpr Viewport kPicked{200, 120};
-// Issue 6, 3.
+// A pixel of the projected place lies at most a tenth of a pixel from the pixel that was picked.
 constexpr double kInverse_px = 0.1;
 
 Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {

@@ -13,9 +13,9 @@ namespace terrella::test {
 namespace {
 
 constexpr Viewport kRugged{80, 60};
-// Issue 6, 3.
+// A picked place is drawn within a tenth of a pixel of the pixel that was picked.
 constexpr double kThereAndBack_px = 0.1;
-// What is nearer by less may hide or not: ridges that a ray grazes.
+// Ground that is nearer by less than this share may hide a place or not: the ray grazes a ridge.
 constexpr double kNearer = 0.01;
 
 // Mountains 6° apart and smaller ones on them, which tiles of a sixth of a degree a pixel follow.
@@ -31,7 +31,7 @@ class ReliefPicks : public GlTest, public testing::WithParamInterface<double> {
     GlobeOptions options = unlit_options();
     options.exaggeration = GetParam();
     options.relief_meshes_per_frame = 10000;
-    options.max_error_px = 4.0;  // what is drawn is not looked at
+    options.max_error_px = 4.0;  // nobody looks at the picture
     auto heights = ElevationSource::open(painted_heights({.tile_px = 128, .max_level = 3}, rugged_m), "rugged");
     ASSERT_TRUE(heights) << heights.error().message;
     auto globe = Globe::create(options, one_colour({.tile_px = 16, .max_level = 1}, {10, 20, 30}), *heights);
@@ -92,7 +92,7 @@ class ReliefPicks : public GlTest, public testing::WithParamInterface<double> {
     return pixel && glm::distance(*pixel, *raw) < kThereAndBack_px;
   }
 
-  /// Of the ground around a place: before a mountain, on it or behind it.
+  /// A place on the ground around another one: before a mountain, on it or behind it.
   [[nodiscard]] Geodetic place_around(Draw& draw, const Geodetic& place) const {
     const double aside = 2.0e-6 * distance_m(place) * std::exp(draw.between(-3.0, 3.0));
     const double lat = std::clamp(place.lat.deg() + aside * draw.between(-5.0, 5.0), -90.0, 90.0);

@@ -44,11 +44,8 @@ struct Drawn {
 class Views : public GlTest {
  protected:
   static std::unique_ptr<Globe> globe_of(const std::shared_ptr<TileSource>& source, bool relief = false,
-                                         std::size_t gpu_bytes = 512UL << 20, double texels_per_pixel = 1.0) {
-    GlobeOptions options;
-    options.gpu_bytes = gpu_bytes;
+                                         GlobeOptions options = {}) {
     options.workers = 1;
-    options.texels_per_pixel = texels_per_pixel;
     std::optional<ElevationSource> heights;
     if (relief) {
       auto opened = ElevationSource::open(painted_heights({.tile_px = 32, .max_level = 6}, view_hills_m), "hills");
@@ -149,6 +146,84 @@ TEST_F(Views, EachSettlesAsFastAsAloneAndLooksAsItDoesAlone) {
   }
 }
 
+/// Bytes of all buffers and textures that there are, as OpenGL has them.
+std::int64_t gpu_bytes() {
+  std::int64_t bytes = 0;
+  for (GLuint name = 1; name < 5000; ++name) {
+    if (glIsBuffer(name)) {
+      GLint64 size = 0;
+      glGetNamedBufferParameteri64v(name, GL_BUFFER_SIZE, &size);
+      bytes += size;
+    }
+    if (!glIsTexture(name)) continue;
+    GLint of_buffer = 0, levels = 0;
+    glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_BUFFER_SIZE, &of_buffer);
+    if (of_buffer > 0) continue;  // counted as a buffer
+    glGetTextureParameteriv(name, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+    for (GLint level = 0; level < levels; ++level) {
+      const auto value = [&](GLenum what) {
+        GLint is = 0;
+        glGetTextureLevelParameteriv(name, level, what, &is);
+        return std::int64_t{is};
+      };
+      std::int64_t bits = 0;
+      for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE,
+                                GL_TEXTURE_DEPTH_SIZE, GL_TEXTURE_STENCIL_SIZE}) {
+        bits += value(part);
+      }
+      bytes += value(GL_TEXTURE_WIDTH) * value(GL_TEXTURE_HEIGHT) * value(GL_TEXTURE_DEPTH) *
+               std::max(value(GL_TEXTURE_SAMPLES), std::int64_t{1}) * bits / 8;
+    }
+  }
+  return bytes;
+}
+
+// Vertices, targets and slopes are shared as tiles are. Each view has only lists and the air of its eye.
+TEST_F(Views, OfTheSameTilesTakeATenthMoreMemoryOfTheGpu) {
+  constexpr Viewport kLarge{640, 360};
+  for (const bool relief : {false, true}) {
+    GlobeOptions options;
+    options.sky = true;
+    const auto globe = globe_of(painted_land(), relief, options);
+    globe->set_camera(kNearView);
+    const auto twin = view_of(*globe, kNearView);
+    std::vector<Drawn> one = drawn({&globe->main_view()}), both = drawn({&globe->main_view(), twin.get()});
+    for (Drawn* view : {&one[0], &both[0], &both[1]}) {
+      view->size = kLarge;
+      view->target = std::make_unique<OffscreenTarget>(kLarge);
+    }
+    const std::int64_t of_application = 3L * 4 * kLarge.width_px * kLarge.height_px;
+    settle_all(*globe, one);
+    const std::int64_t alone = gpu_bytes() - of_application;
+    settle_all(*globe, both);
+    globe->render(both[0].target->framebuffer(), kLarge);
+    const auto times = static_cast<double>(gpu_bytes() - of_application) / static_cast<double>(alone);
+    RecordProperty(relief ? "times_relief" : "times", std::to_string(times));
+    EXPECT_LE(times, 1.1) << (relief ? "with" : "without") << " relief";
+    EXPECT_EQ(both[0].target->read(), both[1].target->read());
+  }
+}
+
+// Views of one size share their targets, so a depth is a view's own until another view draws.
+TEST_F(Views, DepthIsCopiedBeforeAnotherViewDraws) {
+  const OffscreenTarget target(kMapView);
+  const auto globe = globe_of(painted_land());
+  globe->set_camera(kNearView);
+  const auto other = view_of(*globe, kFarView);
+  EXPECT_FALSE(globe->copy_depth(target.framebuffer())) << "nothing has been drawn";
+  globe->render(target.framebuffer(), kMapView);
+  const unsigned depth = globe->depth_texture();
+  EXPECT_NE(depth, 0U);
+  EXPECT_TRUE(globe->copy_depth(target.framebuffer()));
+  other->render(target.framebuffer(), kMapView);
+  EXPECT_EQ(globe->depth_texture(), 0U);
+  EXPECT_EQ(other->depth_texture(), depth);
+  const Status late = globe->copy_depth(target.framebuffer());
+  ASSERT_FALSE(late);
+  EXPECT_NE(late.error().message.find("another view of the globe has been drawn since; copy"), std::string::npos);
+  EXPECT_TRUE(other->copy_depth(target.framebuffer()));
+}
+
 TEST_F(Views, ShareTheTexturesOfTiles) {
   const auto source = painted_land();
   const auto globe = globe_of(source);
@@ -172,7 +247,10 @@ TEST_F(Views, ShareTheTexturesOfTiles) {
 // other.
 TEST_F(Views, DivideTheRoomForTiles) {
   const auto source = painted_land();
-  const auto globe = globe_of(source, false, 22UL * 48 * 48 * 4 * 4 / 3, 4.0);
+  GlobeOptions options;
+  options.gpu_bytes = 22UL * 48 * 48 * 4 * 4 / 3;
+  options.texels_per_pixel = 4.0;
+  const auto globe = globe_of(source, false, options);
   globe->set_camera(kNearView);
   std::vector<Drawn> one = drawn({&globe->main_view()});
   settle_all(*globe, one);

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto info = terrella::parse_tileset_json({reinterpret_cast<const char*>(data), size}, "fuzz");
-  // What was accepted is written so that it is accepted again.
+  // An accepted description is written so that it is accepted again.
   if (info && !terrella::parse_tileset_json(terrella::to_tileset_json(*info), "again")) std::abort();
   return 0;
 }

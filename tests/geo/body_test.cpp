@@ -33,7 +33,7 @@ TEST(Body, PublishedFlattenings) {
   EXPECT_NEAR(f("saturn"), 0.09796, 5e-6);           // printed to five
   EXPECT_NEAR(f("jupiter"), 0.06487, 5e-6);
   EXPECT_EQ(parse_body("iapetus")->ellipsoid.b_m(), 712100.0);  // 745.7, 745.7 and 712.1 km: a spheroid
-  EXPECT_EQ(parse_body("titan")->ellipsoid.a_m(), 2575000.0);   // of maps; the mean radius is 2574.73 km
+  EXPECT_EQ(parse_body("titan")->ellipsoid.a_m(), 2575000.0);   // radius used for maps; the mean radius is 2574.73 km
   // R1 = (2a + b) / 3 of WGS 84, rounded to 0.1 m.
   EXPECT_NEAR(parse_body("sphere")->ellipsoid.a_m(), (2.0 * 6378137.0 + earth().ellipsoid.b_m()) / 3.0, 0.05);
 }

@@ -244,7 +244,7 @@ TEST(ReadPlace, TakesDegreesMinutesSecondsAndBothOrders) {
 
 struct Refusal {
   const char* text;
-  const char* names;  ///< what the message must contain
+  const char* names;  ///< words that the message must contain
 };
 
 TEST(ParseCamera, RefusalsNameTheFieldAndItsRange) {

@@ -38,7 +38,7 @@ Reference reference_crossings(const Ellipsoid& e, const Ecef& origin, const Ecef
           .origin_in_radii = std::sqrt(c + 1.0L)};
 }
 
-/// What the rounding of the closest approach (a few ulps of the origin's distance) does to the distance along the ray:
+/// Error of the distance along the ray from the rounding of the closest approach (a few ulps of the origin's distance):
 /// magnified by 1/sqrt(miss), as grazing incidence must.
 double tolerance_m(const Ellipsoid& e, const Reference& r) {
   constexpr double roundings = 8.0;

@@ -18,13 +18,13 @@ struct EyeSight {
   int left_px = 0, first_row = 0, rows_apart = 1;
   std::array<bool, 3> channels{true, true, true};  ///< red, green, blue: those that are this eye's
 
-  /// Whether the eye has that row of its view.
+  /// True if the view of the eye includes row `y`.
   [[nodiscard]] bool has_row(int y) const { return y % rows_apart == first_row; }
   /// By pixels of the eye's own view; the row must be one of the eye's.
   [[nodiscard]] Color at(glm::ivec2 px) const { return picture->at(left_px + px.x, px.y); }
   /// The pixel of the eye's rows next to where a place is in its view; nothing outside it.
   [[nodiscard]] std::optional<glm::ivec2> pixel_of(const Ecef& place) const;
-  /// Whether the eye's channels of a colour are those expected, each within `tolerance`.
+  /// True if the eye's channels of a colour are those expected, each within `tolerance`.
   [[nodiscard]] bool sees(const Color& color, const Color& expected, int tolerance) const;
 };
 

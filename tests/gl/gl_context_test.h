@@ -14,7 +14,7 @@ namespace terrella::test {
 class GlContextTest : public testing::Test {
  protected:
   void SetUp() override;
-  /// What is of the context must be gone before.
+  /// Destroys the context; GL objects of the test must be gone before.
   void TearDown() override;
 
  private:

@@ -14,7 +14,7 @@ struct Named {
   const char* text;
   std::size_t count = 1;
 };
-// What it is called, next to what it is.
+// A value of GL and its name.
 #define GL_NAME(name) name, #name
 
 constexpr Named kValues[] = {

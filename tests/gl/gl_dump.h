@@ -11,7 +11,7 @@ using GlDump = std::map<std::string, std::vector<double>>;
 
 /// All that a program may have set and would miss.
 [[nodiscard]] GlDump dump_gl_state();
-/// What differs, a line each.
+/// Values that differ, a line each.
 [[nodiscard]] std::string differences(const GlDump& before, const GlDump& after);
 
 }  // namespace terrella::test

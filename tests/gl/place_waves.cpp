@@ -21,8 +21,8 @@ class Judge {
   Judge(const View& view, const Ellipsoid& ellipsoid, const PlaceWaves& waves)
       : view_(view), ellipsoid_(ellipsoid), waves_(waves) {}
 
-  /// Where a pixel's colour says that it should be drawn, relative to where it is: least squares over the three
-  /// channels; nothing where they say too little.
+  /// Offset of the place that a pixel's colour shows, relative to the pixel: least squares over the three channels;
+  /// nothing if they say too little.
   [[nodiscard]] std::optional<glm::dvec2> offset_px(const Color& color, glm::dvec2 px) const {
     const auto here = at(px), east = at(px + glm::dvec2(0.5, 0.0)), west = at(px - glm::dvec2(0.5, 0.0)),
                south = at(px + glm::dvec2(0.0, 0.5)), north = at(px - glm::dvec2(0.0, 0.5));

@@ -29,11 +29,11 @@ class PlaceWaves {
 
 /// A picture of waves, compared with where pick() says that its pixels look.
 struct WaveError {
-  int pixels = 0;        ///< where the three waves together say a place in both directions
+  int pixels = 0;        ///< pixels at which the three waves together give a place in both directions
   double most_px = 0.0;  ///< the farthest that a pixel is off
   double usual_px =
-      0.0;  ///< that 98 of 100 keep: one row of 48 may be where tile levels meet, with texels of two pixels
-  glm::dvec2 mean_px{0.0};  ///< of all, right and down: rounding of colours averages out
+      0.0;  ///< offset that 98 of 100 pixels keep: one row of 48 may lie at a change of levels, with texels of two px
+  glm::dvec2 mean_px{0.0};  ///< mean offset, right and down: rounding of colours averages out
 };
 [[nodiscard]] WaveError wave_error(const Picture& picture, const View& view, const Ellipsoid& ellipsoid,
                                    const PlaceWaves& waves);

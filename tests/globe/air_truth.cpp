@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kSteps = 80, kSunSteps = 24, kAroundSteps = 24;
-constexpr int kHeights = 12, kElevations = 32;  // of the grid of light from around
+constexpr int kHeights = 12, kElevations = 32;  // grid of light from around
 constexpr double kSunRadius_rad = 0.00465;
 
 struct Crossing {

@@ -37,7 +37,7 @@ std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
   add_sky_data(options, options.time.has_value());
   auto globe = value_of(Globe::create(options, std::move(imagery), std::move(elevation)));
   Experiments::of(*globe).naive_translucency = naive;
-  // Which of two mountains comes first is chance; in this order some of those behind do.
+  // The order of two mountains is chance; in this order some of those behind come first.
   if (naive) Experiments::of(*globe).patch_shuffle = 5U;
   if (const auto added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
   globe->set_camera(first_camera(scene, body, scene.size));

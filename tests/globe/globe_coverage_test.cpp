@@ -1,4 +1,4 @@
-// Where the globe is, it is drawn: no hole, no crack, no triangle the wrong way, no NaN.
+// The globe has no hole, no crack, no triangle the wrong way and no NaN.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -18,7 +18,7 @@ bool hits(const View& view, const Ellipsoid& body, glm::dvec2 px) {
   return body.intersect_m(view.eye, pixel_ray(view, px)).has_value();
 }
 
-/// Whether a pixel's centre is inside (or outside) the disc by more than a pixel.
+/// True if a pixel's centre is inside (or outside) the disc by more than a pixel.
 bool well(bool inside, const View& view, const Ellipsoid& body, int x, int y) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {

@@ -1,4 +1,4 @@
-// What GlobeOptions say of detail and accuracy is what is drawn.
+// Pictures have the detail and the accuracy that GlobeOptions ask for.
 #include <cmath>
 #include <limits>
 

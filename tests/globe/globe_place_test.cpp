@@ -1,4 +1,4 @@
-// What is drawn at a pixel is what pick() says is there, from 1 m to 100,000 km, in every mode; and it does not jitter.
+// Pixels show the place that pick() returns, from 1 m to 100,000 km, in every mode; and pictures do not jitter.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace terrella::test {
 namespace {
 
 constexpr Viewport kWindow{48, 48};
-// What the engine allows the surface and interpolated coordinates to be off by.
+// Largest error of the surface and of interpolated coordinates together on the screen.
 constexpr double kPlace_px = 0.25;
 
 struct Scene {
@@ -20,7 +20,7 @@ struct Scene {
   Camera camera;
 };
 
-/// What a pixel in the middle of the picture spans on the unit sphere, across the line of sight.
+/// Width of a pixel in the middle of the picture on the unit sphere, across the line of sight.
 double pixel_on_sphere(const Scene& scene) {
   const double distance_m = scene.camera.eye.height_m / std::sin(std::abs(scene.camera.pitch.rad()));
   return 2.0 * distance_m * std::tan(0.5 * scene.camera.fov_y.rad()) /

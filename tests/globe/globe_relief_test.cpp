@@ -1,4 +1,4 @@
-// Ground that rises and sinks, against rays cast through the same heights (issue: the translucent globe).
+// Ground that rises and sinks, against rays cast through the same heights.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ std::string words_of(const Camera& c, double exaggeration) {
   return out.str();
 }
 
-/// Whether a ray meets the ground: in steps that are small against its mountains, by the heights themselves.
+/// True if a ray meets the ground: in steps that are small against its mountains, by the heights themselves.
 bool meets_ground(const View& view, const Ellipsoid& body, glm::dvec2 px, double exaggeration) {
   const EcefDir ray = pixel_ray(view, px);
   const double top_m = exaggeration * kMost_m;
@@ -106,7 +106,7 @@ TEST_F(GlobeRelief, TheirOutlineIsAntialiased) {
       EXPECT_TRUE(ground > 0 && sky > 0) << x << ',' << y << " is on no outline";
     }
   }
-  constexpr int kFewest = 20;  // of an outline of over a hundred pixels, where stairs have none
+  constexpr int kFewest = 20;  // an outline of over a hundred pixels has more; stairs have none
   EXPECT_GT(between, kFewest) << "the outline is stairs";
 }
 
@@ -152,7 +152,7 @@ TEST_F(GlobeRelief, ImageryLiesWhereRaysMeetTheHeights) {
   // A pixel shows what a ray finds within a pixel around it: where the ground is a pixel too high or too low, it does
   // not.
   constexpr Viewport kSize{96, 96};
-  constexpr int kLevels = 4;  // of colour: 8 bits, and what bilinear imagery misses of its waves
+  constexpr int kLevels = 4;  // levels of colour: 8 bits, and the error of bilinear imagery in its waves
   for (const double exaggeration : {1.0, 8.0, 20.0}) {
     GlobeOptions options = unlit_options();
     options.exaggeration = exaggeration;

@@ -52,7 +52,7 @@ TEST_F(GlobeStreaming, NeverAHoleWhileTilesComeOneByOne) {
     int after_roots = 0;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
     while (!globe->settled() && std::chrono::steady_clock::now() < deadline) {
-      // Where other work starves the workers or the upload, what was released must not pile up and come at once.
+      // Released tiles must not pile up and come at once, even if other work starves the workers or the upload.
       const auto coming = [&] {
         const LoaderCounts counts = globe->loading();
         return counts.finished == 0 && counts.waiting + counts.running > 0;

@@ -74,7 +74,7 @@ std::string words_of(const SurfaceLook& look) {
   return (look.blend == Blend::normal ? "normal, alpha " : "additive, alpha ") + std::to_string(look.alpha);
 }
 
-/// What every eye must see of a ball, at its middle.
+/// Expects every eye to see a ball at its middle in this colour.
 void expect_ball(const Globe& globe, const Picture& seen, const PointObject& ball, const Color& expected,
                  const std::string& where) {
   for (const EyeSight& eye : eye_sights(globe, seen)) {

@@ -14,8 +14,7 @@ namespace {
 constexpr Color kRocks = {220, 190, 140};
 constexpr Viewport kGroundPicture{96, 96};
 constexpr double kMountains_m = 5000.0;
-// Of the radius: ten times as deep as they are, basins reach 50 km down, and the limb takes its colours from both
-// sides.
+// Share of the radius: mountains ten times as deep reach 50 km down, and the limb takes its colours from both sides.
 constexpr double kLowestGround = 0.02;
 // Blending rounds once, and the picture once more.
 constexpr int kRounding = 1;
@@ -58,9 +57,9 @@ class Paper2Surface : public GlTest, public testing::WithParamInterface<Stereo> 
 
   /// Pixels of all eyes.
   struct Judged {
-    int ground = 0;    ///< whose line of sight meets the lowest ground
-    int holes = 0;     ///< of those, that are not the surface once
-    int brighter = 0;  ///< of the others, that are more than the surface once
+    int ground = 0;    ///< pixels whose line of sight meets the lowest ground
+    int holes = 0;     ///< those `ground` pixels that do not show the surface exactly once
+    int brighter = 0;  ///< pixels brighter than the surface shown once
   };
   Judged judge(const Globe& globe, const SurfaceLook& look) {
     const Picture seen = picture();
@@ -110,7 +109,7 @@ TEST_P(Paper2Surface, ShowsTwiceWhereTransparencyIsJustSwitchedOn) {
   GlobeOptions naive = glass(0.5);
   const auto globe = rocks(naive, kEyepoints.front().camera);
   Experiments::of(*globe).naive_translucency = true;
-  // What lies behind shows only if its patch comes first.
+  // Ground behind shows only if its patch comes first.
   int brighter = 0;
   for (unsigned seed = 1; seed <= 8 && brighter <= 50; ++seed) {
     Experiments::of(*globe).patch_shuffle = seed;

@@ -18,7 +18,7 @@ using Names = std::set<std::string>;
 constexpr Viewport kProgramsPicture{64, 64};
 const TileGrid kProgramsGrid{.tile_px = 64, .max_level = 1};
 
-/// Of all programs in the context, which are labelled with the file that makes them what they are.
+/// Labels of all programs in the context; a label is the file that distinguishes the program.
 std::multiset<std::string> all_programs() {
   constexpr GLuint kMostNames = 4096;  // objects of a context are numbered from 1
   std::multiset<std::string> names;
@@ -47,7 +47,7 @@ class Programs : public GlTest {
     settle(*globe, kProgramsPicture);
     return programs();
   }
-  /// What the plain globe does not have.
+  /// Names that the plain globe does not have.
   static Names more(Names all) {
     for (const std::string& name : plain()) EXPECT_EQ(all.erase(name), 1U) << name;
     return all;

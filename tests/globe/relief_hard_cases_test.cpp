@@ -64,7 +64,7 @@ class ReliefHardCases : public GlTest {
   }
 
   void check_from_above(Stereo stereo, const Body& body, const std::vector<Camera>& cameras, Viewport size) {
-    // What is seen from one place: another place has its own far side.
+    // The two colours are for one place of the eye: another place has its own far side.
     const auto globe = mountainous_globe(hard_options(stereo, body), two_sided(cameras.front().eye));
     for (const Camera& asked : cameras) {
       Camera camera = asked;

@@ -27,7 +27,7 @@ AccuracyView noise(std::string name, TruthCamera camera, int size_px, std::vecto
   return {std::move(name), "noise", kEarth, {}, camera, size_px, std::move(bounds)};
 }
 
-// What CesiumJS reached with the same pyramid of PNG tiles, camera by camera.
+// Errors that CesiumJS reached with the same pyramid of PNG tiles, camera by camera.
 void add_table(std::vector<AccuracyView>& views) {
   views.push_back(noise("mid latitude", over(30, 20, 6e6), 1024, {at_most(Zone::all, 1.13)}));
   views.push_back(noise("antimeridian", over(0, 180, 6e6), 1024, {at_most(Zone::antimeridian, 0.61)}));

@@ -7,7 +7,7 @@
 
 namespace terrella::truth {
 
-/// What a figure of a view is held to.
+/// Limit for a figure of a view.
 struct Bound {
   enum class Kind {
     figure,      ///< RMS ≤ value

@@ -14,7 +14,7 @@ namespace terrella::truth {
 namespace {
 
 constexpr double kRounding_rms = 0.2887;  // 1/sqrt(12): what rounding to whole levels leaves
-constexpr double kStatistics_rms = 0.01;  // of some ten thousand samples
+constexpr double kStatistics_rms = 0.01;  // some ten thousand samples
 const TruthCamera kCamera{.eye = {0, 180, 19e6}};
 constexpr TruthOptions kOptions{.width = 128, .height = 128, .rays_per_side = 4};
 

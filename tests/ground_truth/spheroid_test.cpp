@@ -12,9 +12,9 @@ namespace terrella::truth {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSurface = 5e-15;    // of the radius: some twenty ulp, 3e-8 m on the Earth
+constexpr double kSurface = 5e-15;    // share of the radius: some twenty ulp, 3e-8 m on the Earth
 constexpr double kAngle_deg = 1e-12;  // 1e-7 m on the ground: four orders under the smallest texel judged
-constexpr double kGrazing = 2e-13;    // of the radius: a ray that grazes amplifies the eye's own rounding
+constexpr double kGrazing = 2e-13;    // share of the radius: a ray that grazes amplifies the eye's own rounding
 
 class SpheroidTest : public ::testing::TestWithParam<Spheroid> {
  protected:

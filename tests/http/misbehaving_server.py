@@ -78,7 +78,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.status(int(name))
         return self.status(404)
 
-    # What is sent ----------------------------------------------------------------------------------------------------
+    # Answers
+    # -----------------------------------------------------------------------------------------------------------
 
     def answer(self, status, body=b"", kind="image/jpeg", fields=(), length=None):
         self.send_response(status)

@@ -207,7 +207,7 @@ TEST_F(Misbehaving, FilesAreReadFromTheDisk) {
   EXPECT_TRUE(replies.wait_until_idle());
 }
 
-// What holds for the whole host ------------------------------------------------------------------------------------
+// Limits of the whole host -----------------------------------------------------------------------------------------
 
 double first_time_s(const std::vector<Seen>& log, const std::string& path) {
   for (const Seen& seen : log) {

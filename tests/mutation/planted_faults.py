@@ -20,10 +20,10 @@ import typing
 
 
 class Fault(typing.NamedTuple):
-    name: str  # what is wrong, in words
-    file: str  # where
-    right: str  # what stands there, once
-    wrong: str  # what is planted
+    name: str  # fault in words
+    file: str  # file that gets the fault
+    right: str  # text of the file, found once
+    wrong: str  # text that replaces it
     program: str  # the test program that must fail …
     tests: str  # … when it runs these (GoogleTest's filter)
 
@@ -106,7 +106,7 @@ FAULTS = [
 
 
 def misplaced(source: pathlib.Path, fault: Fault) -> str:
-    """Why the fault cannot be planted; empty if it can."""
+    """Reason why the fault cannot be planted; empty if it can."""
     file = source / fault.file
     if not file.is_file():
         return f"there is no {fault.file}"

@@ -24,7 +24,7 @@ struct NumberType {
   const char* name;
   double least, most;
   bool whole;
-  const char* options;  ///< of gdal_translate
+  const char* options;  ///< options for gdal_translate
 };
 
 // Printed by Google Test for each parameter.

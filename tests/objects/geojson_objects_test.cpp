@@ -148,8 +148,66 @@ TEST(GeojsonObjects, AMarkersSymbolIsItsLabelIfItIsADigitOrALetterAndThereIsNoTi
   EXPECT_EQ(label(R"({"marker-symbol":7})"), "7");
   EXPECT_EQ(label(R"({"marker-symbol":"a","title":"","name":"Oslo"})"), "Oslo");
   EXPECT_EQ(label(R"({"marker-symbol":"a","title":"Rome","name":"Oslo"})"), "Rome");
-  EXPECT_EQ(label(R"({"marker-symbol":"bus","description":"Line 7"})"), "");
   EXPECT_EQ(label(R"({"marker-symbol":""})"), "");
+}
+
+constexpr const char* kRedDot =  // a PNG of one red pixel
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/"
+    "pLvAAAAAElFTkSuQmCC";
+
+TEST(GeojsonObjects, AnIconComesFromADataUriOnceForAllItsPoints) {
+  const auto with_icon = [](const std::string& more) {
+    return feature(kPoint, fmt::format(R"({{"icon":"{}"{}}})", kRedDot, more));
+  };
+  const ObjectFile file = good(collection(
+      with_icon("") + "," +
+      with_icon(R"(,"icon-size":24,"icon-anchor":"bottom-left","icon-rotate":30,"icon-color":"#00ff00","title":"t")") +
+      "," + with_icon(R"(,"heading_deg":-90)")));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  ASSERT_EQ(file.scene.points.size(), 3U);
+  const PointIcon& first = file.scene.points[0].icon;
+  ASSERT_TRUE(first.image);
+  EXPECT_EQ(first.image->rgba, (std::vector<std::uint8_t>{255, 0, 0, 255}));
+  EXPECT_EQ(file.scene.points[0].size_px, 1.0F) << "the picture's own size";
+  EXPECT_EQ(first.anchor, glm::vec2(0.5F, 0.5F));
+  EXPECT_EQ(first.tint, (ObjectColor{255, 255, 255}));
+  const PointObject& second = file.scene.points[1];
+  EXPECT_EQ(second.icon.image, first.image);
+  EXPECT_EQ(second.size_px, 24.0F);
+  EXPECT_EQ(second.icon.anchor, glm::vec2(0.0F, 1.0F));
+  EXPECT_EQ(second.icon.tint, (ObjectColor{0, 255, 0}));
+  EXPECT_NEAR(second.icon.heading.deg(), 30.0, 1e-12);
+  EXPECT_FALSE(second.icon.from_north);
+  EXPECT_TRUE(file.scene.points[2].icon.from_north);
+  EXPECT_NEAR(file.scene.points[2].icon.heading.deg(), -90.0, 1e-12);
+}
+
+TEST(GeojsonObjects, AnIconThatCannotBeReadIsToldAndADiscIsDrawn) {
+  const auto complaints = [](const std::string& properties) {
+    const ObjectFile file = good(collection(feature(kPoint, properties)));
+    EXPECT_EQ(file.scene.points.size(), 1U) << properties;
+    EXPECT_FALSE(file.scene.points.empty() || file.scene.points[0].icon.image) << properties;
+    return file.complaints.empty() ? std::string() : file.complaints[0];
+  };
+  EXPECT_THAT(complaints(R"({"icon":"data:image/png;base64,AAAA"})"),
+              AllOf(HasSubstr("feature 1"), HasSubstr("a PNG, JPEG or WebP picture is needed")));
+  EXPECT_THAT(complaints(R"({"icon":"data:image/svg+xml,<svg/>"})"), HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(complaints(R"({"icon":"../plane.png"})"), HasSubstr("only files in the same folder"));
+  EXPECT_THAT(complaints(R"({"marker-symbol":"bus","name":"Line 7"})"),
+              AllOf(HasSubstr("feature 1"), HasSubstr("\"bus\""), HasSubstr("give a picture file as \"icon\"")));
+  EXPECT_EQ(complaints(R"({"marker-symbol":""})"), "");
+}
+
+TEST(GeojsonObjects, IdsOfTheFeaturesOfSeveralFilesCountOn) {
+  const std::string text = collection(feature(kPoint) + "," + feature(kPoint));
+  const ObjectFile first = good(text);
+  EXPECT_EQ(first.scene.points[1].of.id, ObjectId{2});
+  EXPECT_EQ(first.next, ObjectId{3});
+  std::istringstream stream(text);
+  const auto second = parse_geojson_objects(stream, "g.geojson", {}, first.next);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->scene.points[0].of.id, ObjectId{3});
+  EXPECT_EQ(second->next, ObjectId{5});
 }
 
 TEST(GeojsonObjects, EachSimplestyleValueThatIsWrongIsNamedAndItsDefaultDrawn) {

@@ -126,7 +126,7 @@ TEST(GltfModel, ABrokenMeshIsNamedAndTheOtherStays) {
 TEST(GltfModel, PositionsThatAreNoNumbersAreLeftOut) {
   for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1.0e30F}) {
     ModelFixture model = unit_box();
-    std::memcpy(model.buffer.data(), &wrong, sizeof wrong);  // of corner 0
+    std::memcpy(model.buffer.data(), &wrong, sizeof wrong);  // corner 0
     const auto file = read_model(model);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(file->model->parts.at(0).indices.size(), 36U - 3U * 6U) << "those at corner 0 are gone";

@@ -79,7 +79,7 @@ def cut_square(terrella, folder):
 
 
 def assert_picture(test, path, square=True):
-    """What outside/main.cpp draws of the Earth, the square and the earthquakes."""
+    """Checks the picture that outside/main.cpp draws of the Earth, the square and the earthquakes."""
     width, height, rows = png.read(path)
     test.assertEqual((width, height), (256, 256))
     pixels = [tuple(row[3 * x : 3 * x + 3]) for row in rows for x in range(width)]

@@ -51,7 +51,7 @@ words = [word.encode() for word in sys.argv[1:]]
 sys.exit(ctypes.CDLL(sys.argv[1]).draw_globe(len(words), (ctypes.c_char_p * len(words))(*words)))
 """
 
-# What applications write: options by name, one of many; conversions that GLM allows by default.
+# Code of applications: options by name, one of many; conversions that GLM allows by default.
 BY_NAME = {
     "terrella/geo/coordinates.h": "inline glm::vec3 narrow(const terrella::Ecef& p) { return p.xyz_m; }",
     "terrella/globe.h": "terrella::GlobeOptions a{.unlit = true}; terrella::GlobePick b{.objects = terrella::LayerId::none};"
@@ -63,7 +63,7 @@ BY_NAME = {
 
 
 def hiding_source():
-    """What runs a command where an empty folder lies over the source tree; nothing where the machine forbids that."""
+    """Words that run a command with an empty folder over the source tree; empty if the machine forbids that."""
     hide = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c",
             f'mount -t tmpfs none {shlex.quote(str(SOURCE))} && exec "$@"', "sh"]
     try:
@@ -100,8 +100,11 @@ class PackageTest(unittest.TestCase):
         self.run_outside(CMAKE, "--build", folder / "build")
         return folder
 
-    def data(self):
-        return [self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes]
+    def draw(self, folder, *program, **options):
+        """Draws the document's data by a program, and checks the picture."""
+        data = [self.prefix / "share/terrella/earth.gpkg", self.square, self.quakes]
+        self.run_outside(*program, *data, folder / "earth.png", **options)
+        assert_picture(self, folder / "earth.png")
 
     def test_find_package(self):
         """A project outside the tree, the document's own, draws a picture of two layers and objects."""
@@ -109,20 +112,19 @@ class PackageTest(unittest.TestCase):
         commands = (folder / "build/compile_commands.json").read_text()
         self.assertNotIn(str(SOURCE), commands)
         self.assertNotIn("-D", commands, "settings of Terrella's in the application")
-        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, folder / "build/application")
 
     @unittest.skipUnless(shutil.which("clang++"), "needs clang++")
     def test_find_package_with_another_compiler(self):
-        self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
+        folder = self.build("with-clang", "-DCMAKE_CXX_COMPILER=clang++")
+        self.draw(folder, folder / "build/application")
 
     def test_strict_project(self):
         """A geo/coordinates.h of the application's own, GLM's defaults, no exceptions, no RTTI."""
         folder = write_strict_project(self.scratch / "strict")
         self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         self.run_outside(CMAKE, "--build", folder / "build")
-        self.run_outside(folder / "build/application", *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, folder / "build/application")
 
     def test_plug_in(self):
         """The archives fit into a shared object; a process that knows nothing of C++ opens it and draws."""
@@ -130,11 +132,10 @@ class PackageTest(unittest.TestCase):
         with open(folder / "CMakeLists.txt", "a") as cmake:
             cmake.write(PLUG_IN_CMAKE)
         (folder / "plug_in.cpp").write_text(PLUG_IN)
-        self.configure(folder)
+        self.configure(folder, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
         self.run_outside(CMAKE, "--build", folder / "build", "--target", "plug_in")
         plug_in = folder / "build/libplug_in.so"
-        self.run_outside(sys.executable, "-c", DRAW_BY_PLUG_IN, plug_in, *self.data(), folder / "earth.png")
-        assert_picture(self, folder / "earth.png")
+        self.draw(folder, sys.executable, "-c", DRAW_BY_PLUG_IN, plug_in)
         symbols = run("nm", "--dynamic", "--demangle", "--defined-only", plug_in)
         self.assertIn("draw_globe", symbols)
         self.assertNotIn("terrella::Globe::", symbols, "the library's symbols are its own affair")
@@ -155,10 +156,11 @@ class PackageTest(unittest.TestCase):
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(self.run_outside("pkg-config", "--cflags", "--libs", "terrella", env=environment))
         self.assertFalse([flag for flag in flags if str(SOURCE) in flag], flags)
-        self.run_outside(COMPILER, "-std=c++20", "main.cpp", "-o", "application", *flags, cwd=folder)
+        self.run_outside(COMPILER, "-std=c++20", "-Wall", "-Wextra", "-Werror", "main.cpp", "-o", "application", *flags, cwd=folder)
+        self.draw(folder, folder / "application")
 
     def test_every_header_by_itself(self):
-        """What an application includes brings what it needs, and options are given by name without a warning."""
+        """Each public header brings the headers that it needs, and options are given by name without a warning."""
         environment = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("terrella.pc")).parent)}
         flags = shlex.split(run("pkg-config", "--cflags", "terrella", env=environment))
         named = re.search(r"TERRELLA_PUBLIC_HEADERS\n(.*?)\)", (SOURCE / "engine/package/public_headers.cmake").read_text(), re.DOTALL)
@@ -182,7 +184,7 @@ class PackageTest(unittest.TestCase):
                 self.assertNotIn(str(folder).encode() + b"/", content, path)
 
     def test_uninstall(self):
-        """What an installation wrote is removed, and what lay beside it stays."""
+        """Uninstalling removes the files of the installation, and files beside them stay."""
         prefix = self.scratch / "gone"
         (prefix / "share/terrella").mkdir(parents=True)
         (prefix / "share/terrella/own.txt").touch()
@@ -195,7 +197,7 @@ class PackageTest(unittest.TestCase):
         self.assertFalse((prefix / "include/terrella").exists())
 
     def test_no_path_of_the_source(self):
-        """What is installed as text names nothing of the machine that it was built on."""
+        """Installed texts name nothing of the machine that built them."""
         texts = [p for p in self.prefix.rglob("*") if p.suffix in (".cmake", ".pc", ".h")]
         self.assertGreater(len(texts), 10)
         for path in texts:

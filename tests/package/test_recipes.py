@@ -1,4 +1,4 @@
-"""What other package managers read: vcpkg.json, conanfile.py and the Dockerfile. None of their tools is run."""
+"""Recipes of other package managers: vcpkg.json, conanfile.py and the Dockerfile. None of their tools is run."""
 
 import ast
 import json

@@ -55,8 +55,8 @@ glm::dvec3 direction(const MapPoint& p) {
   return Ellipsoid::normal(Angle::degrees(p.lat_deg), Angle::degrees(p.lon_deg)).xyz;
 }
 
-/// How often a ring goes round a point, by the angles under which its great-circle edges are seen from there: another
-/// way than the planner's. For rings within a hemisphere around `middle`.
+/// Winding number of a ring round a point, by the angles under which its great-circle edges are seen from there:
+/// another way than the planner's. For rings within a hemisphere around `middle`.
 bool goes_round(const std::vector<glm::dvec3>& ring, const glm::dvec3& p, const glm::dvec3& middle) {
   if (glm::dot(p, middle) <= 0.0) return false;
   double angle = 0.0;

@@ -219,7 +219,7 @@ class GoneFromTheServer(LimitTest):
         self.assertEqual(*shots)
         self.assertTrue(stored)
         self.assertEqual(self.query("SELECT count(*) FROM terrella_cache_absences"), [(0,)])
-        # It asks again after the life of an absence, not with each look.
+        # The program asks again after the life of an absence, not with each look.
         before = len(self.server.requests())
         self.assert_done("render", source, "-o", "again.png", *VIEW, "--cache", self.cache)
         self.assertEqual(len(self.server.requests()), before)

@@ -139,7 +139,7 @@ class Nginx(PreloadTest):
             self.assertNotIn(b"hidden", text)
 
     def test_killed_and_started_again(self):
-        """What was reported is there and right, and nothing that is there is fetched again."""
+        """Reported tiles are there and right, and no tile that is there is fetched again."""
         random.seed(20261121)
         levels = LEVELS + 1
         servers.write_pyramid(self.root, levels)

@@ -115,7 +115,7 @@ std::size_t peak_bytes() {
 }
 
 TEST(TilePlan, ABillionTilesCountedAndWalkedInLittleMemory) {
-  constexpr std::size_t kMost_bytes = 50UL << 20;  // what the plan may add to the process
+  constexpr std::size_t kMost_bytes = 50UL << 20;  // memory that the plan may add to the process
   const std::size_t before = peak_bytes();
   Region region;
   region.add_box(box(-170.003, -75.001, 169.007, 77.777));

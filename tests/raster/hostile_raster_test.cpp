@@ -111,7 +111,7 @@ TEST(HostileRasterTest, APictureIsNotItsOwnOverview) {
 struct Harm {
   const char* name;
   TiffBytes bytes;
-  const char* part;  ///< of the message
+  const char* part;  ///< part of the message
 };
 
 class Hostile : public testing::TestWithParam<Harm> {};

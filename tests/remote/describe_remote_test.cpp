@@ -121,6 +121,16 @@ TEST(DescribeRemote, NothingFromTheNetworkPointsToFiles) {
   expect_error(web.describe("https://a.org/s.json"), "not on the network");
 }
 
+TEST(DescribeRemote, FilesOfThisMachineAreNamedByTheirPath) {
+  Web web;
+  for (const char* file : {"file:///a/planet.pmtiles", "file:///a/planet.gpkg", "FILE:///a/planet.tif"}) {
+    expect_error(web.describe(file), "give the path /a/planet.");
+  }
+  EXPECT_TRUE(web.asked.empty());
+  web.pages["file:///a/tilemapresource.xml"] = kTms;
+  EXPECT_TRUE(web.describe("file:///a/tilemapresource.xml"));
+}
+
 TEST(DescribeRemote, HeadersStayWithTheirSchemeHostAndPort) {
   Web web;
   web.pages["https://a.org/s.json"] = R"({"url": "https://b.org/{z}/{x}/{y}", "max_level": 2})";

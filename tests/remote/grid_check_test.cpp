@@ -17,7 +17,7 @@ constexpr int kTilePx = 64;
 /// A planet without symmetries: waves of a few lengths, on the unit sphere so that it goes round at ±180°.
 struct Planet {
   double amplitude = 100.0;  ///< levels of 8 bits
-  double detail = 20.0;      ///< of what coarse levels cannot show
+  double detail = 20.0;      ///< amplitude of waves that coarse levels cannot show
 
   [[nodiscard]] std::array<std::uint8_t, 3> colour(double lat_deg, double lon_deg) const {
     const double lat = lat_deg * std::numbers::pi / 180.0;
@@ -31,13 +31,13 @@ struct Planet {
   }
 };
 
-/// What a server has: its own grid and order of rows, whatever the one who asks believes.
+/// A server with a grid and an order of rows of its own, whatever the client believes.
 struct Server {
   Planet planet{};
   double root_span_deg = 180.0;
   bool mercator = false;
   bool flipped = false;
-  double top_deg = 90.0;  ///< of row 0
+  double top_deg = 90.0;  ///< northern edge of row 0
   int jpeg_quality = 0;   ///< 0: not through JPEG
   int asked = 0;
 

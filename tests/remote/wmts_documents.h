@@ -12,11 +12,11 @@ namespace terrella::test {
 struct MatrixSetText {
   std::string name{};
   std::string crs = "urn:ogc:def:crs:OGC:1.3:CRS84";
-  double denominator = 0.0;  ///< of the first matrix
+  double denominator = 0.0;  ///< denominator of the first matrix
   int tile_px = 256;
   std::vector<std::pair<int, int>> sizes{};
   std::string corner = "-180 90";
-  std::string prefix{};  ///< of the identifiers of the matrices
+  std::string prefix{};  ///< prefix of the identifiers of the matrices
   double ratio = 2.0;
 };
 

@@ -41,8 +41,8 @@ Camera looking(double lat_deg, double lon_deg, double height_m, double pitch_deg
   return camera;
 }
 
-/// Where a model's point is: east, north and up of its place, by GeographicLib. Forward (z) is at the heading clockwise
-/// from north, x to the left of it.
+/// Place of a model's point: east, north and up of the model's place, by GeographicLib. Forward (z) is at the heading
+/// clockwise from north, x to the left of it.
 Ecef place_of_corner(const MeshObject& mesh, const Ellipsoid& ellipsoid, glm::dvec3 corner) {
   const GeographicLib::Geocentric earth(ellipsoid.a_m(), ellipsoid.f());
   const GeographicLib::LocalCartesian frame(mesh.place.lat.deg(), mesh.place.lon.deg(), mesh.place.height_m, earth);
@@ -171,7 +171,7 @@ TEST_F(MeshPassTest, APictureLiesOnATriangleAsItsCoordinatesSay) {
     return picture.at(static_cast<int>(100.0 + east_m * px_of_metre), static_cast<int>(100.0 - north_m * px_of_metre));
   };
   const auto expect_color = [](ObjectColor a, ObjectColor b) {
-    constexpr int kLevels = 2;  // of the way to linear light and back
+    constexpr int kLevels = 2;  // levels lost on the way to linear light and back
     EXPECT_NEAR(a.red, b.red, kLevels);
     EXPECT_NEAR(a.green, b.green, kLevels);
     EXPECT_NEAR(a.blue, b.blue, kLevels);

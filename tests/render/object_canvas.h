@@ -11,6 +11,19 @@
 
 namespace terrella::test {
 
+[[nodiscard]] inline Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
+  return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
+}
+/// A camera over a place.
+[[nodiscard]] inline Camera over(double lat_deg, double lon_deg, double height_m, double pitch_deg = -90.0,
+                                 double heading_deg = 0.0) {
+  Camera camera;
+  camera.eye = at(lat_deg, lon_deg, height_m);
+  camera.pitch = Angle::degrees(pitch_deg);
+  camera.heading = Angle::degrees(heading_deg);
+  return camera;
+}
+
 /// A picture of objects alone: RGBA8, rows from the top.
 struct ObjectPicture {
   Viewport size;
@@ -38,7 +51,7 @@ class ObjectCanvas : public GlContextTest {
 
   std::vector<std::byte> font_;  ///< for use()
   LabelSight label_sight_;
-  int draw_calls_ = 0;  ///< of the last picture
+  int draw_calls_ = 0;  ///< draw calls of the last picture
   bool lit_ = false;
   double hiding_radius_m_ = 0.0;
 

@@ -17,16 +17,6 @@ constexpr ObjectColor kRed{255, 0, 0}, kBlue{0, 0, 255}, kGreen{0, 200, 0};
 // A pixel is drawn if its centre is covered: what geometry says is met to this.
 constexpr double kEdge_px = 1.0;
 
-Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
-  return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
-}
-Camera over(double lat_deg, double lon_deg, double height_m, double pitch_deg = -90.0, double heading_deg = 0.0) {
-  Camera camera;
-  camera.eye = at(lat_deg, lon_deg, height_m);
-  camera.pitch = Angle::degrees(pitch_deg);
-  camera.heading = Angle::degrees(heading_deg);
-  return camera;
-}
 PointObject sphere(const Geodetic& place, double radius_m, ObjectColor color) {
   return {.place = place, .radius_m = radius_m, .color = color};
 }
@@ -35,7 +25,7 @@ glm::dvec2 center_of(int x, int y) { return {x + 0.5, y + 0.5}; }
 
 using ObjectPassTest = ObjectCanvas;
 
-/// How far a pixel's ray passes from a sphere, in pixels; negative: it meets it.
+/// Distance at which a pixel's ray passes a sphere, in pixels; negative: the ray meets the sphere.
 double off_sphere_px(const View& view, const Ellipsoid& ellipsoid, const PointObject& ball, glm::dvec2 pixel) {
   const glm::dvec3 to = ellipsoid.to_ecef(ball.place).xyz_m - view.eye.xyz_m;
   const glm::dvec3 ray = pixel_ray(view, pixel).xyz;
@@ -129,7 +119,7 @@ TEST_F(ObjectPassTest, HundredThousandSpheresAreADrawOfPointsAndOneOfTriangles) 
   EXPECT_EQ(draw(scene, over(10.0, 20.0, 1.0e7)).rgba, first.rgba) << "the same scene gives other pixels";
 }
 
-/// How much of a pixel a sphere covers, by rays through 16 by 16 places in it.
+/// Part of a pixel that a sphere covers, by rays through 16 by 16 places in it.
 double covered_part(const View& view, const glm::dvec3& center_m, double radius_m, int x, int y) {
   constexpr int kSteps = 16;
   int hits = 0;
@@ -294,7 +284,7 @@ TEST_F(ObjectPassTest, LineThatPassesBehindTheEyeIsStillStraight) {
   }
 }
 
-/// Whether an even-odd test on the map says that a place is inside; nearer to an edge than a pixel it is not asked.
+/// True if an even-odd test on the map has the place inside; not asked nearer to an edge than a pixel.
 bool inside_rings(const std::vector<MapRing>& rings, const Geodetic& p) {
   bool inside = false;
   for (const MapRing& ring : rings) {
@@ -308,7 +298,7 @@ bool inside_rings(const std::vector<MapRing>& rings, const Geodetic& p) {
   return inside;
 }
 
-/// What a pixel of an area must be: 1 inside, 0 outside, -1 where the places within a pixel of it do not agree.
+/// Expected pixel of an area: 1 inside, 0 outside, -1 if the places within a pixel of it do not agree.
 std::vector<int> expected_fill(const View& view, const Ellipsoid& ellipsoid, const PolygonObject& polygon) {
   std::vector<MapRing> rings;
   for (const auto& ring : polygon.rings) {

@@ -94,7 +94,7 @@ TEST(SkyPass, PutsStarsWhereTheyAre) {
 }
 
 TEST(SkyPass, MakesStarsAsBrightAsTheyAre) {
-  // Of the light that is asked for; what 8 bits leave of a faint spot's border.
+  // Share of the expected light; 8 bits lose a faint spot's border.
   constexpr double kBrightness = 0.12;
   const SkyInput input = only(kSolstice, true, false, false, false);
   const Camera camera = looking(0, 0, 2e7, 0, 90, 40);

@@ -61,7 +61,7 @@ std::vector<std::uint8_t> SkyScene::draw(const Camera& camera, const SkyInput& i
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   mask_globe(at);
   upload_frame(at);
-  if (const Status made = sky_->prepare(input); !made) throw std::runtime_error(made.error().message);
+  if (const Status made = sky_->prepare(at, input); !made) throw std::runtime_error(made.error().message);
   draw_calls_ = sky_->draw(at, input, {.stencil = StencilState{.reference = 0, .read_mask = 1}});
   const auto width = static_cast<std::size_t>(size_.width_px) * 4, height = static_cast<std::size_t>(size_.height_px);
   std::vector<std::uint8_t> rows(width * height), picture(width * height);

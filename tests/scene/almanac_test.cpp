@@ -70,7 +70,7 @@ struct SunRow {
 };
 struct MoonRow {
   const char* utc;
-  double ra_deg, dec_deg, parallax_deg;  // of the equator's radius
+  double ra_deg, dec_deg, parallax_deg;  // parallax of the equator's radius
 };
 
 // F. Espenak, NASA/GSFC, eclipse.gsfc.nasa.gov: Sun and Moon at greatest eclipse, by JPL's DE200/LE200 (1999, 2002,
@@ -134,7 +134,7 @@ TEST(Almanac, HasTheEclipses) {
   EXPECT_LT(apart_deg(at("1999-08-11T11:03:00Z").sun.xyz, at("1999-08-11T11:03:00Z").moon.xyz_m), kEclipse_deg);
   const Almanac lunar = at("2025-03-14T06:59:00Z");
   EXPECT_GT(apart_deg(lunar.sun.xyz, lunar.moon.xyz_m), 180.0 - kEclipse_deg);
-  // Where the shadow's axis met the Earth at that minute: 25.3°N 104.1°W.
+  // Place under the axis of the shadow at that minute: 25.3°N 104.1°W.
   const Ecef nazas = Ellipsoid(6378137.0, 1.0 / 298.257223563)
                          .to_ecef({.lat = Angle::degrees(25.29), .lon = Angle::degrees(-104.15), .height_m = 0.0});
   EXPECT_LE(apart_deg(solar.sun.xyz, solar.moon.xyz_m - nazas.xyz_m), 2.0 * kPlace_deg);

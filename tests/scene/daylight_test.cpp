@@ -1,4 +1,4 @@
-// On which patches a layer by day or by night has anything to show.
+// Patches on which a day layer or a night layer has anything to show.
 #include "surface/daylight.h"
 #include "patch_test_support.h"
 
@@ -27,7 +27,7 @@ TEST(Daylight, FadesThroughCivilTwilight) {
   EXPECT_NEAR(part_shown(Daylight::night, std::sin(-3.0 * kDaylightDegree)), 0.5, 0.002) << "the sine is all but even";
 }
 
-/// Whether anything shows at one of the patch's points.
+/// True if anything shows at one of the patch's points.
 bool shows_somewhere(Daylight side, const PatchId& patch, const glm::dvec3& sun) {
   constexpr int kPoints = 8;
   for (int i = 0; i <= kPoints; ++i) {

@@ -15,12 +15,12 @@ using test::camera_at;
 using test::Draw;
 using test::WavyGround;
 
-constexpr double kRoundTrip_px = 0.1;  // what the issue asks
+constexpr double kRoundTrip_px = 0.1;  // between a pixel and the place projected back
 constexpr double kSameHit_m = 0.01;    // the truth is halved to a millimetre along the ray
 constexpr Viewport kScreen{400, 300};
 
-/// Where a ray goes through the ground: looked at every 500 m of its way, or every 50,000th of the distance, by the
-/// table, and then halved.
+/// Distance at which a ray enters the ground, by the table: looked for every 500 m, or every 50,000th of the distance,
+/// and then halved.
 std::optional<double> dense_march_m(const WavyGround& truth, const Ecef& eye, const EcefDir& ray, double most_m) {
   const auto over_m = [&](double t) {
     const Geodetic at = truth.body().to_geodetic(Ecef{eye.xyz_m + t * ray.xyz});

@@ -119,6 +119,59 @@ TEST(LayerPick, FindsWhatAScanOfEverythingFinds) {
   EXPECT_GT(found, 150) << "most picks find something";
 }
 
+std::shared_ptr<const IconImage> picture(int width_px, int height_px) {
+  return std::make_shared<const IconImage>(
+      IconImage{width_px, height_px, std::vector<std::uint8_t>(4UL * std::size_t(width_px * height_px), 255)});
+}
+
+TEST(LayerPick, FindsTheIconsThatAScanFinds) {
+  Chance chance;
+  ObjectScene scene = any_scene(chance, 300);
+  const std::vector images{picture(20, 10), picture(7, 30)};
+  for (std::size_t k = 0; k + 1 < scene.points.size(); ++k) {
+    PointObject& point = scene.points[k];
+    point.size_px *= 3.0F;
+    point.icon = {.image = images[k % 2],
+                  .anchor = {chance.from(0.0, 1.0), chance.from(-0.5, 1.5)},
+                  .heading = Angle::degrees(chance.from(0.0, 360.0)),
+                  .from_north = k % 3 == 0};
+  }
+  LayerObjects layer(scene, earth().ellipsoid, 1.0, kSelectedColor);
+  int found = 0;
+  expect_as_scan(layer, scene, chance, 200, found);
+  EXPECT_GT(found, 60);
+}
+
+// The rectangle by trigonometry of its own: an icon of 40 by 20 pixels whose lower middle is at the place.
+TEST(LayerPick, AnIconIsPickedInItsTurnedRectangle) {
+  Camera camera;
+  camera.eye = {.lat = {}, .lon = {}, .height_m = 1.0e6};
+  const View view = make_view(camera, earth().ellipsoid, kPicture);
+  const Ground ground(earth().ellipsoid);
+  for (const bool from_north : {false, true}) {
+    const double turn = Angle::degrees(30.0).rad();
+    const ObjectScene scene{.points = {{.place = {.lat = {}, .lon = {}, .height_m = 10.0},
+                                        .size_px = 40.0F,
+                                        .icon = {.image = picture(10, 5),
+                                                 .anchor = {0.5F, 1.0F},
+                                                 .heading = Angle::radians(turn),
+                                                 .from_north = from_north}}}};
+    LayerObjects layer(scene, earth().ellipsoid, 1.0, kSelectedColor);
+    int in = 0;
+    for (int y = -50; y <= 50; ++y) {
+      for (int x = -50; x <= 50; ++x) {
+        const double along = x * std::cos(turn) + y * std::sin(turn), up = x * std::sin(turn) - y * std::cos(turn);
+        const double outside = std::max({std::abs(along) - 20.0, -up, up - 20.0});
+        if (std::abs(outside) < 0.01) continue;  // rounding decides
+        const bool picked = layer.pick(view, ground, {320.0 + x, 240.0 + y}, {.slack_px = 0.0}, {}).has_value();
+        ASSERT_EQ(picked, outside < 0.0) << x << ',' << y << ' ' << from_north;
+        in += picked ? 1 : 0;
+      }
+    }
+    EXPECT_NEAR(in, 800, 30);
+  }
+}
+
 TEST(LayerPick, DoesNotFindWhatIsRemovedOrHiddenAndFindsWhatIsAdded) {
   Chance chance;
   ObjectScene scene = any_scene(chance, 3000);

@@ -11,13 +11,13 @@ namespace terrella::test {
 namespace {
 
 constexpr double kHalfWidth_px = 1.0;
-// What limb_ribbon() promises, and what a float of normalised device coordinates adds: half a step of 2^-24 of the
+// Error that limb_ribbon() promises, and that of a float of normalised device coordinates: half a step of 2^-24 of the
 // width.
 constexpr double kLimb_px = 0.02;
 constexpr double kFloat_px_per_px = 1.2e-7;
 
-/// How far inside (> 0) a ray through a pixel passes: the discriminant of its crossing with the unit sphere in scaled
-/// space, over the square of the ray.
+/// Depth (> 0: inside) of a ray through a pixel: the discriminant of its crossing with the unit sphere in scaled space,
+/// over the square of the ray.
 double inside(const View& view, const Ellipsoid& body, glm::dvec2 px) {
   const glm::dvec3 axes(body.a_m(), body.a_m(), body.b_m());
   const glm::dvec3 eye = view.eye.xyz_m / axes;

@@ -11,7 +11,7 @@
 
 namespace terrella::test {
 
-inline constexpr double kHeld_px = 0.05;      // a twentieth of what the issue asks
+inline constexpr double kHeld_px = 0.05;      // a twentieth of a pixel, the least shift that a user sees
 inline constexpr double kArrived_deg = 1e-6;  // 0.1 m on Earth
 inline constexpr double kFrame_s = 1.0 / 60.0;
 inline constexpr Viewport kViewport{1024, 768};

@@ -44,7 +44,7 @@ TEST(Wheel, StaysBetweenTheGroundAndFiftyRadii) {
   EXPECT_DOUBLE_EQ(hand.navigator.camera().eye.height_m, 50.0 * earth().ellipsoid.a_m());
 }
 
-// It went down to 2.5 m over texels of 10 km: a flat blue screen.
+// Without the stop the wheel goes down to 2.5 m over texels of 10 km: a flat blue screen.
 TEST(Wheel, StopsAtTheFinestTexelsAndGoesOnAfterASecondPush) {
   constexpr double kTexel_m = 1.0e4;
   for (const bool by_key : {false, true}) {

@@ -14,7 +14,7 @@ namespace {
 // over 1.
 TEST(Orbit, OfAnEyeThatLooksStraightDownHasATilt) {
   constexpr double kRounding_rad = 1e-7;  // an angle whose sine is within a rounding of 1
-  constexpr double kMovedPart = 1e-8;     // of the distances: the eye is turned by that angle around the pivot
+  constexpr double kMovedPart = 1e-8;     // share of the distances: the eye is turned by that angle around the pivot
   std::mt19937_64 random(7);
   const auto between = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

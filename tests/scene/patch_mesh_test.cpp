@@ -216,7 +216,7 @@ TEST(PatchIndices, EveryTriangleFacesOutward) {
   }
 }
 
-/// What the vertex program computes: highs first, in floats.
+/// Position from the eye as the vertex program computes it: highs first, in floats.
 glm::vec3 from_eye(const PatchVertex& v, const SplitPosition& eye) {
   return (v.position_high_m - eye.high) + (v.position_low_m - eye.low);
 }

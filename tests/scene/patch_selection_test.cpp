@@ -9,7 +9,7 @@
 namespace terrella::test {
 namespace {
 
-// What a frame may hold at the most, whatever the camera: more would mean that the subdivision ran away.
+// Most patches of a frame, whatever the camera: more would mean that the subdivision ran away.
 constexpr std::size_t kRunaway = 20000;
 
 std::ostream& operator<<(std::ostream& out, const Camera& c) {
@@ -218,7 +218,7 @@ TEST(PatchSelection, GivesTheSameListWhateverWasSelectedBefore) {
   }
 }
 
-// Of the tree that gives nodes up, and of one of further imagery over it.
+// Two trees that give nodes up: one of the surface, and one of further imagery over it.
 TEST(PatchSelection, WhatNoFrameComesToGoesAndNothingElseChanges) {
   constexpr std::size_t kMany = 200;
   Draw draw(14);
@@ -243,14 +243,14 @@ TEST(PatchSelection, WhatNoFrameComesToGoesAndNothingElseChanges) {
       dropped += before - tree->size();
       EXPECT_LE(tree->size(), std::max(kMany, 3 * fresh.size()));
     }
-    expect_same(first, again);  // nor has any of these been given up
+    expect_same(first, again);  // no selected node was given up
     for (const SelectedPatch& patch : further) EXPECT_EQ(patch.node->id, patch.surface->id);
   }
   EXPECT_GT(dropped, 10 * kMany);
 }
 
-// Where one tile of heights is there and its neighbours are not, a cliff stands between them; an eye among the heights,
-// or two, is within the bounds of all patches around.
+// A loaded tile of heights without loaded neighbours makes a cliff. An eye among the heights of one or two tiles is
+// within the bounds of all patches around.
 TEST(PatchSelection, ACliffBetweenHeightsThatCameAndThatDidNotIsNoRunaway) {
   constexpr double kMost_m = 8000.0, kExaggeration = 20.0;
   WavyGround wavy(kMost_m, kExaggeration, 24);
@@ -298,7 +298,7 @@ TEST(PatchSelection, SpheresHoldTheirPatches) {
       for (int k = 0; k < 200; ++k) {
         const EcefDir n = patch_point(node.id, draw.whole(0, 64), draw.whole(0, 64), 64, tree.mapping());
         const double d = glm::distance(body.ellipsoid.position(n).xyz_m, node.sphere.center_m);
-        // What lies between the mesh's vertices bulges by the mesh's error.
+        // Ground between the mesh's vertices bulges by the mesh's error.
         EXPECT_LE(d, node.sphere.radius_m + node.geometric_error_m);
       }
     }

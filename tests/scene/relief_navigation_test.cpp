@@ -14,7 +14,7 @@ using test::camera_at;
 using test::WavyGround;
 
 constexpr double kHeldOnRelief_px = 0.05;
-constexpr double kLeastOver_m = 1.0 - 1e-6;  // what height_range() says, rounding aside
+constexpr double kLeastOver_m = 1.0 - 1e-6;  // bound of height_range(), rounding aside
 constexpr double kStep_s = 1.0 / 60.0;
 constexpr Viewport kWindow{800, 600};
 

@@ -31,7 +31,7 @@ class WavyGround {
 
   void add_tile(const TileId& id) {
     HeightTile tile{.id = id, .side_px = 64, .heights_m = {}};
-    const int pixels = 1 << (kLevel - id.level);  // of the table in one of the tile's
+    const int pixels = 1 << (kLevel - id.level);  // pixels of the table in one pixel of the tile
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
         const auto row = static_cast<std::size_t>((id.y * 64 + y) * pixels),

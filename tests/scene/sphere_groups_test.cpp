@@ -51,7 +51,7 @@ Batch<DotInstance> any_spheres(std::mt19937& random, std::size_t count) {
   return batch;
 }
 
-/// Where each sphere is drawn: 0 nowhere, 1 as a triangle, 2 as a point.
+/// Group of each sphere: 0 not drawn, 1 drawn as a triangle, 2 drawn as a point.
 std::vector<int> drawn(SphereGroups& groups, const SphereSight& sight) {
   std::vector<int> how(groups.items().size(), 0);
   const SphereGroups::Seen seen = groups.seen({0, groups.items().size()}, sight);
@@ -64,7 +64,7 @@ std::vector<int> drawn(SphereGroups& groups, const SphereSight& sight) {
   return how;
 }
 
-/// Whether any of a sphere is in the picture and not behind the sphere that hides.
+/// True if any part of a sphere is in the picture and not behind the hiding sphere.
 bool is_seen(const DotInstance& sphere, const SphereSight& sight) {
   const glm::vec3 c = (sphere.high_m - sight.eye_high_m) + (sphere.low_m - sight.eye_low_m);
   const glm::vec3 p = sight.view_from_ecef * c;

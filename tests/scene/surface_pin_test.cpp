@@ -15,7 +15,7 @@ namespace {
 
 using test::camera_at;
 
-// What pin() promises: far below what a hand or a screen resolves.
+// Error that pin() promises: far below the resolution of a hand or a screen.
 constexpr double kPinned_px = 0.01;
 // Cosine of the incidence angle under which a pixel is a hundred times longer than wide; there the limb is what one
 // holds.

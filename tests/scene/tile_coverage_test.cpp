@@ -115,10 +115,10 @@ std::map<int, TileId> fill(Draw& draw, const TileGrid& grid, const TileWindow& w
   return tiles;
 }
 
-/// Where the window's cells say that the point `offset_deg` from the patch's centre lies, in the floats of a GPU.
+/// Place of the point `offset_deg` from the patch's centre by the window's cells, in the floats of a GPU.
 struct Lookup {
   int slot;
-  glm::vec2 texel;  // of that slot's tile
+  glm::vec2 texel;  // texel in that slot's tile
 };
 Lookup look_up(const TileCoverage& coverage, const PatchDraw& draw, glm::vec2 offset_deg) {
   const glm::vec4 c = draw.center_and_scale;

@@ -7,10 +7,10 @@
 namespace terrella::bench {
 namespace {
 
-// What the engine lets surface and coordinates be off by on the screen.
+// Largest error of the surface and of coordinates on the screen.
 constexpr double kPlace_px = 0.25;
 constexpr double kMoon_m = 3.844e8;
-constexpr double kCubeCorner_deg = 35.264389682754654;  // where |x| = |y| = |z|
+constexpr double kCubeCorner_deg = 35.264389682754654;  // latitude at which |x| = |y| = |z|
 
 Camera camera_at(double lat_deg, double lon_deg, double height_m, double heading_deg = 0.0, double pitch_deg = -90.0,
                  double fov_deg = 40.0) {

@@ -10,11 +10,11 @@ namespace terrella::test {
 /// After a leg of a flight.
 struct MemorySample {
   std::int64_t frames = 0;     ///< since the start
-  double resident_mb = 0.0;    ///< of the whole process, a software driver's textures with it
-  double heap_mb = 0.0;        ///< that the process has asked for and not given back
+  double resident_mb = 0.0;    ///< memory of the whole process, a software driver's textures with it
+  double heap_mb = 0.0;        ///< memory that the process has allocated and not freed
   int uncovered = 0;           ///< frames of the leg in which a patch had no imagery at all
   std::size_t finished = 0;    ///< tiles of imagery that wait to be uploaded
-  FrameStats last;             ///< of the leg's last frame
+  FrameStats last;             ///< statistics of the leg's last frame
   std::size_t most_held = 0;   ///< FrameStats::patches_held, the leg's greatest
   std::size_t most_known = 0;  ///< FrameStats::tiles_known, the leg's greatest
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Viewport kSmall{64, 48};
 constexpr int kLegs = 24, kFrames = 15;
-// Issue 6, 6.
+// Memory of the last third of a flight may exceed that of the second third by 5 %: more would be a leak.
 constexpr double kMostGrowth = 1.05;
 
 class Memory : public GlContextTest {};
@@ -24,7 +24,7 @@ double mean_heap_mb(std::span<const MemorySample> samples) {
 }
 
 TEST_F(Memory, AFlightHoldsNoMoreThanItsBudgetsAndNothingGrows) {
-  // Of each of two image layers; so small a picture never needs a third of it.
+  // Limits for two image layers together; so small a picture never needs a third of them.
   constexpr std::size_t kMostPatches = 2 * 2048, kMostTiles = 2 * 8192;
   MemoryFlight flight(kSmall, kFrames, 7);
   std::vector<MemorySample> samples;

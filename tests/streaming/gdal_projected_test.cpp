@@ -164,7 +164,7 @@ TEST_P(GdalProjected, SpotsAreWhereGdaltransformSaysTheyAre) {
   ASSERT_TRUE(source);
   EXPECT_EQ(source->info().body, given.body);
   EXPECT_EQ(source->info().numbers.has_value(), given.heights);
-  std::vector<Point> points;  // of each spot: its middle, and the ends of its reach
+  std::vector<Point> points;  // three for each spot: its middle, and the ends of its reach
   for (const Point& spot : kSpots) {
     const Point at{given.west + spot.x * given.pixel, given.north - spot.y * given.pixel};
     const double reach = kReach_px * given.pixel;

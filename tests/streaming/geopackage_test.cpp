@@ -19,7 +19,7 @@ using test::run_sql;
 using test::ScratchFolder;
 
 constexpr int kPackagedPx = 32;
-constexpr double kPackagedRounding = 0.51;  // of colours to 8 bits
+constexpr double kPackagedRounding = 0.51;  // rounding of colours to 8 bits
 
 /// A tile matrix set: its corner and extent, and the span of the tile and the size of the matrix of each zoom level.
 struct Zoom {

@@ -14,7 +14,7 @@ using test::run_sql;
 using test::ScratchFolder;
 
 constexpr int kMbtilePx = 32;
-constexpr double kMbtileRounding = 0.51;  // of colours to 8 bits
+constexpr double kMbtileRounding = 0.51;  // rounding of colours to 8 bits
 
 std::string metadata(const std::string& name, const std::string& value) {
   return "INSERT INTO metadata VALUES ('" + name + "', '" + value + "');";

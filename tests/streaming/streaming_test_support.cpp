@@ -33,7 +33,7 @@ class Database {
  public:
   explicit Database(const fs::path& path) {
     EXPECT_EQ(sqlite3_open(path.c_str(), &handle_), SQLITE_OK) << path;
-    // What a test makes need not outlive a power cut.
+    // Files of a test need not outlive a power cut.
     EXPECT_EQ(
         sqlite3_exec(handle_, "PRAGMA synchronous = OFF; PRAGMA journal_mode = MEMORY", nullptr, nullptr, nullptr),
         SQLITE_OK);

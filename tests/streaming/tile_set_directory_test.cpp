@@ -51,7 +51,7 @@ TEST(Directory, OurOwnSetIsRead) {
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_EQ((*source)->info().name, "places");
   const TileGrid& grid = (*source)->info().grid;
-  constexpr double kRounding = 0.51;  // of colours to 8 bits
+  constexpr double kRounding = 0.51;  // rounding of colours to 8 bits
   EXPECT_LE(test::worst_misplacement(grid, {0, 1, 0}, test::load_tile(**source, {0, 1, 0})), kRounding);
   EXPECT_LE(test::worst_misplacement(grid, {1, 2, 1}, test::load_tile(**source, {1, 2, 1})), kRounding);
   EXPECT_EQ((*source)->count_tiles(0), 2);

@@ -54,7 +54,7 @@ TEST(TmsXml, LevelsMayBeginAnywhereAndStandInAnyOrder) {
 }
 
 TEST(TmsXml, ARootTileOf360DegreesIsLeftOut) {
-  // It begins at -90° and would end at 270°: no tile of a grid that begins at +90°.
+  // The root tile begins at -90° and would end at 270°: no tile of a grid that begins at +90°.
   const TmsDescription tms = read({.levels = R"(<TileSet href="0" units-per-pixel="1.40625"/>
       <TileSet href="1" units-per-pixel="0.703125"/>)"});
   EXPECT_DOUBLE_EQ(tile_span_deg(tms.info.grid, tms.info.grid.min_level), 180.0);

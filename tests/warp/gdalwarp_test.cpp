@@ -93,8 +93,8 @@ class BesideGdalwarp : public testing::TestWithParam<Warped> {
   void make();
   void expect_same_place();
   void expect_as_near_the_truth();
-  /// How far the content of ours lies beside gdalwarp's in a quarter of the tile, by least squares along the slopes of
-  /// the ground. None if the raster does not cover most of the quarter.
+  /// Displacement of our content from gdalwarp's in a quarter of the tile, by least squares along the slopes of the
+  /// ground. None if the raster does not cover most of the quarter.
   [[nodiscard]] std::optional<CrsPoint> displacement(int x0, int y0) const;
 
   Target target;

@@ -23,9 +23,9 @@ using test::PlaceColor;
 
 constexpr int kMercatorPx = 64;
 constexpr int kMercatorLevels = 7;
-/// What the issue allows is 0.25; eight bits and the filter leave a fiftieth of a pixel.
+/// Content may lie a quarter of a pixel off; eight bits and the filter leave a fiftieth.
 constexpr double kPlacementPx = 0.05;
-/// Of waves 12 pixels long and 100 levels high: a cubic keeps 98 % of them.
+/// Error of waves 12 pixels long and 100 levels high: a cubic keeps 98 % of them.
 constexpr double kWaveRms = 3.0;
 
 /// Waves whose crests lie so many degrees apart, so that what is misplaced shows in proportion.
@@ -50,14 +50,14 @@ Result<Image, TileFailure> picture(TileSource& tiles, const TileId& id) {
   return tile->make_picture();
 }
 
-/// How a tile differs from the planet: the shift that explains most of it, and what is left in all.
+/// Misfit between a tile and the planet: the shift that explains most of it, and the error in all.
 struct Misfit {
   double shift_px = 0.0;
   double rms = 0.0;
 };
 
-/// Of one channel, along rows or columns, by least squares against the planet's own slope. Pixels beyond ±84° are left
-/// out: there the set ends.
+/// Misfit of one channel, along rows or columns, by least squares against the planet's own slope. Pixels beyond ±84°
+/// are left out: there the set ends.
 Misfit misfit(const Image& tile, const TileGrid& grid, const TileId& id, const test::Planet& planet, bool north_south) {
   const TileBounds bounds = tile_bounds(grid, id);
   const double step = tile_span_deg(grid, id.level) / grid.tile_px;
@@ -165,7 +165,7 @@ TEST(Mercator, PlainColoursStayThoseAndNothingIsReadThatIsNotNeeded) {
     EXPECT_EQ(id.x, 20);
     EXPECT_EQ(reads, 1);
   }
-  // What was decoded for one serves its neighbours.
+  // Blocks decoded for one tile serve its neighbours.
   const std::size_t before = stored.reads().size();
   ASSERT_TRUE(picture(*tiles, {6, 20, 9}));
   for (const auto& [id, reads] : stored.reads()) EXPECT_EQ(reads, 1);

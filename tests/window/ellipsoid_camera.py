@@ -29,7 +29,7 @@ def ecef(lat_deg, lon_deg, height_m):
 
 
 class Camera:
-    """What a line of --print-camera says, for a window of a size."""
+    """Camera of a line of --print-camera, for a window of a size."""
 
     def __init__(self, line, size):
         self.lat, self.lon, self.height_m, self.heading, self.pitch, self.fov = (float(x) for x in line.split(","))
@@ -60,7 +60,7 @@ class Camera:
         return add_scaled(self.eye, ray, c / (-b + math.sqrt(under_root)))
 
     def pixel(self, point):
-        """Where an ECEF point is in the picture."""
+        """Pixel at which an ECEF point is in the picture."""
         off = add_scaled(point, self.eye, -1.0)
         depth = dot(off, self.forward)
         return (
@@ -69,6 +69,6 @@ class Camera:
         )
 
     def miss_px(self, point, x, y):
-        """How far a point is from where it should be seen."""
+        """Distance of a point from the pixel at which it should be seen."""
         px, py = self.pixel(point)
         return math.hypot(px - x, py - y)

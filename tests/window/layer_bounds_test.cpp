@@ -13,7 +13,7 @@ ObjectScene points_at(std::initializer_list<glm::dvec2> lats_lons_deg) {
   return scene;
 }
 
-constexpr double kSame_deg = 1e-9;  // of numbers that are passed on
+constexpr double kSame_deg = 1e-9;  // tolerance of numbers that are passed on
 
 TEST(LayerBounds, HoldAllPlaces) {
   const auto bounds = bounds_of(points_at({{10, 20}, {-5, 40}, {30, 25}}));

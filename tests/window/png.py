@@ -13,7 +13,7 @@ def read(path):
 
 
 def changed(a, b):
-    """How many pixels of two pictures of one size differ by more than 24 in a channel."""
+    """Number of pixels of two pictures of one size that differ by more than 24 in a channel."""
     count = 0
     for one, other in zip(a[2], b[2]):
         if one != other:

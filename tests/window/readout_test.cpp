@@ -65,7 +65,7 @@ TEST(CameraText, ReadsBackAsTheSameCamera) {
   camera.pitch = Angle::degrees(-17.3);
   const auto back = parse_camera(camera_text(camera));
   ASSERT_TRUE(back.ok());
-  constexpr double kUlps_deg = 1e-13;  // of 180°, through radians and back
+  constexpr double kUlps_deg = 1e-13;  // rounding of 180°, through radians and back
   EXPECT_NEAR(back->eye.lat.deg(), camera.eye.lat.deg(), kUlps_deg);
   EXPECT_NEAR(back->eye.lon.deg(), camera.eye.lon.deg(), kUlps_deg);
   EXPECT_EQ(back->eye.height_m, camera.eye.height_m);

@@ -35,7 +35,7 @@ def wait_until(what, condition, seconds=PATIENCE_S):
 
 
 def differing(one, other, rows=None):
-    """How many pixels of two grabs differ, in the first rows."""
+    """Number of pixels that differ between two grabs, in the first rows."""
     if len(one) != len(other) or len(one[0]) != len(other[0]):
         return len(one) * len(one[0])
     return sum(sum(map(operator.ne, a, b)) for a, b in zip(one[:rows], other[:rows]) if a != b)

@@ -68,7 +68,7 @@ class Walk(WindowTest):
         self.viewer.click(COLUMNS[0], self.menu_top() + PLACE_ITEM + 20 * index)
         time.sleep(0.15)
 
-    # What is seen
+    # Changes of the view
 
     def moved(self, act):
         before = self.viewer.camera

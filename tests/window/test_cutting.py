@@ -40,7 +40,7 @@ class Cutting(WindowTest):
             try:
                 found[log.name.removesuffix(".part")] = log.stat()
             except FileNotFoundError:
-                pass  # it got its final name just now
+                pass  # the file got its final name just now
         return found
 
     def wait_for_bands(self, count):

@@ -37,7 +37,7 @@ class FirstUse(WindowTest):
         return wait_until(f"the panel {name}", lambda: self.viewer.layout.panels.get(name))
 
     def click_in(self, name, right, down):
-        """So many units from the upper left corner of a panel."""
+        """Clicks at a place in units from the upper left corner of a panel."""
         left, top, *_ = self.panel(name)
         self.viewer.click(round(left + right * self.unit), round(top + down * self.unit))
 

@@ -1,4 +1,4 @@
-"""What hands expect: the menu of a place, the compass, measuring to a file, bookmarks with names."""
+"""Ways that users expect: the menu of a place, the compass, measuring to a file, bookmarks with names."""
 
 import json
 import time
@@ -8,7 +8,7 @@ from ellipsoid_camera import ecef
 from real_window import SIZE, WindowTest, differing, wait_until
 
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
-MENU_FIRST, MENU_STEP = 34, 20  # of the items about the place, pixels under the menu's corner
+MENU_FIRST, MENU_STEP = 34, 20  # items about the place, pixels under the menu's corner
 ROWS = 380  # pixels from the top; messages and the status line are under them
 
 

@@ -8,12 +8,12 @@ import unittest
 from real_window import WindowTest
 
 WATCHED_S = 5.0
-MOST_SHARE = 0.01  # of a core
+MOST_SHARE = 0.01  # share of a core
 CALM_S = 60.0
 
 
 def processor_s(pid):
-    """Of all threads of a process, since it began."""
+    """Processor seconds of all threads of a process, since it began."""
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 

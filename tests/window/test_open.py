@@ -10,7 +10,7 @@ from test_panels import PLACES, write_png
 
 SIZE = (640, 480)
 ROW = 20  # pixels of a row in the dialog's lists
-FIRST_ROW = 150  # of the folder, without recent files: "../"
+FIRST_ROW = 150  # first row of the folder, without recent files: "../"
 GROUND = (SIZE[0] // 2, SIZE[1] - 110)  # under the dialog
 
 

@@ -102,7 +102,7 @@ class Panels(WindowTest):
         closed = wait_until("the panel", lambda: viewer.layout.panels.get("Layers"))
         time.sleep(0.5)
         left, row = round(closed[0]), round(closed[1]) + 65  # below the title and the row of switches
-        viewer.click(left + 90, row)  # what is in the row opens
+        viewer.click(left + 90, row)  # opens the row's content
         wait_until("the row", lambda: viewer.layout.panels["Layers"] != closed)
         self.screenshot(viewer, "row")
         viewer.drag((left + 168, row + 26), (left + 68, row + 26))
@@ -201,7 +201,7 @@ class Panels(WindowTest):
         small = png.read(self.screenshot(ordinary, "panel"))
 
         def title_end(picture, y):
-            """Where the blue of the panel's title ends, pixels from the left."""
+            """End of the blue of the panel's title, pixels from the left."""
             row = picture[2][y]
             return max(x for x in range(picture[0]) if row[3 * x + 2] > row[3 * x] + 60)
 

@@ -4,7 +4,7 @@ import unittest
 
 from real_window import SIZE, WindowTest
 
-HELD_PX = 1.0  # what a person can see
+HELD_PX = 1.0  # least shift that a user sees
 CENTRE = (SIZE[0] / 2, SIZE[1] / 2)
 
 

@@ -16,7 +16,7 @@ sys.path.insert(0, str(SOURCE / "tests/cli"))
 import servers  # noqa: E402
 from pictures import heights_png, png  # noqa: E402
 
-ATTEMPTS = 3  # of one request; each meets a 503
+ATTEMPTS = 3  # attempts of one request; each meets a 503
 LIMIT_S = 150.0  # half a minute and the attempts before it, on a loaded machine
 
 

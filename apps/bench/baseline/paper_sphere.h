@@ -36,7 +36,7 @@ class PaperSphere {
   PaperSphere(const PaperSphere&) = delete;
   PaperSphere& operator=(const PaperSphere&) = delete;
 
-  /// Clears the target and draws the sphere. Returns when the command is issued.
+  /// Clears the target and draws the sphere. Returns once GL has the commands.
   void draw(const truth::TruthCamera& camera, double radius_m, const PaperLook& look = {}) const;
   /// Clears the target, as draw() does first.
   void clear() const;

@@ -30,7 +30,7 @@ constexpr int kDrawnLevels = 4, kDeepLevel = 12;
 constexpr int kRowBytes = 64;
 constexpr std::int64_t kDeepRows = std::int64_t{1} << kDeepLevel;
 constexpr int kLooks = 2000;        // look-ups, and stored tiles, of one measurement
-constexpr int kStoredBytes = 4096;  // of a tile that evicts others
+constexpr int kStoredBytes = 4096;  // bytes of a tile that evicts others
 
 TileSetInfo growth_info() {
   TileSetInfo info = make_flat_source(kDeepLevel)->info();

@@ -12,7 +12,8 @@
 namespace terrella::bench {
 namespace {
 
-// Room for the noise of a busy machine, and for what does not grow: a time may be half as large again as n log n says.
+// Room for the noise of a busy machine, and for costs that do not grow: a time may be half as large again as n log n
+// gives.
 constexpr double kMostGrowth = 1.5;
 // A frame of a deep set beside that of the shallowest set that is as sharp, and a frame from a large cache beside that
 // of the smallest.

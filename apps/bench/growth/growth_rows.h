@@ -10,8 +10,8 @@ namespace terrella::bench {
 
 /// One row of `bench growth`: the cost of a subject at a size.
 struct GrowthRow {
-  std::string series;   ///< what grows: "depth", "window", "layers", "workers", "cache"
-  std::string subject;  ///< a view, or what is done with a cache
+  std::string series;   ///< quantity that grows: "depth", "window", "layers", "workers", "cache"
+  std::string subject;  ///< a view, or an operation of a cache
   double size = 0.0;    ///< level, pixels, layers, threads, tiles
   double ms = kNoFigure, cpu_ms = kNoFigure;
   double selection_ms = kNoFigure;

@@ -19,7 +19,7 @@ constexpr float kButton = 1.75F;        // in text heights
 constexpr float kColumnPadding = 0.2F;  // in text heights, around the buttons
 constexpr float kColumnMargin = 0.8F;   // in text heights, to the window's edge
 constexpr float kBetween = 0.5F;        // in text heights, to other panels
-constexpr std::size_t kEnough = 4;      // so many buttons at the right edge are better than more elsewhere
+constexpr std::size_t kEnough = 4;      // this many buttons at the right edge are better than more elsewhere
 constexpr std::size_t kLeast = 3;       // fewer buttons are not worth a column
 // The first have room first.
 constexpr std::array kByWorth = {Icon::menu,   Icon::compass, Icon::plus, Icon::minus,  Icon::home,

@@ -26,7 +26,7 @@ struct LayerRow {
   std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
   std::string attribution = {};                             ///< may be empty
   ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
-  FactsReader read_facts = {};                              ///< of a raster; empty for other layers
+  FactsReader read_facts = {};                              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
   bool facts_drawn = false;                                 ///< the panel was drawn since they came
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kHistogramHeight = 4.5F;  // in text heights
 constexpr float kHandleReach = 0.6F;      // in text heights, from a handle to the mouse
-constexpr double kLeastShare = 1e-3;      // of the histogram's range, between the handles
+constexpr double kLeastShare = 1e-3;      // least distance between the handles, as a share of the histogram's range
 const ImU32 kGround = IM_COL32(8, 12, 18, 200);
 const ImU32 kHandle = IM_COL32(245, 200, 66, 255);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kGraphWidth = 17.0F, kGraphHeight = 3.2F;  // in text heights
 constexpr float kGraphGap = 0.8F;
-constexpr float kGraphMost = 0.7F;       // of the window's height, with what lies below
+constexpr float kGraphMost = 0.7F;       // share of the window's height; a graph whose top would lie above is hidden
 constexpr float kGraphLeast_ms = 33.0F;  // top of the graph, at least
 constexpr double kMegabyte = 1e6;
 

@@ -13,7 +13,7 @@ namespace {
 constexpr float kAiry = 1.45F;         // height of a row, in text heights, if there is room
 constexpr float kGap = 1.8F;           // in text heights, between keys and texts
 constexpr float kRoom = 0.94F;         // largest part of the window
-constexpr float kLeastLetters = 0.7F;  // of the text height; where the list would need smaller letters, it scrolls
+constexpr float kLeastLetters = 0.7F;  // share of the text height; a list that needs smaller letters scrolls
 constexpr float kIndent = 1.0F;        // in text heights, of the ways under an action
 constexpr ImGuiWindowFlags kList = kPanelWindow | ImGuiWindowFlags_NoTitleBar;
 
@@ -23,7 +23,7 @@ constexpr ImGuiWindowFlags kList = kPanelWindow | ImGuiWindowFlags_NoTitleBar;
 struct Help::Columns {
   float keys = 0.0F, mice = 0.0F, whats = 0.0F;  ///< widths at full size
   float room_wide = 0.0F, room_high = 0.0F;      ///< for the text
-  float scale = 1.0F;                            ///< of the letters, so that all columns and rows have room
+  float scale = 1.0F;                            ///< factor for the letters, so that all columns and rows have room
 };
 
 Help::Columns Help::columns() const {

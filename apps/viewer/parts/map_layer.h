@@ -35,7 +35,7 @@ class MapLayer : public Part {
   std::vector<UiBox> draw_names(const View& view, const std::vector<UiBox>& taken) const;
   /// The map for other pictures; null if it is off or not yet read.
   [[nodiscard]] MapPainter* painter() const { return on_ ? painter_.get() : nullptr; }
-  /// Texts that credit what is drawn.
+  /// Texts that credit the drawn map.
   [[nodiscard]] std::vector<std::string> attributions() const;
 
  private:
@@ -48,7 +48,7 @@ class MapLayer : public Part {
   bool on_ = false;
   bool tried_ = false;
   bool slow_ = false;   ///< a frame of this motion was slow
-  Camera camera_;       ///< of the last frame
+  Camera camera_;       ///< camera of the last frame
   bool moves_ = false;  ///< the last frame was drawn in motion, with less detail
   std::optional<std::chrono::steady_clock::time_point> first_frame_;
   std::future<Loaded> loading_;

@@ -191,7 +191,7 @@ void OpenDialog::draw_entries(float height) {
   ImGui::BeginChild("##entries", {0.0F, height}, false, ImGuiWindowFlags_NavFlattened);
   if (begins_.empty() && folder_.has_relative_path() && draw_row("../", false) == Row::chosen) {
     enter(folder_.parent_path());
-    take_keyboard();  // what is typed next is a name again
+    take_keyboard();  // the next typed letters are a name again
   }
   std::size_t shown = 0;
   const std::vector<FolderEntry> entries = entries_;  // a choice replaces the list

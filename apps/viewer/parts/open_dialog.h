@@ -36,9 +36,9 @@ class OpenDialog : public Panel {
 
   std::function<void(std::filesystem::path)> open_;
   std::filesystem::path folder_;
-  std::vector<FolderEntry> entries_;  ///< of the folder
+  std::vector<FolderEntry> entries_;  ///< entries of the folder
   std::vector<std::string> recent_;
-  std::string text_;     ///< of the line
+  std::string text_;     ///< text in the line
   std::string begins_;   ///< start of the names in the list, from the line
   std::string problem_;  ///< may be empty
   bool all_ = false;     ///< the list has files of every kind

@@ -15,7 +15,7 @@ namespace terrella {
 namespace {
 
 constexpr float kMenuMargin = 0.8F;      // in text heights, to the window's edge
-constexpr double kLeastStep_deg = 1e-5;  // of copied coordinates: a metre
+constexpr double kLeastStep_deg = 1e-5;  // last digit of copied coordinates: a metre
 
 /// The menu's corner is at the pointer, or further in where it would leave the window.
 ImVec2 corner_of(const char* title, ImVec2 at) {

@@ -40,7 +40,7 @@ class PlaceMenu : public Panel {
   PlaceMenuCalls calls_;
   glm::dvec2 at_px_{0.0};
   std::optional<Geodetic> place_;  ///< nullopt beside the globe
-  float widest_ = 0.0F;            ///< of an item's text; a longer one is wrapped
+  float widest_ = 0.0F;            ///< room for an item's text; a longer text is wrapped
   bool first_item_ = false;        ///< the next item gets the keyboard
   bool chosen_ = false;            ///< an item of this frame was chosen
 };

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
 constexpr std::size_t kMostFound = 8;
-constexpr double kCoordinateStep_deg = 1e-4;  // of coordinates as the list shows them
+constexpr double kCoordinateStep_deg = 1e-4;  // last digit of coordinates in the list
 constexpr float kSearchWidth = 22.0F;         // in text heights
 
 std::string full_name(const NamedPlace& place) {

@@ -7,7 +7,7 @@ namespace terrella {
 namespace {
 
 constexpr double kEarthEquator_m = 6378137.0;
-constexpr double kDeepest = 0.8;  // of the way down to the inner sphere
+constexpr double kDeepest = 0.8;  // share of the way down to the inner sphere
 
 }  // namespace
 

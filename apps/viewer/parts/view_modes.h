@@ -39,7 +39,7 @@ class ViewModes : public Panel {
   TimePlay play_;
   bool sky_;
   ViewSettings start_;     ///< modes at the start
-  ViewSettings settings_;  ///< of the panel, with the text as typed so far
+  ViewSettings settings_;  ///< settings in the panel, with the text as typed so far
 };
 
 }  // namespace terrella

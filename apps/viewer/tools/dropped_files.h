@@ -22,8 +22,8 @@ namespace terrella {
 struct OpenedFile {
   std::filesystem::path path;
   std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
-  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< of a picture that is cut in the background
-  FactsReader read_facts = {};                         ///< of a raster
+  std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< cuts of a picture that run in the background
+  FactsReader read_facts = {};                         ///< reads the facts of a raster
 };
 
 /// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of

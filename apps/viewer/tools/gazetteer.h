@@ -16,8 +16,8 @@ struct NamedPlace {
   std::string folded = {};   ///< name as used in searches: without case and accents
   Geodetic place = {};
   double people = 0.0;
-  bool is_capital = false;  ///< of a country
-  bool is_part = false;     ///< of a city
+  bool is_capital = false;  ///< capital of a country
+  bool is_part = false;     ///< part of a city
 };
 
 /// Places by name. thread: any

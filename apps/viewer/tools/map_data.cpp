@@ -20,12 +20,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMostMapBytes = 8UL << 20;
-constexpr double kPeoplePerMetre = 320.0;  // a place has so many for each metre of a pixel, to be shown
-constexpr double kCapital = 4.0;           // a capital counts as a place with so many times its people
+constexpr double kPeoplePerMetre = 320.0;  // to be shown, a place has this many people for each metre of a pixel
+constexpr double kCapital = 4.0;           // a capital counts as a place with this many times its people
 constexpr double kPart = 0.1;              // the same for a part of a city
 constexpr double kCharacter_px = 9.0;      // mean width of a capital letter
 constexpr double kAreaShare = 0.5;         // a country's name is at most twice as wide as the country
-constexpr double kCountryRank = 1.0e6;     // of a km², so that all but the smallest countries come before places
+constexpr double kCountryRank = 1.0e6;     // rank of a km², so that all but the smallest countries come before places
 
 std::string mapped(std::string_view text, int how) {
   utf8proc_uint8_t* bytes = nullptr;

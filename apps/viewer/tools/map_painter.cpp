@@ -14,7 +14,7 @@ namespace terrella {
 namespace {
 
 constexpr double kErrorInMotion_px = 2.0;
-constexpr double kError_px = 0.5;       // of lines, before they change in steps
+constexpr double kError_px = 0.5;       // largest error of lines at rest
 constexpr float kPlainText_px = 15.0F;  // text height at 96 dots per inch
 constexpr float kDot_px = 2.5F;         // radius of a place's dot
 constexpr float kLine_px = 1.0F, kEdge_px = 3.0F;

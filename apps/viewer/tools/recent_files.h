@@ -29,7 +29,7 @@ class RecentFiles {
   std::vector<std::string> all_;
 };
 
-/// Puts what was opened into the list of recent files, the first one first. Paths become absolute. thread: one
+/// Puts the opened files into the list of recent files, the first one first. Paths become absolute. thread: one
 [[nodiscard]] Status remember_opened(std::span<const std::string> opened);
 
 /// recent.json in $XDG_STATE_HOME/terrella or ~/.local/state/terrella; nullopt without such a folder.

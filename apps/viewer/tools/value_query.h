@@ -30,7 +30,7 @@ class ValueQuery {
     return place_ && place_->lat == place.lat && place_->lon == place.lon;
   }
 
-  std::optional<Geodetic> place_;  ///< of the last question
+  std::optional<Geodetic> place_;  ///< place of the last question
   LayerId layer_ = LayerId::none;
   std::optional<Result<double, TileFailure>> answer_;
 };

@@ -10,9 +10,9 @@ namespace terrella {
 namespace {
 
 constexpr Seconds kLeastRest(0.7);
-constexpr double kMoved = 0.25;          // of the height
+constexpr double kMoved = 0.25;          // least distance to another view, as a share of the height
 constexpr double kHigher = 1.3;          // factor of the height
-constexpr double kTurned_deg = 15.0;     // of heading and pitch
+constexpr double kTurned_deg = 15.0;     // least change of heading or pitch
 constexpr std::size_t kMostStops = 100;  // more would only cost memory
 
 bool turned(Angle from, Angle to) { return std::abs(std::remainder(to.deg() - from.deg(), 360.0)) > kTurned_deg; }

@@ -31,7 +31,7 @@ class ViewHistory {
 
  private:
   struct Stop {
-    Camera first;   ///< where the camera came to rest
+    Camera first;   ///< first view at rest
     Camera latest;  ///< after small moves
   };
   struct Rest {

@@ -31,6 +31,7 @@ gl::Framebuffer make_target(const gl::Texture& color, const gl::Texture& depth, 
 void FrameTargets::fit(const Form& form) {
   if (form_ == form) return;
   form_ = form;
+  frame_ = 0;
   const GLenum depth_format = form.has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
   color_ = make_picture(GL_RGBA8, form.size);
   depth_ = make_picture(depth_format, form.size);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "geo/camera.h"
@@ -15,7 +16,7 @@ class FrameTargets {
   struct Form {
     Viewport size{0, 0};
     bool has_stencil = false;
-    int samples = 0;  ///< of a pixel; 0: the picture is not multisampled
+    int samples = 0;  ///< samples per pixel; 0: the picture is not multisampled
     bool operator==(const Form&) const = default;
   };
   /// Makes the textures for this form. Keeps those that already fit.
@@ -25,6 +26,10 @@ class FrameTargets {
   [[nodiscard]] GLuint depth() const { return depth_.name(); }
   [[nodiscard]] GLuint color_samples() const { return color_samples_.name(); }
   [[nodiscard]] GLuint depth_samples() const { return depth_samples_.name(); }
+  [[nodiscard]] const Form& form() const { return form_; }
+  /// Number of the frame whose picture this is; 0: none.
+  [[nodiscard]] std::uint64_t frame() const { return frame_; }
+  void set_frame(std::uint64_t frame) { frame_ = frame; }
   [[nodiscard]] Viewport size() const { return form_.size; }
   [[nodiscard]] bool has_stencil() const { return form_.has_stencil; }
   [[nodiscard]] int samples() const { return form_.samples; }
@@ -45,6 +50,7 @@ class FrameTargets {
   gl::Texture color_, depth_, beside_, color_samples_, depth_samples_;
   gl::Framebuffer framebuffer_, beside_framebuffer_, resolved_;
   Form form_;
+  std::uint64_t frame_ = 0;
 };
 
 }  // namespace terrella

@@ -14,7 +14,7 @@
 namespace terrella {
 namespace {
 
-std::filesystem::path g_folder;  // of read_shaders_from()
+std::filesystem::path g_folder;  // set by read_shaders_from()
 
 std::filesystem::path shader_folder() {
 #ifndef NDEBUG

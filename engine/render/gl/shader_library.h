@@ -34,7 +34,7 @@ void read_shaders_from(std::filesystem::path folder);
                                                 std::initializer_list<std::string_view> defines,
                                                 std::initializer_list<const char*> feedback = {});
 
-/// Builds a program into `place`. The same errors. thread: main
+/// Builds a program into `place`. Fails as build_program() does. thread: main
 Status build_into(gl::Program& place, std::initializer_list<ShaderStage> stages,
                   std::initializer_list<std::string_view> defines);
 

@@ -11,7 +11,7 @@ namespace terrella {
 class StreamBuffer {
  public:
   void fill(const void* data, std::size_t bytes);
-  /// The same in pieces: begin() reserves space for all pieces, then each is written to its place.
+  /// Fills the buffer in pieces: begin() reserves space for all pieces, then put() writes each to its place.
   void begin(std::size_t bytes);
   void put(std::size_t at, const void* data, std::size_t bytes) const;
   [[nodiscard]] GLuint name() const { return buffers_[turn_].buffer.name(); }

@@ -120,11 +120,12 @@ void LabelPass::place(const View& view, const LabelSight& sight, std::span<const
     const double away_m = glm::length(label.place_m - view.eye.xyz_m);
     const auto radius_px = static_cast<float>(label.object.radius_m / away_m * focal_px);
     const float right_px = std::round(std::max(0.5F * label.object.size_px, radius_px)) + kGap_px;
-    const Line line = line_of(label.text);
     const glm::vec2 from = glm::vec2(*at) + glm::vec2(right_px, 0.0F);
-    const float half_px = 0.5F * float(atlas_->ascent_px() + atlas_->descent_px());
-    const LabelBox text{from - glm::vec2(0.0F, half_px), from + glm::vec2(line.width_px, half_px)};
-    const glm::vec2 margin(kMargin_px);
+    const glm::vec2 margin(kMargin_px), up(0.0F, 0.5F * float(atlas_->ascent_px() + atlas_->descent_px()));
+    // Most labels of a crowd have no room where their text begins, so their text need not be measured.
+    if (!room.is_free({from - up - margin, from + up + margin})) continue;
+    const Line line = line_of(label.text);
+    const LabelBox text{from - up, from + glm::vec2(line.width_px, 0.0F) + up};
     if (!room.take({text.low_px - margin, text.high_px + margin})) continue;
     put(label, ref.layer->drawn(label.object.color, label), line, right_px);
     shown.labels.push_back({ref.layer->serial(), ref.index, text});

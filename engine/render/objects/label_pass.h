@@ -87,7 +87,7 @@ class LabelPass {
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::vector<LabelRef> order_;                                  ///< of placing
+  std::vector<LabelRef> order_;                                  ///< labels in the order of placing
   std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;

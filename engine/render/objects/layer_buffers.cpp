@@ -29,6 +29,8 @@ void LayerBuffers::follow(LayerObjects& objects) {
   LayerBatches& batches = objects.batches();
   spheres.follow(batches.spheres.groups.items(), batches.spheres.changed);
   follow_all(markers, batches.markers);
+  follow_all(icons, batches.icons);
+  icon_atlas.follow(batches.icon_images);
   follow_all(lines, batches.lines);
   follow_all(fill_vertices, batches.fill_vertices);
   follow_all(fill_indices, batches.fill_indices);

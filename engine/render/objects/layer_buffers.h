@@ -5,10 +5,11 @@
 
 #include "objects/layer_objects.h"
 #include "render/gl/gl_handle.h"
+#include "render/objects/icon_atlas.h"
 
 namespace terrella {
 
-/// A buffer that follows a list: it grows with it, and takes over only what changed. thread: main
+/// A buffer that follows a list: the buffer grows with the list, and uploads only changes. thread: main
 class FollowingBuffer {
  public:
   template <class T>
@@ -34,10 +35,11 @@ class FollowingBuffer {
 struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
-  Buckets markers, lines, fill_vertices, fill_indices;
+  Buckets markers, icons, lines, fill_vertices, fill_indices;
   std::vector<Buckets> stands;  ///< per model of the layer
+  IconAtlas icon_atlas;
 
-  /// Uploads what changed since the last call.
+  /// Uploads the changes since the last call.
   void follow(LayerObjects& objects);
 };
 

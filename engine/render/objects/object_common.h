@@ -17,7 +17,7 @@ struct ObjectDraw {
   bool opaque;
   ObjectChoice choice;
   float depth_bias;
-  DrawState state;  ///< of ObjectPass::draw(), with blending, and depth writes only if `opaque`
+  DrawState state;  ///< state of ObjectPass::draw() with blending, and depth writes only if `opaque`
 };
 
 // Functions that the object passes share; the uniforms are those of shaders/objects/object_common.glsl. thread: main

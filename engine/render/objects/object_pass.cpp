@@ -72,6 +72,11 @@ Status ObjectPass::prepare() {
       if (!made) return made.error();
       meshes_ = std::move(*made);
     }
+    if (!icons_ && !layer.objects->batches().icon_images.empty()) {
+      auto made = IconPass::create(depth_);
+      if (!made) return made.error();
+      icons_ = std::move(*made);
+    }
   }
   return Done{};
 }
@@ -133,6 +138,7 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
     for (const DrawnLayer& layer : layers_) calls += spheres_->draw(layer, draw, frame, viewport, hiding_radius_m);
     for (const DrawnLayer& layer : layers_) calls += draw_lines(layer, draw);
     for (const DrawnLayer& layer : layers_) calls += draw_markers(layer, draw);
+    for (const DrawnLayer& layer : layers_) calls += icons_ ? icons_->draw(layer, draw, viewport, hiding_radius_m) : 0;
   }
   return labels_ ? calls + labels_->draw(translucent, viewport) : calls;
 }

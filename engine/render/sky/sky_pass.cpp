@@ -81,18 +81,23 @@ void SkyPass::keep_air_in(std::unique_ptr<AirTextures>& place) {
   air_ = place.get();
 }
 
-Status SkyPass::prepare(const SkyInput& input) {
-  const auto build = [](bool needed, gl::Program& into, std::string_view vertex, std::string_view fragment) -> Status {
+Status SkyPass::prepare(const View& view, const SkyInput& input) {
+  const auto build = [](bool needed, gl::Program& into, std::string_view vertex, std::string_view fragment,
+                        std::string_view define) -> Status {
     if (!needed || into) return Done{};
     return build_into(into,
                       {{GL_VERTEX_SHADER, {"frame.glsl", "sky_color.glsl", vertex}},
                        {GL_FRAGMENT_SHADER, {"frame.glsl", "air.glsl", "sky_color.glsl", "regolith.glsl", fragment}}},
-                      {});
+                      {define});
   };
-  if (Status s = build(input.stars && star_count_ > 0, star_program_, "sky_star.vert", "sky_star.frag"); !s) return s;
-  if (Status s = build(input.sun, sun_program_, "sky_disc.vert", "sky_sun.frag"); !s) return s;
-  if (Status s = build(has_moon(input), moon_program_, "sky_disc.vert", "sky_moon.frag"); !s) return s;
-  return build(input.atmosphere && atmosphere_, air_program_, "sky_air.vert", "sky_air.frag");
+  if (Status s = build(input.stars && star_count_ > 0, star_program_, "sky_star.vert", "sky_star.frag", "STARS"); !s)
+    return s;
+  if (Status s = build(input.sun, sun_program_, "sky_disc.vert", "sky_sun.frag", "SUN"); !s) return s;
+  if (Status s = build(has_moon(input), moon_program_, "sky_disc.vert", "sky_moon.frag", "MOON"); !s) return s;
+  const AirTextures* air = fit_air(view, input);
+  const bool thin = air != nullptr && air->sky().thin;
+  return build(air != nullptr, thin ? thin_air_program_ : air_program_, "sky_air.vert", "sky_air.frag",
+               thin ? "THIN_RING" : "MANY_ROWS");
 }
 
 void SkyPass::load_stars(const std::vector<Star>& stars) {
@@ -169,12 +174,12 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
   const Columns seen = columns_in_view(view, *air_);
   if (seen.count == 0) return 0;
   state.blend = kThroughAir;
-  apply(state.with(air_program_.name()));
+  apply(state.with((colors.thin ? thin_air_program_ : air_program_).name()));
   set(0, air_->ecef_from_horizon());
   glUniform1f(1, static_cast<float>(colors.turn));
   air_->bind_sky();
   glBindVertexArray(empty_array_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 2 * seen.first, 2 * (seen.count + 1), colors.rows - 1);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 2 * seen.first, 2 * (seen.count + 1), colors.thin ? 1 : colors.rows - 1);
   return 1;
 }
 

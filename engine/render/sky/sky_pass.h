@@ -33,10 +33,10 @@ class SkyPass {
   /// `stars` may be empty. Begins to compute the tables of the air on other threads.
   SkyPass(const Body& body, const std::vector<Star>& stars);
 
-  /// Builds the programs for what is on, each once.
-  Status prepare(const SkyInput& input);
-  /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before draw()
-  /// and fit_air().
+  /// Builds the programs of the parts that `input` switches on for the view, each once.
+  Status prepare(const View& view, const SkyInput& input);
+  /// Keeps the air of one view in `place`, which it fills if it is empty, until the next call. Call it before all
+  /// others.
   void keep_air_in(std::unique_ptr<AirTextures>& place);
   /// Draws into the bound framebuffer and viewport, with the tests and color mask of `state`. Needs prepare(). The
   /// frame's uniform block must be bound and of this view. Returns the draw calls made. Changes vertex array and
@@ -63,8 +63,8 @@ class SkyPass {
   Body body_;
   std::optional<Atmosphere> atmosphere_;
   std::shared_future<AirTables> tables_;  ///< computed on other threads, if there is an atmosphere
-  AirTextures* air_ = nullptr;            ///< of the view that is drawn; null: none
-  gl::Program star_program_, sun_program_, moon_program_, air_program_;
+  AirTextures* air_ = nullptr;            ///< air of the view that is drawn; null: none
+  gl::Program star_program_, sun_program_, moon_program_, air_program_, thin_air_program_;
   gl::VertexArray star_array_, empty_array_;
   gl::Buffer star_buffer_;
   int star_count_ = 0;

@@ -1,7 +1,5 @@
 #include "render/surface/patch_buffers.h"
 
-#include <utility>
-
 #include "surface/slope_window.h"
 
 namespace terrella {
@@ -9,11 +7,10 @@ namespace {
 constexpr int kFirstCapacity = 512;
 }
 
-PatchBuffers::PatchBuffers(const PatchTree& tree, const TileGrid* heights)
-    : tree_(tree),
-      heights_(heights != nullptr ? std::optional(*heights) : std::nullopt),
-      vertices_per_patch_((tree.segments() + 1) * (tree.segments() + 1)),
-      indices_(patch_indices(tree.segments())),
+PatchBuffers::PatchBuffers(int segments, const TileGrid* heights)
+    : heights_(heights != nullptr ? std::optional(*heights) : std::nullopt),
+      vertices_per_patch_((segments + 1) * (segments + 1)),
+      indices_(patch_indices(segments)),
       index_buffer_(gl::make_buffer()) {
   glNamedBufferStorage(index_buffer_.name(), static_cast<GLsizeiptr>(indices_.indices.size() * sizeof(std::uint16_t)),
                        indices_.indices.data(), 0);
@@ -39,37 +36,36 @@ void PatchBuffers::grow() {
 int PatchBuffers::free_place(std::uint64_t frame) {
   if (used_ < capacity_) return used_++;
   const Place oldest = by_age_.back();
-  if (oldest.last_drawn == frame) {
+  if (oldest.last_drawn + views_ > frame) {
     grow();
     return used_++;
   }
-  places_.erase(oldest.node);
+  places_.erase(oldest.mesh);
   by_age_.pop_back();
   return oldest.place;
 }
 
-void PatchBuffers::fill(const PatchNode& node, int place) {
-  const std::vector<PatchVertex> vertices = patch_vertices(tree_, node);
+void PatchBuffers::fill(const PatchTree& tree, const PatchNode& node, int place) {
+  const std::vector<PatchVertex> vertices = patch_vertices(tree, node);
   const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
   glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
   if (!heights_) return;
-  const std::vector<glm::vec2> offsets = height_offsets_deg(*heights_, tree_, node);
+  const std::vector<glm::vec2> offsets = height_offsets_deg(*heights_, tree, node);
   const auto offset_bytes = static_cast<GLsizeiptr>(offsets.size() * sizeof(glm::vec2));
   glNamedBufferSubData(height_offsets_.name(), place * offset_bytes, offset_bytes, offsets.data());
 }
 
-int PatchBuffers::place_of(const PatchNode& node, std::uint64_t frame) {
-  if (const auto found = places_.find(node.serial); found != places_.end()) {
+int PatchBuffers::place_of(const PatchTree& tree, const PatchNode& node, std::uint64_t frame) {
+  const Mesh mesh{node.id, node.relief.made};
+  if (const auto found = places_.find(mesh); found != places_.end()) {
     by_age_.splice(by_age_.begin(), by_age_, found->second);
     found->second->last_drawn = frame;
-    if (std::exchange(found->second->relief_made, node.relief.made) != node.relief.made)
-      fill(node, found->second->place);
     return found->second->place;
   }
   const int place = free_place(frame);
-  fill(node, place);
-  by_age_.push_front({node.serial, place, frame, node.relief.made});
-  places_[node.serial] = by_age_.begin();
+  fill(tree, node, place);
+  by_age_.push_front({mesh, place, frame});
+  places_[mesh] = by_age_.begin();
   return place;
 }
 

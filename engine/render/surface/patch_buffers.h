@@ -11,16 +11,18 @@
 namespace terrella {
 
 /// The vertices of recently drawn patches in one GPU buffer with places of equal size, and the index lists that all
-/// share. thread: main
+/// share. All views of a layer draw from it: a patch with the same heights has one place. thread: main
 class PatchBuffers {
  public:
-  /// `heights`: grid of the heights; null: no relief.
-  PatchBuffers(const PatchTree& tree, const TileGrid* heights);
+  /// `segments` a side of each patch. `heights`: grid of the heights; null: no relief.
+  PatchBuffers(int segments, const TileGrid* heights);
 
-  /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there or if
-  /// its heights have changed, in place of the patch drawn longest ago. Places used in the current frame are kept: the
-  /// buffer grows if one frame needs more.
-  [[nodiscard]] int place_of(const PatchNode& node, std::uint64_t frame);
+  /// Sets the number of views that are drawn in turn.
+  void set_views(int views) { views_ = static_cast<std::uint64_t>(views); }
+  /// Returns the patch's place (vertices from place · vertices_per_patch()). Uploads the patch if it is not there with
+  /// these heights, in place of the patch drawn longest ago. The places of each view's latest frame are kept: the
+  /// buffer grows if these frames need more. All trees of the views are alike.
+  [[nodiscard]] int place_of(const PatchTree& tree, const PatchNode& node, std::uint64_t frame);
 
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
@@ -30,17 +32,23 @@ class PatchBuffers {
   [[nodiscard]] GLuint index_buffer() const { return index_buffer_.name(); }
 
  private:
+  struct Mesh {
+    PatchId patch;
+    std::uint64_t heights = 0;  ///< PatchRelief::made
+    bool operator==(const Mesh&) const = default;
+  };
+  struct MeshHash {
+    [[nodiscard]] std::size_t operator()(const Mesh& mesh) const { return PatchIdHash()(mesh.patch) ^ mesh.heights; }
+  };
   struct Place {
-    std::uint64_t node = 0;  ///< PatchNode::serial
+    Mesh mesh;
     int place = 0;
     std::uint64_t last_drawn = 0;
-    std::uint64_t relief_made = 0;
   };
   int free_place(std::uint64_t frame);
   void grow();
-  void fill(const PatchNode& node, int place);
+  void fill(const PatchTree& tree, const PatchNode& node, int place);
 
-  const PatchTree& tree_;
   std::optional<TileGrid> heights_;
   int vertices_per_patch_;
   PatchIndices indices_;
@@ -48,8 +56,9 @@ class PatchBuffers {
   gl::Buffer index_buffer_;
   int capacity_ = 0;
   int used_ = 0;
+  std::uint64_t views_ = 1;
   std::list<Place> by_age_;  // most recently drawn first
-  std::unordered_map<std::uint64_t, std::list<Place>::iterator> places_;
+  std::unordered_map<Mesh, std::list<Place>::iterator, MeshHash> places_;
 };
 
 }  // namespace terrella

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <memory>
-
 #include "render/gl/gl_handle.h"
 #include "render/surface/number_colors.h"
-#include "render/surface/patch_buffers.h"
 
 namespace terrella {
 
@@ -14,8 +11,7 @@ struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, seven_taps, oblique, polar_short, polar, polar_long, paper, kPrograms };
 
-  const NumberColors* numbers = nullptr;   ///< null: a layer of pictures
-  std::unique_ptr<PatchBuffers> vertices;  ///< empty: uses those of the base layer
+  const NumberColors* numbers = nullptr;  ///< null: a layer of pictures
   gl::Buffer draws, commands, cells;
   gl::Buffer frame_block;  ///< used for upper layers
   gl::Texture cells_texture;

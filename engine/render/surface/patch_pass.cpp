@@ -112,6 +112,12 @@ Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, La
                role, numbers);
 }
 
+void PatchPass::set_relief(bool has_relief) {
+  if (has_relief_ == has_relief) return;
+  has_relief_ = has_relief;
+  set_up_vertex_array();
+}
+
 void PatchPass::set_up_vertex_array() {
   vertex_array_ = gl::make_vertex_array();
   const GLuint array = vertex_array_.name();
@@ -174,18 +180,18 @@ PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
 // The length is an estimate for the middle of a patch. Beside the limb, where lit pictures need all taps, pixels vary.
 double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, plain_footprint_texels_); }
 
-void PatchPass::upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
                        const TileCoverage& coverage, std::uint64_t frame) const {
+  const auto& [buffers, tree, own] = vertices;
   std::vector<DrawCommand> by_program[kPrograms];
-  const bool own = layer.vertices.get() == &vertices;
   layer.triangles = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
     const PatchIndices::Range range =
-        vertices.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
-    const int place = vertices.place_of(own ? *patch.node : *patch.surface, frame);
+        buffers.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+    const int place = buffers.place_of(tree, own ? *patch.node : *patch.surface, frame);
     by_program[program_for(patch)].push_back(
-        {range.count, 1, range.first, place * vertices.vertices_per_patch(), static_cast<GLuint>(k)});
+        {range.count, 1, range.first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
     layer.triangles += range.count / 3;
   }
   std::vector<DrawCommand> commands;

@@ -39,7 +39,7 @@ struct RenderOptions {
   Texturing texturing = Texturing::automatic;
   DepthMode depth = DepthMode::reversed;
   bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
-  PatchLight light = {};                          ///< of the first frame; `relief` follows from the heights
+  PatchLight light = {};                          ///< light of the first frame; `relief` follows from the heights
   bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
@@ -62,6 +62,8 @@ class PatchPass {
  public:
   /// `has_relief`: the patches have heights.
   [[nodiscard]] static std::unique_ptr<PatchPass> create(const RenderOptions& options, bool has_relief);
+  /// Draws patches with or without heights from now on. The programs stay.
+  void set_relief(bool has_relief);
   /// Sees the ground through this air from now on; null: without air.
   void set_air(const AirTextures* air) { air_ = air; }
   /// Draws in this light from now on.
@@ -76,9 +78,14 @@ class PatchPass {
   void set_paper_band(double band) { paper_band_ = band; }
   /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
   void set_plain_footprint(double texels) { plain_footprint_texels_ = texels; }
-  /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `vertices` are the
-  /// layer's own or those shared by the surface.
-  void upload(PatchLayer& layer, PatchBuffers& vertices, const std::vector<SelectedPatch>& patches,
+  /// The vertices from which a layer is drawn: its own, of its tree, or those of the base layer and its tree.
+  struct Vertices {
+    PatchBuffers& buffers;
+    const PatchTree& tree;
+    bool own;
+  };
+  /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch.
+  void upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
   /// Draws a layer, program by program. Needs prepare().
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,

@@ -34,7 +34,7 @@ class SlopeTextures {
   void bind(const PatchLayer& layer) const;
 
   [[nodiscard]] const TileGrid& grid() const { return grid_; }
-  /// Texels of a tile over those of its slot.
+  /// Side of a tile over the side of its slot, both in texels.
   [[nodiscard]] double slot_share() const { return static_cast<double>(grid_.tile_px) / slot_px(); }
 
  private:

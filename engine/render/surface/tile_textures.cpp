@@ -15,7 +15,7 @@ namespace {
 constexpr int kFirstSlots = 64;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
-/// How OpenGL stores the texels of a layout, and takes them.
+/// OpenGL's formats for the texels of a layout: the stored one, and that of the bytes uploaded.
 struct TexelFormat {
   GLenum stored, channels, type;
   std::size_t bytes;

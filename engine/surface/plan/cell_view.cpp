@@ -16,7 +16,7 @@ CellView::CellView(const View& view, const Ellipsoid& ellipsoid, bool has_relief
   const glm::dvec3 eye_scaled = view.eye.xyz_m / semi_axes_m(ellipsoid);
   has_horizon_ = glm::dot(eye_scaled, eye_scaled) > 1.0 && !has_relief;
   eye_over_axes2_ = eye_scaled / semi_axes_m(ellipsoid);
-  // Scaled by the shortest axis, what is within reach still is.
+  // The shortest axis overestimates the reach, so that everything in sight counts as seen.
   horizon_per_m_ = glm::length(eye_scaled) / ellipsoid.b_m();
   horizon_ = 1.0 - view.eye_spread_m / ellipsoid.b_m();
   least_radius_per_m_ = 2.0 / ellipsoid.b_m();

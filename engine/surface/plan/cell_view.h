@@ -9,14 +9,14 @@ namespace terrella {
 /// Decides which cells of a window are in view: within the four side planes and the horizon. thread: any
 class CellView {
  public:
-  /// Heights stand over the horizon: with relief it limits nothing.
+  /// Heights stand over the horizon, so with relief the horizon limits nothing.
   CellView(const View& view, const Ellipsoid& ellipsoid, bool has_relief);
 
   /// False if nothing of the cell is in view. The growth makes the cell's lattice if it is needed.
   [[nodiscard]] bool sees(const SelectedPatch& patch, const TileWindow& window, int x, int y, TreeGrowth& growth) const;
 
  private:
-  /// The limits that things lie beyond, a bit each: side planes 0 to 3, horizon 4.
+  /// Limits that a sphere lies beyond, a bit for each: side planes 0 to 3, horizon 4.
   struct Beyond {
     unsigned some = 0;    ///< some of the sphere
     unsigned middle = 0;  ///< its centre

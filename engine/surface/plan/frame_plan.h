@@ -13,7 +13,7 @@ namespace terrella {
 
 /// One image layer as a plan reads it.
 struct LayerSnapshot {
-  const PatchTree* tree = nullptr;  ///< of the same body, tessellation and relief as the other layers'
+  const PatchTree* tree = nullptr;  ///< tree with the body, tessellation and relief of the other layers' trees
   const TileResidency* tiles = nullptr;
   double texels_per_pixel = 1.0;                      ///< at full detail
   double detail = 1.0;                                ///< part of texels_per_pixel that the last frame had room for
@@ -31,7 +31,7 @@ struct FrameSnapshot {
   std::optional<unsigned> patch_shuffle;  ///< seed of an order in which the lowest layer's patches are drawn
 };
 
-/// Plan of one layer: what a frame draws, and what executing the plan changes.
+/// Plan of one layer: the frame's draws, and the changes that executing the plan makes.
 struct LayerPlan {
   std::vector<SelectedPatch> patches;
   TileCoverage coverage;

@@ -14,7 +14,7 @@ namespace terrella {
 /// most the horizon's angle. A cone of directions is hidden if its axis lies further off by its half angle. thread: any
 class Horizon {
  public:
-  /// `inner_sphere_m`: radius of what hides the far side from an eye under the ground; 0: nothing.
+  /// `inner_sphere_m`: radius of the sphere that hides the far side from an eye under the ground; 0: nothing hides it.
   Horizon(const Ellipsoid& ellipsoid, const View& view, HorizonCulling culling, double inner_sphere_m);
 
   /// True if all of the patch is hidden.
@@ -31,7 +31,7 @@ class Horizon {
  private:
   bool exists_ = false;
   glm::dvec3 eye_direction_{0.0};  ///< in scaled space
-  double cos_ = 1.0, sin_ = 0.0;   ///< of the horizon's angle
+  double cos_ = 1.0, sin_ = 0.0;   ///< cosine and sine of the horizon's angle
 };
 
 }  // namespace terrella

@@ -12,16 +12,16 @@
 namespace terrella {
 
 /// Longest pixel, in texels, on which a plain patch is drawn with three taps (shaders/surface/patch_plain.frag).
-/// Selection takes a coarser level before pixels get longer, but beside the poles. The error grows with the length: for
-/// imagery whose amplitudes fall as 1/frequency and whose contrast is 30 levels of 8 bits, the RMS over a pixel 1 texel
-/// wide is 1.5 levels at a length of 3 texels, 3.6 at 8 and 5.0 at 12 (tests/scene/footprint_test.cpp). Ten taps would
-/// have 1.0.
+/// Selection takes a coarser level before pixels get longer, but beside the poles. The error grows with the length. For
+/// imagery whose amplitudes fall as 1/frequency and whose contrast is 30 levels of 8 bits, a pixel 1 texel wide has an
+/// RMS of 1.5 levels at a length of 3 texels. The RMS is 3.6 at 8 texels and 5.0 at 12
+/// (tests/scene/footprint_test.cpp). Ten taps would have 1.0.
 constexpr double kPlainFootprint_texels = 12.0;
 
 class Relief;
 
 struct PatchSelectionOptions {
-  double max_error_px = 0.2;      ///< of the surface, and of interpolated texture coordinates
+  double max_error_px = 0.2;      ///< largest error of the surface, and of interpolated texture coordinates
   double band = 0.05;             ///< a pole band is this part of the picture's height (paper 1, 1.5)
   double texels_per_pixel = 1.0;  ///< detail asked of the imagery: 1, a texel a pixel along the meridian
   double max_footprint_texels = kPlainFootprint_texels;  ///< longest pixel outside pole bands
@@ -30,7 +30,7 @@ struct PatchSelectionOptions {
   int max_window = 8;          ///< a patch whose window has more cells a side is split
   int max_polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
-  double inner_sphere_m = 0.0;         ///< radius of what hides the far side from an eye under the ground; 0: nothing
+  double inner_sphere_m = 0.0;         ///< radius of the sphere that hides the far side from an eye below; 0: none
   int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has
   const Relief* relief = nullptr;      ///< the ground that patches follow; none: the ellipsoid
   int mesh_budget = std::numeric_limits<int>::max();  ///< new meshes of relief before patches are put off
@@ -38,18 +38,18 @@ struct PatchSelectionOptions {
 
 /// Tiles of another grid over the same patches.
 struct FurtherImagery {
-  const PatchTree* tree = nullptr;  ///< of the same body, tessellation and relief
-  TreeGrowth* growth = nullptr;     ///< of that tree
+  const PatchTree* tree = nullptr;  ///< tree with the same body, tessellation and relief
+  TreeGrowth* growth = nullptr;     ///< growth of that tree
   double texels_per_pixel = 1.0;    ///< as PatchSelectionOptions has it
   int least_level = 0;              ///< patches whose view asks for coarser tiles are left out
   int max_tile_level = kMaxTileLevel;
-  std::vector<SelectedPatch>* out = nullptr;  ///< of the patches selected those that touch the grid's bounds
+  std::vector<SelectedPatch>* out = nullptr;  ///< result: the selected patches that touch the grid's bounds
 };
 
 /// Result of a selection.
 struct PatchSelection {
   std::vector<SelectedPatch> patches;
-  std::vector<NodeRef> meshes;  ///< of relief, to be made before the patches are drawn
+  std::vector<NodeRef> meshes;  ///< relief meshes to make before the patches are drawn
   int put_off = 0;              ///< patches drawn coarser than their relief asks for, as the budget of meshes is spent
   int undecided = 0;            ///< patches whose relief is unknown or out of date until their meshes are made
 };
@@ -63,7 +63,7 @@ struct PatchSelection {
                                           const PatchSelectionOptions& options,
                                           std::span<const FurtherImagery> further = {}, PatchSelection recycled = {});
 
-/// Plans until every patch is decided, makes the meshes and lets the tree adopt what was made. thread: main
+/// Plans until every patch is decided, makes the meshes and lets the tree adopt the growth. thread: main
 void select_patches(PatchTree& tree, const View& view, PatchSelectionOptions options, std::vector<SelectedPatch>& out);
 
 }  // namespace terrella

@@ -17,8 +17,8 @@ class TexelDemand {
   [[nodiscard]] int levels_to_spare(const TileId& id, const CellExtent& cell, double most_texels) const;
   /// Most texels of level 0 a pixel for which the level above is fine enough.
   [[nodiscard]] static double coarse_enough(int level);
-  /// True if so many tiles have far more texels than the view has pixels. Tiles of a full grid are ever narrower
-  /// towards a pole, and a view from over it wants many that it hardly shows.
+  /// True if this many tiles have far more texels than the view has pixels. Tiles of a full grid get ever narrower
+  /// towards a pole, and a view from over the pole wants many that it hardly shows.
   [[nodiscard]] bool is_too_much(int tiles) const;
   /// Lets narrow texels be longer than a pixel along the meridian from now on.
   void lengthen_narrow_texels() { narrow_texels_are_long_ = true; }

@@ -119,7 +119,7 @@ class Coverer {
     bool uncovered = false;
   };
 
-  // A cell out of view takes what is there; nobody asks for its tile or counts it.
+  // A cell out of view takes a tile that is loaded; its own tile is neither requested nor counted.
   Found find_unseen(const SelectedPatch& patch, const TileId& id) {
     for (int up = 0;; ++up) {
       TileUse& use = out_.uses[memo_.find(coarser(id, up), patch.squeezed || up > 0)];
@@ -208,10 +208,10 @@ class Coverer {
   TileCoverage& out_;
   CellView cells_;
   TexelDemand demand_;
-  std::vector<const TileWindow*> windows_;                     ///< of the patches in order
-  std::vector<Choice> choices_;                                ///< of all cells in order
+  std::vector<const TileWindow*> windows_;                     ///< window of each patch, in order
+  std::vector<Choice> choices_;                                ///< choices for all cells, in order
   int chosen_ = 0;                                             ///< tiles that cells would take by themselves
-  std::array<std::optional<TileId>, kMaxTileLevel + 1> last_;  ///< of each level that was needed
+  std::array<std::optional<TileId>, kMaxTileLevel + 1> last_;  ///< last tile of each level, once the level is needed
 };
 
 }  // namespace

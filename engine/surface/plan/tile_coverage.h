@@ -12,9 +12,10 @@
 
 namespace terrella {
 
-/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word: the array layer in bits 0 to 15, how
-/// many cells its tile spans along a meridian, as a power of two, in bits 16 to 23 and along the parallel in bits 24 to
-/// 31. The low bits of the cell's column and row say which part of that tile it is (shaders/surface/patch_common.glsl).
+/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word. Bits 0 to 15 are the array layer. Bits
+/// 16 to 23 are the number of cells that the cell's tile spans along a meridian, as a power of two; bits 24 to 31 the
+/// same along the parallel. The low bits of the cell's column and row tell the cell's part of that tile
+/// (shaders/surface/patch_common.glsl).
 using WindowCell = std::uint32_t;
 [[nodiscard]] constexpr WindowCell window_cell(int layer, int log2_rows, int log2_columns) {
   return static_cast<WindowCell>(layer) | static_cast<WindowCell>(log2_rows) << 16U |
@@ -35,10 +36,10 @@ struct TileCoverage {
   std::vector<PatchDraw> draws;  ///< one for each selected patch
   std::vector<WindowCell> cells;
   std::vector<WantedTile> wanted;  ///< not there and not missing; root tiles first
-  TileUses uses;                   ///< of the residency's tiles
+  TileUses uses;                   ///< uses of the residency's tiles
   int tiles = 0;                   ///< tiles of the view at full quality
-  int pending = 0;                 ///< of those, not there yet
-  int missing = 0;                 ///< of those, replaced by an ancestor for good
+  int pending = 0;                 ///< those among `tiles` that are not loaded yet
+  int missing = 0;                 ///< those among `tiles` that an ancestor replaces for good
   int uncovered = 0;               ///< patches with a cell in view for which not even an ancestor is there
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
   bool operator==(const TileCoverage&) const = default;
@@ -49,7 +50,7 @@ enum class OutOfBounds { ancestor, nothing };
 
 struct CoverInput {
   const PatchTree& tree;
-  TreeGrowth& growth;  ///< of that tree
+  TreeGrowth& growth;  ///< growth of that tree
   const View& view;
   const std::vector<SelectedPatch>& patches;
   const TileResidency& residency;
@@ -59,11 +60,11 @@ struct CoverInput {
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
-/// ancestor, else nothing (slot 0, which is a plain colour). Lists what is worth loading. Changes no tile:
+/// ancestor, else nothing (slot 0, which is a plain colour). Lists the tiles that are worth loading. Changes no tile:
 /// TileUses::note() does. Windows that the tree does not have are made in the growth. Longitude wraps; cells beyond the
-/// planet repeat its edge. A cell that asks for less than its patch takes a coarser tile. Away from the equator a cell
-/// takes a tile whose texels are a little longer than a pixel if the view would want far more texels of a full grid
-/// than it has pixels. thread: any
+/// planet repeat its edge. A cell that asks for less than its patch takes a coarser tile. A view may want far more
+/// texels of a full grid than it has pixels. Cells away from the equator then take tiles whose texels are a little
+/// longer than a pixel. thread: any
 void cover_with_tiles(const CoverInput& input, TileCoverage& out);
 
 /// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).

@@ -30,8 +30,8 @@ class TileUses {
   [[nodiscard]] std::uint32_t find(const TileId& id, const TileResidency& residency);
   [[nodiscard]] TileUse& operator[](std::uint32_t index) { return uses_[index]; }
   [[nodiscard]] const std::vector<TileUse>& all() const { return uses_; }
-  /// Tells the residency which tiles a frame uses: what it draws and needs is not evicted, what it saw not forgotten.
-  /// Nothing may have been erased from the residency since the plan. thread: main
+  /// Tells the residency which tiles a frame uses: tiles drawn or needed are not evicted, tiles judged are not
+  /// forgotten. Nothing may have been erased from the residency since the plan. thread: main
   void note(std::uint64_t frame, TileResidency& residency) const;
 
   [[nodiscard]] bool operator==(const TileUses& other) const { return uses_ == other.uses_; }
@@ -42,7 +42,7 @@ class TileUses {
   [[nodiscard]] std::size_t place(const TileId& id) const;
 
   std::vector<TileUse> uses_;
-  std::vector<const TileResidency::Entry*> entries_;  ///< of uses_; null: there was none
+  std::vector<const TileResidency::Entry*> entries_;  ///< entries of the tiles in uses_; null: the tile had none
   std::vector<std::uint32_t> table_;  ///< indices by hash with linear probing; a power of two long, at most half full
 };
 

@@ -43,12 +43,12 @@ class CoarseCanvas {
 
   CutPlan plan_;
   TileGrid grid_;
-  PixelRect px_;          ///< of the picture at the canvas's level
+  PixelRect px_;          ///< pixels of the picture at the canvas's level
   int halvings_;          ///< levels between the canvas and the finest
   std::int64_t turn_px_;  ///< pixels of 360° at the canvas's level; 0: the picture does not go round or cross ±180°
   std::int64_t summing_ = -1;        ///< row of the canvas that is being summed
-  std::vector<float> sums_;          ///< of its pixels, by alpha
-  std::vector<float> counts_;        ///< of the picture's pixels in each
+  std::vector<float> sums_;          ///< sums of that row's pixels, weighted by alpha
+  std::vector<float> counts_;        ///< number of the picture's pixels in each sum
   mutable std::shared_mutex mutex_;  ///< guards pixels_
   std::vector<std::uint8_t> pixels_;
 };

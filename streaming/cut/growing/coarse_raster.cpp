@@ -32,8 +32,8 @@ constexpr std::int64_t kSampledTiles = 512;
 
 /// A picture of fewer pixels that covers the same area.
 struct CoarseShape {
-  std::int64_t width_px, height_px;    ///< of the picture
-  std::int64_t columns = 0, rows = 0;  ///< of the coarse one
+  std::int64_t width_px, height_px;    ///< size of the picture
+  std::int64_t columns = 0, rows = 0;  ///< size of the coarse picture
   /// First pixel of a coarse column or row.
   [[nodiscard]] static std::int64_t begin(std::int64_t at, std::int64_t size, std::int64_t count) {
     return at * size / count;

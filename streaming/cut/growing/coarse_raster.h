@@ -9,7 +9,7 @@
 
 namespace terrella {
 
-/// How a TIFF is read.
+/// Options for reading a TIFF.
 struct CoarseChoice {
   CodingOptions coding{};
   bool numbers = false;  ///< values of a band, with scale and offset applied; pictures that are no TIFF have none

@@ -34,9 +34,9 @@ class GrowingCut : public TileSource, private RemoteTiles {
   GrowingCut& operator=(const GrowingCut&) = delete;
 
   struct State {
-    double share = 0.0;            ///< of the rows, [0, 1]
+    double share = 0.0;            ///< finished share of the rows, [0, 1]
     bool ended = false;            ///< cut, or failed
-    std::optional<Error> error{};  ///< why the cut failed
+    std::optional<Error> error{};  ///< reason why the cut failed
   };
   [[nodiscard]] State state() const;
   [[nodiscard]] const std::filesystem::path& picture() const { return options_.images.front(); }
@@ -82,9 +82,9 @@ class GrowingCut : public TileSource, private RemoteTiles {
   std::atomic<double> share_ = 0.0;
   std::atomic<bool> dirty_ = false;  ///< the canvas or a coarse tile has changed since the last edition
   Clock::time_point renewed_{};
-  std::unique_ptr<TileSource> coarse_;  ///< of numbers, instead of the canvas
+  std::unique_ptr<TileSource> coarse_;  ///< tiles of numbers, instead of the canvas
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::vector<std::filesystem::path> logs_;
   std::unordered_map<TileId, Stored, TileIdHash> stored_;
   std::unordered_map<TileId, Done, TileIdHash> waiting_;

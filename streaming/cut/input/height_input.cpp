@@ -109,7 +109,7 @@ Result<HeightPlan> plan_floats(const HeightPictures& pictures, const CutElevatio
     Range range;
     for (const fs::path& image : pictures.images) {
       const Status widened = widen(image, plan.coding, jobs, range);
-      // The others are shown with what can be read of this one, whose range nobody knows.
+      // The range of a picture with unreadable parts is unknown. Floats keep all values that can be read.
       if (!widened && pictures.many) return keep_floats(std::move(plan), probe);
       if (!widened) return widened.error();
     }

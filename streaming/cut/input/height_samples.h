@@ -18,7 +18,7 @@ enum class HeightKind {
 /// Conversion of a picture's height samples to the whole numbers of tiles.
 struct HeightCoding {
   HeightKind kind = HeightKind::uint16;
-  std::size_t band = 0;               ///< of a TIFF, counted from 0
+  std::size_t band = 0;               ///< band of a TIFF, counted from 0
   std::optional<double> nodata = {};  ///< sample value that means "no height"
   double scale = 1.0;                 ///< for float32: number = (sample - offset) / scale
   double offset = 0.0;

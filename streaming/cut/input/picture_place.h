@@ -12,13 +12,13 @@
 
 namespace terrella {
 
-/// How a picture comes onto the grid.
+/// Ways in which a picture comes onto the grid.
 enum class PlaceKind {
-  planet,    ///< it states nothing and is a whole planet from -180°
+  planet,    ///< no place is stated: a whole planet from -180°
   nodes,     ///< heights at the nodes of a whole planet
-  as_it_is,  ///< its pixels are the grid's
-  rolled,    ///< its pixels are the grid's after rolling its columns
-  warped     ///< it is resampled
+  as_it_is,  ///< the picture's pixels are the grid's
+  rolled,    ///< the picture's pixels are the grid's after rolling its columns
+  warped     ///< the picture is resampled
 };
 
 /// Place of a picture in its grid.

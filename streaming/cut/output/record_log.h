@@ -19,7 +19,7 @@ namespace terrella {
 struct LogRecord {
   TileId id;
   std::vector<std::byte> bytes;
-  std::uint64_t offset = 0;  ///< of the bytes in the file
+  std::uint64_t offset = 0;  ///< offset of the bytes in the file
 };
 
 struct CloseLog {
@@ -51,7 +51,7 @@ class RecordLogWriter : public TileWriter {
   std::filesystem::path path_, output_;
   Told told_;
   LogFile file_;
-  std::uint64_t end_ = 0;  ///< of the file, bytes
+  std::uint64_t end_ = 0;  ///< end of the file, bytes
   std::int64_t found_ = 0;
   std::int64_t records_ = 0;
 };

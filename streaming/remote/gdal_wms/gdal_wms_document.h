@@ -30,8 +30,8 @@ struct GdalWmsDocument {
   enum class Service { tms, virtual_earth, wms };
   Service service = Service::tms;
   std::string server_url{};
-  std::string version{}, layer{}, format{};  ///< of a TMS; `version` also of a WMS
-  std::string layers{}, styles{};            ///< of a WMS, decoded
+  std::string version{}, layer{}, format{};  ///< values of a TMS; `version` also of a WMS
+  std::string layers{}, styles{};            ///< values of a WMS, decoded
   std::string image_format{};
   bool transparent = false;
   bool northing_first = false;  ///< BBoxOrder yxYX

@@ -122,7 +122,7 @@ void name_levels(const GdalWindow& at, GdalWmsGrid& placed) {
   for (int level = 0; level <= last; ++level) {
     placed.level_names.push_back(std::to_string(std::max(0, at.level - (last - level))));
   }
-  if (last == at.level) placed.level_names.clear();  // they are numbers
+  if (last == at.level) placed.level_names.clear();  // the names equal the level numbers
 }
 
 /// Rows of the window's tiles, `steps` levels above the finest.

@@ -45,7 +45,7 @@ std::vector<std::string> split(const std::string& list) {
   return parts;
 }
 
-/// Several layers, drawn over each other, offer what all of them offer. The first gives the rest.
+/// Joins layers that are drawn over each other: choices must be offered by all of them. The first gives the rest.
 void join(WmsLayer& all, const WmsLayer& next) {
   all.name += "," + next.name;
   all.title += ", " + next.title;
@@ -81,7 +81,8 @@ struct MapFormat {
   std::string media_type;
 };
 
-/// PNG and WebP keep transparent what the layer does not cover. An opaque layer is smaller as JPEG.
+/// Chooses a format: JPEG first for an opaque layer, because JPEG is smaller; else PNG or WebP, which keep
+/// transparency.
 Result<MapFormat> choose_format(const std::vector<std::string>& offered, const WmsLayer& layer,
                                 const std::string& wanted, const RemoteOptions& options) {
   std::vector<ImageFormat> order = {ImageFormat::png, ImageFormat::webp};

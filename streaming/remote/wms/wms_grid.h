@@ -26,9 +26,9 @@ struct WmsLimits {
 };
 
 /// Chooses the layer's coordinate system and lays a grid over it. Longitude and latitude come first (EPSG:4326, CRS:84,
-/// then codes of the IAU), then Web Mercator, then the first other system that PROJ knows and for which the layer gives
-/// a BoundingBox; `wanted` names another. The order of axes in version 1.3.0 is PROJ's. The error is the reason alone.
-/// thread: any
+/// then codes of the IAU), then Web Mercator. Next comes the first other system that PROJ knows and that has a
+/// BoundingBox. `wanted` names another system. The order of axes in version 1.3.0 is PROJ's. The error is the reason
+/// alone. thread: any
 [[nodiscard]] Result<WmsGrid> choose_wms_grid(const WmsLayer& layer, const WmsLimits& limits, const std::string& wanted,
                                               const RemoteOptions& options);
 

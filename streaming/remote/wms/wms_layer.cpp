@@ -127,7 +127,7 @@ void put_before(std::vector<T> own, std::vector<T>& inherited) {
   inherited = std::move(own);
 }
 
-/// The layer of `node`, from what the layer around it hands on.
+/// Reads the layer of `node`; `layer` has the values that the layer around it hands on.
 WmsLayer read_layer(const pugi::xml_node& node, WmsLayer layer) {
   layer.name = text_of(node, "Name");
   layer.title = text_of(node, "Title");

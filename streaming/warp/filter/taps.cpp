@@ -8,7 +8,7 @@ namespace {
 
 /// A smaller weight is not worth a block: a fifth of one part in 255.
 constexpr double kLeastWeight = 1.0 / 1024.0;
-/// Up to this length the cubic is not stretched: what it lets through beyond the tile's limit, it also keeps sharper.
+/// Up to this length the cubic is not stretched. Some waves beyond the tile's limit pass; the rest stays sharper.
 constexpr double kPlainLength = 1.3;
 /// A length up to this is one pixel, for a filter of four pixels.
 constexpr double kRounded = 1.05;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "base/result.h"
+#include "geo/objects.h"
+
+namespace terrella {
+
+class LayerObjects;
+
+/// Fails if objects cannot be added to a layer: an icon is faulty, there are more than kMostIcons of them, or an id
+/// already names another feature. `there`: the layer's objects, of which `removed` go before; null: none. thread: main
+[[nodiscard]] Status check_objects(const ObjectScene& added, const LayerObjects* there = nullptr,
+                                   std::span<const ObjectId> removed = {});
+
+}  // namespace terrella
