@@ -75,6 +75,8 @@ struct Lattice {
   float step;                    // 1/n
   float stride;                  // over n
 };
+const Lattice kThree = Lattice(3, 1.0 / 3.0, 2.0 / 3.0);
+const Lattice kSeven = Lattice(7, 1.0 / 7.0, 3.0 / 7.0);
 
 // Strides by n: of 3, and of 7 to 16.
 const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);

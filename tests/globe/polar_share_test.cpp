@@ -22,9 +22,10 @@ class MaskShaders {
  public:
   MaskShaders() {
     std::filesystem::create_directories(folder_ / "surface");
-    for (const std::string_view program : {"polar", "plain", "oblique", "magnified"}) {
+    for (const std::string_view program :
+         {"polar_short", "polar", "polar_long", "plain", "long", "oblique", "magnified"}) {
       std::ofstream(folder_ / "surface" / ("patch_" + std::string(program) + ".frag"))
-          << "void main() { color_srgb = vec4(vec3(" << (program == "polar" ? 1.0 : 0.0) << "), 1.0); }\n";
+          << "void main() { color_srgb = vec4(vec3(" << (program.starts_with("polar") ? 1.0 : 0.0) << "), 1.0); }\n";
     }
     read_shaders_from(folder_);
   }

@@ -52,14 +52,14 @@ class Programs : public GlTest {
     for (const std::string& name : plain()) EXPECT_EQ(all.erase(name), 1U) << name;
     return all;
   }
-  static Names plain() { return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar.frag"}; }
+  static Names plain() { return {"limb_air.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar_long.frag"}; }
 };
 
 TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
   EXPECT_EQ(of({}), plain());
   GlobeOptions options;
   options.texturing = Texturing::exact;
-  EXPECT_EQ(of(options), (Names{"limb_air.frag", "patch_polar.frag"}));
+  EXPECT_EQ(of(options), (Names{"limb_air.frag", "patch_polar.frag", "patch_polar_long.frag"}));
 }
 
 TEST_F(Programs, APatchProgramComesWithTheFirstPatchThatNeedsIt) {
@@ -71,7 +71,9 @@ TEST_F(Programs, APatchProgramComesWithTheFirstPatchThatNeedsIt) {
   };
   Names expected{"limb_air.frag", "patch_magnified.frag", "patch_plain.frag"};
   EXPECT_EQ(at(10, 1.0e5), expected) << "neither a pole is in view, nor the limb";
-  expected.insert("patch_polar.frag");
+  expected.insert("patch_polar_short.frag");
+  EXPECT_EQ(at(90, 1.0e3), expected) << "magnified: three taps, and no loop";
+  expected.insert("patch_polar_long.frag");
   EXPECT_EQ(at(90, 1.0e5), expected);
   expected.insert("patch_oblique.frag");
   EXPECT_EQ(at(10, 2.0e7), expected);

@@ -106,7 +106,7 @@ TEST_F(NightLightsTest, LightsCitiesByNightAlone) {
       {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_plain.frag"},
       {"frame.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_magnified.frag"},
       {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl", "patch_exact_point.glsl",
-       "patch_polar.frag"}};
+       "patch_polar_taps.glsl", "patch_polar.frag"}};
   for (const auto& files : programs) {
     SCOPED_TRACE(std::data(files)[files.size() - 1]);
     EXPECT_EQ(color(files, 0, 0, 0)[0], 255) << "a city at noon";

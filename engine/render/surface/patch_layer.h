@@ -9,7 +9,7 @@ namespace terrella {
 /// per frame. thread: main
 struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
-  enum Program { magnified, plain, oblique, polar, paper, kPrograms };
+  enum Program { magnified, plain, seven_taps, oblique, polar_short, polar, polar_long, paper, kPrograms };
 
   const NumberColors* numbers = nullptr;  ///< null: a layer of pictures
   gl::Buffer draws, commands, cells;

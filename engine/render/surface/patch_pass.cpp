@@ -27,9 +27,12 @@ struct DrawCommand {
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 // In the pole bands (PatchSelectionOptions::band) pixels are long without a slant. Three taps on pixels longer than
-// this would leave more error there than elsewhere: 0.49 levels in place of 0.40 where the whole cap is in view.
+// this would leave more error there than elsewhere: 0.49 levels in place of 0.40 where the whole cap is in view, whose
+// pixels are about four texels long. Up to three texels, seven taps lower the error by no more than 0.01 levels.
 constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
-constexpr double kBesidePole_texels = 2.0;
+constexpr double kBesidePole_texels = 3.0;
+// Three taps of a pixel suffice up to this length, and seven up to that.
+constexpr double kThreeTaps_texels = 2.0, kSevenTaps_texels = 7.0;
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
@@ -88,10 +91,11 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
 }
 
 Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, LayerRole role, bool numbers) {
-  constexpr std::string_view kFiles[kPrograms] = {"patch_magnified.frag", "patch_plain.frag", "patch_oblique.frag",
-                                                  "patch_polar.frag", "patch_paper.frag"};
+  constexpr std::string_view kFiles[kPrograms] = {"patch_magnified.frag",  "patch_plain.frag",       "patch_long.frag",
+                                                  "patch_oblique.frag",    "patch_polar_short.frag", "patch_polar.frag",
+                                                  "patch_polar_long.frag", "patch_paper.frag"};
   const std::string_view file = kFiles[which];
-  if (which != PatchLayer::polar && which != PatchLayer::paper) {
+  if (which < PatchLayer::polar_short) {
     return build(
         place,
         {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
@@ -104,7 +108,7 @@ Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, La
   }
   return build(place,
                {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
-                "patch_exact_point.glsl", file},
+                "patch_exact_point.glsl", "patch_polar_taps.glsl", file},
                role, numbers);
 }
 
@@ -149,9 +153,9 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
   using enum PatchLayer::Program;
   switch (options_.texturing) {
     case Texturing::exact:
-      return polar;
+      return polar_for(patch);
     case Texturing::automatic:
-      if (patch.in_band) return polar;
+      if (patch.in_band) return polar_for(patch);
       break;
     case Texturing::paper:
       if (patch.node->min_colatitude_rad < paper_band_ * std::numbers::pi) return paper;
@@ -163,8 +167,18 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
   const bool beside_pole = patch.node->min_colatitude_rad < kBesidePole_rad;
   const double plain_texels =
       beside_pole ? std::min(kBesidePole_texels, plain_footprint_texels_) : plain_footprint_texels_;
-  return patch.footprint_texels > plain_texels ? oblique : plain;
+  if (patch.footprint_texels <= plain_texels) return plain;
+  return beside_pole && patch.footprint_texels <= most_of_seven() ? seven_taps : oblique;
 }
+
+PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
+  using enum PatchLayer::Program;
+  if (patch.footprint_texels <= kThreeTaps_texels) return polar_short;
+  return patch.footprint_texels <= most_of_seven() ? polar : polar_long;
+}
+
+// The length is an estimate for the middle of a patch. Beside the limb, where lit pictures need all taps, pixels vary.
+double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, plain_footprint_texels_); }
 
 void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
                        const TileCoverage& coverage, std::uint64_t frame) const {

@@ -119,6 +119,9 @@ class PatchPass {
                 const DrawState& state, FrameCounts& counts) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
+  [[nodiscard]] PatchLayer::Program polar_for(const SelectedPatch& patch) const;
+  /// Longest pixel, in texels, that seven taps suffice for.
+  [[nodiscard]] double most_of_seven() const;
 
   RenderOptions options_;
   bool has_relief_;

@@ -22,7 +22,7 @@ constexpr double kMagnified = 2.0;
 // eye: at its border texels would be four pixels wide.
 constexpr double kMostOverNearest = 2.0;
 
-double slant(const PatchSight& sight) { return std::clamp(std::abs(sight.up), 0.05, 1.0); }
+double slant(double up) { return std::clamp(std::abs(up), 0.05, 1.0); }
 
 }  // namespace
 
@@ -43,17 +43,22 @@ const PatchNode* ImageryFit::node_of(const PatchNode& body, const PatchSight& si
   return wanted_level(texel_m, pixel_m(sight)) < imagery_.least_level ? nullptr : &node;
 }
 
-// The nearest pixel, across the line of sight. 0.7: the patch reaches about as far towards the eye.
+// A patch of 45 degrees beside the limb has a slant of 70 degrees in its middle and of 40 on the side that faces the
+// eye: by the slant of its middle it would be blurred there. Narrow texels of a full grid have detail to spare.
+double ImageryFit::facing(const PatchSight& sight) const {
+  return slant(imagery_.tree->grid().reduced ? sight.up_facing : sight.up);
+}
+
+// The nearest pixel, across the line of sight.
 double ImageryFit::pixel_m(const PatchSight& sight) const {
-  const double nearest_m = std::max(sight.to_axis_m - 0.7 * sight.radius_m, sight.nearest_m);
-  return nearest_m * meter_.radians_per_pixel() / std::sqrt(slant(sight));
+  return sight.near_side_m * meter_.radians_per_pixel() / std::sqrt(facing(sight));
 }
 
 ImageryFit::Footprint ImageryFit::footprint(const PatchNode& node, const PatchSight& sight) const {
   const double east = (node.frame.x * sight.to_eye.y - node.frame.y * sight.to_eye.x) / sight.distance_m;
   const double flat = std::max(1e-9, std::sqrt(std::max(0.0, 1.0 - sight.up * sight.up)));
   const double sine = std::min(1.0, std::abs(east) / flat), cosine = std::sqrt(1.0 - sine * sine);
-  const double across = sight.distance_m * meter_.radians_per_pixel(), along = across / slant(sight);
+  const double across = sight.distance_m * meter_.radians_per_pixel(), along = across / slant(sight.up);
   return {std::sqrt(along * along * (sine * sine) + across * across * (cosine * cosine)),
           std::sqrt(along * along * (cosine * cosine) + across * across * (sine * sine))};
 }
@@ -69,7 +74,7 @@ SelectedPatch ImageryFit::choose_level(const PatchNode& node, const PatchSight& 
   const Footprint pixel = footprint(node, sight);
   const double span_deg = std::max(node.east_deg - node.west_deg, 0.0);
   SelectedPatch patch{.node = &node, .pixel_m = pixel_m(sight)};
-  const double across_m = patch.pixel_m * std::pow(slant(sight), 0.5 - options_.slant_power);
+  const double across_m = patch.pixel_m * std::pow(facing(sight), 0.5 - options_.slant_power);
   patch.tile_level =
       std::clamp(wanted_level(texel0_m(node) * imagery_.texels_per_pixel, across_m), grid.min_level, finest_level_);
   for (;; --patch.tile_level) {

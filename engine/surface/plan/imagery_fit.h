@@ -27,6 +27,8 @@ class ImageryFit {
     double east_m, north_m;
   };
   [[nodiscard]] Footprint footprint(const PatchNode& node, const PatchSight& sight) const;
+  /// Cosine of the slant that the patch's level suits.
+  [[nodiscard]] double facing(const PatchSight& sight) const;
   [[nodiscard]] double pixel_m(const PatchSight& sight) const;
   /// True if interpolated texture coordinates are off by more than they may be.
   [[nodiscard]] bool is_bent(const PatchNode& node, const PatchSight& sight) const;

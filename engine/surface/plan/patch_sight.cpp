@@ -5,6 +5,11 @@
 #include <glm/geometric.hpp>
 
 namespace terrella {
+namespace {
+// Part of a patch's radius that it reaches towards the eye, and of its cone that normals lean there: corners reach
+// further, sides less.
+constexpr double kReach = 0.7;
+}  // namespace
 
 SightMeter::SightMeter(const View& view, const Ellipsoid& ellipsoid, bool has_relief)
     : view_(view), polar_radius_m_(ellipsoid.b_m()), radians_per_pixel_(1.0 / view.pixels_per_radian()) {
@@ -26,6 +31,8 @@ PatchSight SightMeter::measure(const PatchNode& node) const {
   PatchSight sight{.to_eye = view_.eye.xyz_m - node.sphere.center_m};
   sight.distance_m = std::max(glm::length(sight.to_eye), 1e-9);
   sight.up = glm::dot(sight.to_eye, node.normal) / sight.distance_m;
+  const double lean_rad = kReach * std::asin(std::min(1.0, node.sin_cone));
+  sight.up_facing = std::cos(std::max(0.0, std::acos(std::min(1.0, std::abs(sight.up))) - lean_rad));
   const glm::dvec3 beside = view_.eye_spread_m * view_.right;
   // Normals spread, and the column's ends with them.
   const double spread_m = half_m * 2.0 * node.relief.flat.radius_m / polar_radius_m_;
@@ -33,6 +40,7 @@ PatchSight SightMeter::measure(const PatchNode& node) const {
   sight.to_axis_m = to_axis_m(view_.eye.xyz_m - beside);
   if (view_.eye_spread_m != 0.0) sight.to_axis_m = std::min(sight.to_axis_m, to_axis_m(view_.eye.xyz_m + beside));
   sight.nearest_m = std::max({sight.to_axis_m - sight.radius_m, 1e-3 * sight.radius_m, least_distance_m_});
+  sight.near_side_m = std::max(sight.to_axis_m - kReach * sight.radius_m, sight.nearest_m);
   return sight;
 }
 
