@@ -37,7 +37,7 @@ Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   if (!call) return call.error();
   const LayerId id = impl_->next_id();
   ObjectLayer& layer = impl_->objects.emplace_back(id, shown, impl_->bell);
-  impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid);
+  impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
   if (Status made = impl_->show_layers(); !made) {
     impl_->objects.pop_back();
     static_cast<void>(impl_->show_layers());
@@ -51,7 +51,7 @@ Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   if (!call) return call.error();
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::set_objects", "object layer", layer);
-  impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid);
+  impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
   return impl_->show_layers();
 }
 
@@ -113,7 +113,7 @@ Status Globe::Impl::show_layers() {
 void Globe::Impl::take_cuts() {
   bool replaced = false;
   for (ObjectLayer& layer : objects) {
-    const std::size_t taken = layer.take_cuts();
+    const std::size_t taken = layer.take_cuts() + layer.follow(options.body.ellipsoid, shared_relief());
     objects_cut += taken;
     changed = changed || taken > 0;
     replaced = layer.take_replaced() || replaced;

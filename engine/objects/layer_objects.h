@@ -1,14 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "geo/object_edits.h"
 #include "objects/cut_objects.h"
+#include "objects/ground/on_ground.h"
 #include "objects/kept_objects.h"
 #include "objects/layer_batches.h"
 #include "objects/object_index.h"
+#include "view/ground.h"
 
 namespace terrella {
 
@@ -16,7 +19,7 @@ namespace terrella {
 /// jobs, which any thread may do, and are drawn once place() has their cuts. thread: any, but one call at a time
 class LayerObjects {
  public:
-  LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color);
+  LayerObjects(ObjectScene scene, const Ground& ground, double opacity, ObjectColor selected_color);
 
   void add(ObjectScene scene);
   /// Removes all parts of a feature; false if there is none.
@@ -32,6 +35,13 @@ class LayerObjects {
   [[nodiscard]] CutJob take_job();
   void place(CutObjects cut);
 
+  /// True if the height of an object depends on the ground's.
+  [[nodiscard]] bool stands_on_ground() const { return on_ground_ > 0; }
+  /// Takes the ground, and moves the objects that stand on it to its height, if the ground `has_changed` under them.
+  /// Lines and areas over the ground are to be cut anew. Costs a little for each object that stands on the ground.
+  /// thread: as Ground's
+  void follow(const Ground& ground, const std::function<bool(const Geodetic&)>& has_changed);
+
   [[nodiscard]] bool empty() const { return live_ == 0; }
   [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
   /// Gives the memory of removed objects back, if it is much, and sorts spheres. Call it before drawing.
@@ -39,6 +49,8 @@ class LayerObjects {
   [[nodiscard]] LayerBatches& batches() { return batches_; }
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< of what is cut; true if there is something to draw
+
+  [[nodiscard]] bool has_drapes() const;  ///< lines or areas that lie on the ground, and are cut
 
   [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
 
@@ -83,7 +95,8 @@ class LayerObjects {
   /// Returns an area's triangles as indices of its own vertices.
   [[nodiscard]] static std::vector<std::uint32_t> own_triangles(const LayerBatches& batches, const KeptArea& area);
   void put_fill(KeptArea& area, std::span<const FillVertex> fill, std::vector<std::uint32_t> triangles);
-  void color_line(Slot& slot, std::size_t bucket, const ObjectColor& color, float width_px);
+  void color_line(SlotBatch<LineVertex>& lines, Slot& slot, std::size_t bucket, const ObjectColor& color,
+                  float width_px);
   void place(LineCut& cut);
   void place(AreaCut& cut);
   void ask_for(std::uint32_t index, KeptLine& line);
@@ -92,6 +105,19 @@ class LayerObjects {
   void sort_spheres();
   [[nodiscard]] DotInstance dot(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
+  // layer_ground.cpp: objects on the ground
+  [[nodiscard]] SlotBatch<LineVertex>& lines_of(HeightMode mode);
+  void put(KeptLine& line, std::span<const LineVertex> vertices);
+  [[nodiscard]] glm::dvec3 place_of(const Geodetic& place, HeightMode mode) const;
+  /// Shares the object if its heights do not depend on the ground.
+  template <class Shape>
+  [[nodiscard]] std::shared_ptr<const Shape> as_cut(const std::shared_ptr<Shape>& shape) const {
+    if (shape->heights == HeightMode::absolute) return shape;
+    return std::make_shared<Shape>(cut_shape(*shape, ground_));
+  }
+  [[nodiscard]] HeightMode mode_of(PartRef part) const;
+  [[nodiscard]] bool depends_on_ground(PartRef part) const;
+  void follow(PartRef part, const std::function<bool(const Geodetic&)>& has_changed);
   // layer_edits.cpp
   void change_part(PartRef part, const ObjectChange& change);
   void draw_again(PartRef part);
@@ -122,6 +148,9 @@ class LayerObjects {
   std::size_t fills_dropped_ = 0;
   CutJob job_;
   std::size_t jobs_out_ = 0;  ///< taken, and not placed
+  std::size_t replaced_ = 0;  ///< areas whose earlier cut is still in the batches
+  Ground ground_;
+  std::size_t on_ground_ = 0;
   std::unique_ptr<ObjectIndex> index_;
   double most_reach_px_ = 0.0;  ///< of markers and lines, from their middle
 };

@@ -35,6 +35,7 @@ struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
   Buckets markers, lines, fill_vertices, fill_indices;
+  FollowingBuffer draped_lines, draped_fills;
   std::vector<Buckets> stands;  ///< per model of the layer
 
   /// Uploads what changed since the last call.
