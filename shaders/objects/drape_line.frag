@@ -45,7 +45,7 @@ void main() {
   // Round the outer side of a bend.
   vec3 way = normalize(next - here);
   float past = max(max(-dot(way, ground - here), dot(way, ground - next)), 0.0);
-  float away_px = length(vec2(metres, past)) / per_px;
+  float away_px = length(vec2(metres / per_px, past * focal_px() / length(ground)));
   float coverage = clamp(0.5 + half_width_px - away_px, 0.0, 1.0) * min(1.0, 2.0 * half_width_px);
   if (coverage <= 0.0) discard;
   color_srgb = vec4(line_color.rgb, line_color.a * coverage);
