@@ -56,6 +56,14 @@ struct PointIcon {
   ObjectColor tint{255, 255, 255};  ///< factor of the picture's colours and alpha
 };
 
+/// Meaning of an object's heights. The ground is the drawn one: exaggerated, from the heights that are loaded. Objects
+/// follow it when heights arrive, without a call.
+enum class HeightMode {
+  absolute,            ///< metres over the ellipsoid
+  clamp_to_ground,     ///< unused: points stand on the ground, lines and areas lie on it as if they were painted there
+  relative_to_ground,  ///< metres over the ground under each place
+};
+
 /// A point, drawn as a sphere with a radius in metres, or as a disc or an icon of constant size on the screen.
 struct PointObject {
   Geodetic place = {};
@@ -65,6 +73,7 @@ struct PointObject {
   PointIcon icon = {};             ///< icon of a marker
   bool through_surface = false;    ///< visible from below through a surface that is translucent for selected objects
   ObjectIdentity of = {};
+  HeightMode heights = HeightMode::absolute;
 };
 
 /// A line through places, along geodesics of the ellipsoid. The height changes evenly between two places.
@@ -74,6 +83,7 @@ struct LineObject {
   ObjectColor color{230, 60, 50};
   bool through_surface = false;
   ObjectIdentity of = {};
+  HeightMode heights = HeightMode::absolute;
 };
 
 /// An area with holes: all that an odd number of rings encloses. geo/great_circle.h defines edges, ±180° and poles. The
@@ -85,6 +95,7 @@ struct PolygonObject {
   float stroke_width_px = 2.0F;
   bool through_surface = false;
   ObjectIdentity of = {};
+  HeightMode heights = HeightMode::absolute;
 };
 
 /// A text, UTF-8, to the right of the marker or sphere at a place.
@@ -98,6 +109,7 @@ struct LabelObject {
   double priority = 0.0;
   bool through_surface = false;
   ObjectIdentity of = {};
+  HeightMode heights = HeightMode::absolute;
 };
 
 /// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0).
@@ -137,6 +149,7 @@ struct MeshObject {
   double scale = 1.0;  ///< > 0
   bool through_surface = false;
   ObjectIdentity of = {};
+  HeightMode heights = HeightMode::absolute;
 };
 
 /// All objects of a scene: over, on and under the ground. A plain value. thread: any
@@ -151,7 +164,8 @@ struct ObjectScene {
   }
 };
 
-/// True if any place of the object lies under the ground (height < 0). The surface is then drawn over the object.
+/// True if any place of the object lies under the ground (height < 0). The surface is then drawn over the object. An
+/// object that is clamped to the ground does not lie under it.
 [[nodiscard]] inline bool is_underground(const Geodetic& place) { return place.height_m < 0.0; }
 [[nodiscard]] inline bool is_underground(const std::vector<Geodetic>& places) {
   for (const Geodetic& place : places) {
@@ -159,11 +173,20 @@ struct ObjectScene {
   }
   return false;
 }
-[[nodiscard]] inline bool is_underground(const PointObject& point) { return is_underground(point.place); }
-[[nodiscard]] inline bool is_underground(const LineObject& line) { return is_underground(line.places); }
-[[nodiscard]] inline bool is_underground(const LabelObject& label) { return is_underground(label.place); }
-[[nodiscard]] inline bool is_underground(const MeshObject& mesh) { return is_underground(mesh.place); }
+[[nodiscard]] inline bool is_underground(const PointObject& point) {
+  return point.heights != HeightMode::clamp_to_ground && is_underground(point.place);
+}
+[[nodiscard]] inline bool is_underground(const LineObject& line) {
+  return line.heights != HeightMode::clamp_to_ground && is_underground(line.places);
+}
+[[nodiscard]] inline bool is_underground(const LabelObject& label) {
+  return label.heights != HeightMode::clamp_to_ground && is_underground(label.place);
+}
+[[nodiscard]] inline bool is_underground(const MeshObject& mesh) {
+  return mesh.heights != HeightMode::clamp_to_ground && is_underground(mesh.place);
+}
 [[nodiscard]] inline bool is_underground(const PolygonObject& polygon) {
+  if (polygon.heights == HeightMode::clamp_to_ground) return false;
   for (const auto& ring : polygon.rings) {
     if (is_underground(ring)) return true;
   }

@@ -42,7 +42,8 @@ struct Globe::Impl {
   [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
   void share_gpu();
   Status show_layers();
-  void take_cuts();  ///< takes the objects that workers have cut
+  void take_cuts();  ///< takes the objects that workers have cut, and lets objects follow the ground
+  [[nodiscard]] std::shared_ptr<const Relief> shared_relief() const { return heights ? heights->relief() : nullptr; }
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
   // A frame of any view.

@@ -43,7 +43,7 @@ Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   if (Status good = check_objects(objects); !good) return refusal("add_objects", good);
   const LayerId id = impl_->next_id();
   ObjectLayer& layer = impl_->objects.emplace_back(id, shown, impl_->bell);
-  impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid);
+  impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
   if (Status made = impl_->show_layers(); !made) {
     impl_->objects.pop_back();
     static_cast<void>(impl_->show_layers());
@@ -58,7 +58,7 @@ Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::set_objects", "object layer", layer);
   if (Status good = check_objects(objects); !good) return refusal("set_objects", good);
-  impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid);
+  impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
   return impl_->show_layers();
 }
 
@@ -123,7 +123,7 @@ Status Globe::Impl::show_layers() {
 void Globe::Impl::take_cuts() {
   bool replaced = false;
   for (ObjectLayer& layer : objects) {
-    const std::size_t taken = layer.take_cuts();
+    const std::size_t taken = layer.take_cuts() + layer.follow(options.body.ellipsoid, shared_relief());
     objects_cut += taken;
     changed = changed || taken > 0;
     replaced = layer.take_replaced() || replaced;

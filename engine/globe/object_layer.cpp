@@ -38,12 +38,38 @@ std::size_t ObjectLayer::cut(Version& version) {
   return size;
 }
 
-std::size_t ObjectLayer::set(ObjectScene scene, const Ellipsoid& ellipsoid) {
-  next_ = std::make_unique<Version>(LayerObjects(std::move(scene), ellipsoid, opacity_, selected_color_));
+std::size_t ObjectLayer::set(ObjectScene scene, const Ellipsoid& ellipsoid, std::shared_ptr<const Relief> relief) {
+  next_ =
+      std::make_unique<Version>(LayerObjects(std::move(scene), Ground(ellipsoid, relief), opacity_, selected_color_));
+  next_->heights_seen = relief ? relief->changes_seen() : 0;
+  next_->relief = std::move(relief);
   const std::size_t size = cut(*next_);
   if (next_->cutting.empty()) {
     now_ = std::exchange(next_, nullptr);
     replaced_ = true;
+  }
+  return size;
+}
+
+// While a worker cuts, nothing follows: its cut would replace one of newer heights.
+std::size_t ObjectLayer::follow(Version& version, const Ellipsoid& ellipsoid,
+                                const std::shared_ptr<const Relief>& relief) {
+  const bool stands = version.objects.stands_on_ground(), other = version.relief != relief;
+  const std::uint64_t seen = relief ? relief->changes_seen() : 0;
+  if (!other && (!stands || seen == version.heights_seen)) return 0;
+  if (stands && !version.cutting.empty()) return 0;
+  version.objects.follow(Ground(ellipsoid, relief), [&](const Geodetic& place) {
+    return other || relief->changed_since(place, version.heights_seen);
+  });
+  version.relief = relief;
+  version.heights_seen = seen;
+  return cut(version);
+}
+
+std::size_t ObjectLayer::follow(const Ellipsoid& ellipsoid, const std::shared_ptr<const Relief>& relief) {
+  std::size_t size = 0;
+  for (Version* version : {now_.get(), next_.get()}) {
+    if (version != nullptr) size += follow(*version, ellipsoid, relief);
   }
   return size;
 }

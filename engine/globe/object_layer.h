@@ -8,6 +8,7 @@
 
 #include "globe/globe.h"
 #include "render/objects/layer_buffers.h"
+#include "surface/relief.h"
 #include "tiles/arrival_bell.h"
 
 namespace terrella {
@@ -24,7 +25,10 @@ class ObjectLayer {
   std::string attribution = {};
 
   /// Replaces the scene. Returns the number of objects that were cut at once.
-  std::size_t set(ObjectScene scene, const Ellipsoid& ellipsoid);
+  std::size_t set(ObjectScene scene, const Ellipsoid& ellipsoid, std::shared_ptr<const Relief> relief);
+  /// Moves what stands on the ground to its height now. No relief: the ellipsoid. Returns the number of objects that
+  /// were cut at once.
+  std::size_t follow(const Ellipsoid& ellipsoid, const std::shared_ptr<const Relief>& relief);
   /// Makes edits. Appends the ids that the layer does not have. Returns the number of objects that were cut at once.
   std::size_t edit(ObjectEdits edits, std::vector<ObjectId>& unknown);
   void set_opacity(double opacity);
@@ -71,7 +75,10 @@ class ObjectLayer {
     LayerObjects objects;
     LayerBuffers buffers = {};
     std::vector<Cutting> cutting = {};
+    std::shared_ptr<const Relief> relief = {};  ///< under the objects
+    std::uint64_t heights_seen = 0;             ///< Relief::changes_seen()
   };
+  std::size_t follow(Version& version, const Ellipsoid& ellipsoid, const std::shared_ptr<const Relief>& relief);
   std::size_t cut(Version& version);
   static std::size_t take_cuts(Version& version);
 

@@ -25,6 +25,16 @@ void append_way(const std::vector<glm::dvec3>& way, bool closed, std::vector<Lin
   out.push_back(vertex(closed ? way[1] : way.back(), 0.0F));
 }
 
+std::vector<DrapeTriangle> drape_of(const FillMesh& mesh) {
+  std::vector<DrapeTriangle> drape(mesh.indices.size() / 3);
+  for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+    const SplitPosition p = split_position(mesh.positions_m[mesh.indices[k]]);
+    drape[k / 3].high_m[k % 3] = p.high;
+    drape[k / 3].low_m[k % 3] = p.low;
+  }
+  return drape;
+}
+
 /// Outlines lie at the height of the fill.
 AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
   AreaCut cut{.index = area.index};
@@ -33,6 +43,10 @@ AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_t
   if (area.fill) {
     FillMesh mesh = fill_area(shape, job.ellipsoid, most_triangles);
     cut.dropped = mesh.indices.empty();
+    if (shape.heights == HeightMode::clamp_to_ground) {
+      cut.draped = drape_of(mesh);
+      mesh = {};
+    }
     cut.triangles = std::move(mesh.indices);
     cut.fill.reserve(mesh.positions_m.size());
     for (const glm::dvec3& p_m : mesh.positions_m) {
@@ -85,7 +99,7 @@ CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop) {
   for (const CutJob::Area& area : job.areas) {
     if (stop) return cut;
     cut.areas.push_back(cut_area(area, job, job.most_triangles));
-    job.most_triangles -= cut.areas.back().triangles.size() / 3;
+    job.most_triangles -= cut.areas.back().triangles.size() / 3 + cut.areas.back().draped.size();
   }
   std::ranges::sort(cut.areas, {}, &AreaCut::index);
   return cut;

@@ -26,6 +26,7 @@ struct AreaCut {
   std::uint32_t index = 0;  ///< index of the area in its layer
   std::vector<FillVertex> fill = {};
   std::vector<std::uint32_t> triangles = {};
+  std::vector<DrapeTriangle> draped = {};  ///< in place of these two, if the area lies on the ground
   std::vector<LineVertex> outline = {};
   bool dropped = false;  ///< the fill is invalid, or the layer would have more than kMostFillTriangles
 };

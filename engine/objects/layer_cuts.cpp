@@ -40,7 +40,7 @@ void LayerObjects::put_fill(KeptArea& area, std::span<const FillVertex> fill, st
 void LayerObjects::ask_for(std::uint32_t index, KeptLine& line) {
   if (line.asked || line.object->color.alpha == 0 || !(line.object->width_px > 0.0F)) return;
   line.asked = true;
-  job_.lines.push_back({index, line.object});
+  job_.lines.push_back({index, as_cut(line.object)});
 }
 
 // An outline lies at the height of the fill, so both are cut together.
@@ -50,7 +50,9 @@ void LayerObjects::ask_for(std::uint32_t index, KeptArea& area) {
   if ((!fill || area.asked_fill) && (!outline || area.asked_outline)) return;
   area.asked_fill = area.asked_fill || fill;
   area.asked_outline = area.asked_outline || outline;
-  job_.areas.push_back({index, area.object, area.asked_fill, area.asked_outline, area.height_m});
+  const std::shared_ptr<const PolygonObject> shape = as_cut(area.object);
+  area.height_m = mean_height_m(*shape);
+  job_.areas.push_back({index, shape, area.asked_fill, area.asked_outline, area.height_m});
 }
 
 CutJob LayerObjects::take_job() {
@@ -69,20 +71,23 @@ void LayerObjects::place(CutObjects cut) {
 void LayerObjects::place(LineCut& cut) {
   KeptLine& line = lines_[cut.index];
   if (line.removed) return;
-  line.slot = batches_.lines.add(bucket_of(line), cut.vertices);
+  put(line, cut.vertices);
   draw(line);
 }
 
 void LayerObjects::place(AreaCut& cut) {
   KeptArea& area = areas_[cut.index];
   if (area.removed) return;
-  batches_.lines.drop(area.outline);
-  batches_.fill_vertices.drop(area.fill);
-  triangles_ += cut.triangles.size() / 3;
-  triangles_ -= area.triangles.count / 3;
+  replaced_ += area.fill.count + area.outline.count > 0 ? 1U : 0U;
+  drop({ObjectKind::polygon, cut.index});
+  triangles_ += cut.triangles.size() / 3 + cut.draped.size();
   fills_dropped_ += cut.dropped ? 1U : 0U;
-  area.outline = batches_.lines.add(outline_bucket(area), cut.outline);
-  put_fill(area, cut.fill, std::move(cut.triangles));
+  area.outline = lines_of(area.object->heights).add(outline_bucket(area), cut.outline);
+  if (area.object->heights == HeightMode::clamp_to_ground) {
+    area.fill = batches_.draped_fills.add(LayerBatches::kDraped, cut.draped);
+  } else {
+    put_fill(area, cut.fill, std::move(cut.triangles));
+  }
   draw(area);
 }
 
@@ -90,6 +95,7 @@ void LayerObjects::place(AreaCut& cut) {
 void LayerObjects::place_all_again() {
   LayerBatches old = std::exchange(batches_, LayerBatches{});
   batches_.fill_version = old.fill_version + 1;
+  replaced_ = 0;
   for (KeptPoint& point : points_) {
     point.slot = {};
     if (!point.removed) draw(point);
@@ -100,13 +106,21 @@ void LayerObjects::place_all_again() {
   }
   for (KeptLine& line : lines_) {
     if (line.removed) continue;
-    line.slot = batches_.lines.add(bucket_of(line), old.lines.at(line.slot));
+    const bool draped = line.object->heights == HeightMode::clamp_to_ground;
+    line.slot =
+        lines_of(line.object->heights).add(bucket_of(line), (draped ? old.draped_lines : old.lines).at(line.slot));
     draw(line);
   }
   for (KeptArea& area : areas_) {
     if (area.removed) continue;
-    area.outline = batches_.lines.add(outline_bucket(area), old.lines.at(area.outline));
-    put_fill(area, old.fill_vertices.at(area.fill), own_triangles(old, area));
+    const bool draped = area.object->heights == HeightMode::clamp_to_ground;
+    area.outline = lines_of(area.object->heights)
+                       .add(outline_bucket(area), (draped ? old.draped_lines : old.lines).at(area.outline));
+    if (draped) {
+      area.fill = batches_.draped_fills.add(LayerBatches::kDraped, old.draped_fills.at(area.fill));
+    } else {
+      put_fill(area, old.fill_vertices.at(area.fill), own_triangles(old, area));
+    }
     draw(area);
   }
 }

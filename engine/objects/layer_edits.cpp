@@ -9,24 +9,23 @@ namespace terrella {
 bool LayerObjects::move(const ObjectMove& move) {
   const auto found = parts_.find(static_cast<std::uint64_t>(move.id));
   if (found == parts_.end()) return false;
-  const glm::dvec3 place_m = ellipsoid_.to_ecef(move.place).xyz_m;
   for (PartRef part = found->second; part; part = kept(part).next) {
     if (part.kind == ObjectKind::label) {
       KeptLabel& label = labels_[part.index];
       --label_counts_[is_underground(label.object) ? 1 : 0];
       label.object.place = move.place;
       ++label_counts_[is_underground(label.object) ? 1 : 0];
-      label.place_m = place_m;
+      label.place_m = place_of(move.place, label.object.heights);
       continue;
     }
     if (part.kind == ObjectKind::point) {
       points_[part.index].object.place = move.place;
       points_[part.index].object.icon.heading = move.heading.value_or(points_[part.index].object.icon.heading);
-      points_[part.index].place_m = place_m;
+      points_[part.index].place_m = place_of(move.place, points_[part.index].object.heights);
     } else if (part.kind == ObjectKind::mesh) {
       meshes_[part.index].object.place = move.place;
       meshes_[part.index].object.heading = move.heading.value_or(meshes_[part.index].object.heading);
-      meshes_[part.index].place_m = place_m;
+      meshes_[part.index].place_m = place_of(move.place, meshes_[part.index].object.heights);
     } else {
       continue;
     }

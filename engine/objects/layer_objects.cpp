@@ -21,12 +21,13 @@ std::uint64_t next_serial() {
 
 }  // namespace
 
-LayerObjects::LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color)
+LayerObjects::LayerObjects(ObjectScene scene, const Ground& ground, double opacity, ObjectColor selected_color)
     : serial_(next_serial()),
-      ellipsoid_(ellipsoid),
+      ellipsoid_(ground.ellipsoid()),
       opacity_(opacity),
       selected_color_(selected_color),
-      job_{.ellipsoid = ellipsoid} {
+      job_{.ellipsoid = ground.ellipsoid()},
+      ground_(ground) {
   add(std::move(scene));
 }
 
@@ -49,6 +50,7 @@ const Kept& LayerObjects::kept(PartRef part) const {
 void LayerObjects::link(PartRef part, ObjectId id) {
   ++live_;
   Kept& object = kept(part);
+  on_ground_ += depends_on_ground(part) ? 1U : 0U;
   if (id != ObjectId::none) object.next = std::exchange(parts_[static_cast<std::uint64_t>(id)], part);
   if (index_) index_part(part);
 }
@@ -74,7 +76,6 @@ void LayerObjects::add(ObjectScene scene) {
   for (PolygonObject& polygon : scene.polygons) {
     const std::uint32_t index = keep(ObjectKind::polygon, std::make_shared<PolygonObject>(std::move(polygon)), areas_);
     const PolygonObject& object = *areas_[index].object;
-    areas_[index].height_m = mean_height_m(object);
     most_reach_px_ = std::max(most_reach_px_, 0.5 * double(object.stroke_width_px));
     ask_for(index, areas_[index]);
     link({ObjectKind::polygon, index}, object.of.id);
@@ -88,7 +89,7 @@ void LayerObjects::add(ObjectScene scene) {
 void LayerObjects::add(PointObject point) {
   const std::uint32_t index = keep(ObjectKind::point, std::move(point), points_);
   KeptPoint& kept = points_[index];
-  kept.place_m = ellipsoid_.to_ecef(kept.object.place).xyz_m;
+  kept.place_m = place_of(kept.object.place, kept.object.heights);
   most_reach_px_ = std::max(most_reach_px_, reach_px(kept.object));
   draw(kept);
   link({ObjectKind::point, index}, kept.object.of.id);
@@ -97,7 +98,7 @@ void LayerObjects::add(PointObject point) {
 void LayerObjects::add(MeshObject mesh) {
   const std::uint32_t index = keep(ObjectKind::mesh, std::move(mesh), meshes_);
   KeptMesh& kept = meshes_[index];
-  kept.place_m = ellipsoid_.to_ecef(kept.object.place).xyz_m;
+  kept.place_m = place_of(kept.object.place, kept.object.heights);
   draw(kept);
   link({ObjectKind::mesh, index}, kept.object.of.id);
 }
@@ -105,7 +106,7 @@ void LayerObjects::add(MeshObject mesh) {
 void LayerObjects::add(LabelObject label) {
   const std::uint32_t index = keep(ObjectKind::label, std::move(label), labels_);
   KeptLabel& kept = labels_[index];
-  kept.place_m = ellipsoid_.to_ecef(kept.object.place).xyz_m;
+  kept.place_m = place_of(kept.object.place, kept.object.heights);
   kept.text = label_text(kept.object.text);
   ++label_counts_[is_underground(kept.object) ? 1 : 0];
   link({ObjectKind::label, index}, kept.object.of.id);
@@ -142,6 +143,7 @@ void LayerObjects::take_away(PartRef part) {
   object.visible = false;
   --live_;
   ++removed_;
+  on_ground_ -= depends_on_ground(part) ? 1U : 0U;
   if (index_) index_part(part);
   drop(part);
 }
@@ -180,6 +182,7 @@ void LayerObjects::tidy() {
     forget_removed();
     place_all_again();
   }
+  if (replaced_ > kFewRemoved / 10 && replaced_ > areas_.size()) place_all_again();
   if (batches_.spheres.stale) sort_spheres();
 }
 
@@ -195,7 +198,7 @@ void LayerObjects::forget_removed() {
   serial_ = next_serial();
   index_.reset();
   parts_.clear();
-  live_ = removed_ = 0;
+  live_ = removed_ = on_ground_ = 0;
   const auto link_all = [this](ObjectKind kind, auto& objects, const auto& id) {
     for (std::uint32_t k = 0; k < objects.size(); ++k) {
       objects[k].next = {};

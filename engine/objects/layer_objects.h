@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -7,9 +8,11 @@
 
 #include "geo/object_edits.h"
 #include "objects/cut_objects.h"
+#include "objects/ground/on_ground.h"
 #include "objects/kept_objects.h"
 #include "objects/layer_batches.h"
 #include "objects/object_index.h"
+#include "view/ground.h"
 
 namespace terrella {
 
@@ -18,7 +21,7 @@ namespace terrella {
 /// one call at a time
 class LayerObjects {
  public:
-  LayerObjects(ObjectScene scene, const Ellipsoid& ellipsoid, double opacity, ObjectColor selected_color);
+  LayerObjects(ObjectScene scene, const Ground& ground, double opacity, ObjectColor selected_color);
 
   void add(ObjectScene scene);
   /// Removes all parts of a feature; false if there is none.
@@ -34,6 +37,13 @@ class LayerObjects {
   [[nodiscard]] CutJob take_job();
   void place(CutObjects cut);
 
+  /// True if the height of an object depends on the ground's.
+  [[nodiscard]] bool stands_on_ground() const { return on_ground_ > 0; }
+  /// Takes the ground, and moves the objects that stand on it to its height, if the ground `has_changed` under them.
+  /// Lines and areas over the ground are to be cut anew. Costs a little for each object that stands on the ground.
+  /// thread: as Ground's
+  void follow(const Ground& ground, const std::function<bool(const Geodetic&)>& has_changed);
+
   [[nodiscard]] bool empty() const { return live_ == 0; }
   [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
   /// Frees the memory of removed objects if it is large, and sorts spheres. Call it before drawing.
@@ -45,6 +55,8 @@ class LayerObjects {
   [[nodiscard]] const ObjectFeature* feature(ObjectId id) const;
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< true if cut objects have this part to draw
+
+  [[nodiscard]] bool has_drapes() const;  ///< lines or areas that lie on the ground, and are cut
 
   [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
 
@@ -91,7 +103,8 @@ class LayerObjects {
   /// Returns an area's triangles as indices of its own vertices.
   [[nodiscard]] static std::vector<std::uint32_t> own_triangles(const LayerBatches& batches, const KeptArea& area);
   void put_fill(KeptArea& area, std::span<const FillVertex> fill, std::vector<std::uint32_t> triangles);
-  void color_line(Slot& slot, std::size_t bucket, const ObjectColor& color, float width_px);
+  void color_line(SlotBatch<LineVertex>& lines, Slot& slot, std::size_t bucket, const ObjectColor& color,
+                  float width_px);
   void place(LineCut& cut);
   void place(AreaCut& cut);
   void ask_for(std::uint32_t index, KeptLine& line);
@@ -101,6 +114,19 @@ class LayerObjects {
   [[nodiscard]] DotInstance dot(const KeptPoint& point) const;
   [[nodiscard]] IconInstance icon(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
+  // layer_ground.cpp: objects on the ground
+  [[nodiscard]] SlotBatch<LineVertex>& lines_of(HeightMode mode);
+  void put(KeptLine& line, std::span<const LineVertex> vertices);
+  [[nodiscard]] glm::dvec3 place_of(const Geodetic& place, HeightMode mode) const;
+  /// Shares the object if its heights do not depend on the ground.
+  template <class Shape>
+  [[nodiscard]] std::shared_ptr<const Shape> as_cut(const std::shared_ptr<Shape>& shape) const {
+    if (shape->heights == HeightMode::absolute) return shape;
+    return std::make_shared<Shape>(cut_shape(*shape, ground_));
+  }
+  [[nodiscard]] HeightMode mode_of(PartRef part) const;
+  [[nodiscard]] bool depends_on_ground(PartRef part) const;
+  void follow(PartRef part, const std::function<bool(const Geodetic&)>& has_changed);
   // layer_edits.cpp
   void change_part(PartRef part, const ObjectChange& change);
   void draw_again(PartRef part);
@@ -131,6 +157,9 @@ class LayerObjects {
   std::size_t fills_dropped_ = 0;
   CutJob job_;
   std::size_t jobs_out_ = 0;  ///< taken, and not placed
+  std::size_t replaced_ = 0;  ///< areas whose earlier cut is still in the batches
+  Ground ground_;
+  std::size_t on_ground_ = 0;
   std::unique_ptr<ObjectIndex> index_;
   double most_reach_px_ = 0.0;  ///< largest half width of markers and lines
 };

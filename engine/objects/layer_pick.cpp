@@ -60,9 +60,9 @@ void LayerObjects::index_part(PartRef part) {
     const KeptPoint& point = points_[part.index];
     index_->put(item_of(part), {point.place_m, std::max(0.0, point.object.radius_m)});
   } else if (part.kind == ObjectKind::line) {
-    index_->put(item_of(part), ball_of({lines_[part.index].object->places}, ellipsoid_, false));
+    index_->put(item_of(part), ball_of({as_cut(lines_[part.index].object)->places}, ellipsoid_, false));
   } else if (part.kind == ObjectKind::polygon) {
-    index_->put(item_of(part), ball_of(areas_[part.index].object->rings, ellipsoid_, true));
+    index_->put(item_of(part), ball_of(as_cut(areas_[part.index].object)->rings, ellipsoid_, true));
   } else if (const KeptMesh& mesh = meshes_[part.index]; mesh.object.model) {
     index_->put(item_of(part), {mesh.place_m, batches_.models[mesh.model].reach_m * mesh.object.scale});
   }
@@ -75,11 +75,11 @@ void LayerObjects::take(PartRef part, ObjectPicker& picker) {
     picker.point(point.object, point.place_m, point.number);
   } else if (part.kind == ObjectKind::line) {
     KeptLine& line = lines_[part.index];
-    if (!line.picked) line.picked = std::make_unique<PickWay>(pick_way(*line.object, ellipsoid_));
+    if (!line.picked) line.picked = std::make_unique<PickWay>(pick_way(*as_cut(line.object), ellipsoid_));
     picker.line(*line.object, *line.picked, line.number);
   } else if (part.kind == ObjectKind::polygon) {
     KeptArea& area = areas_[part.index];
-    if (!area.picked) area.picked = std::make_unique<PickArea>(*area.object, ellipsoid_);
+    if (!area.picked) area.picked = std::make_unique<PickArea>(*as_cut(area.object), ellipsoid_);
     picker.area(*area.object, *area.picked, area.number);
   } else if (part.kind == ObjectKind::mesh) {
     const KeptMesh& mesh = meshes_[part.index];
@@ -96,11 +96,15 @@ std::optional<PickedObject> LayerObjects::pick(const View& view, const Ground& g
   if (!index_) index_all();
   std::vector<std::uint32_t> items;
   index_->find(PickCone(view, pixel_px, most_reach_px_ + options.slack_px), items);
+  ObjectPicker picker(view, ground, pixel_px, options);
+  if (has_drapes()) {
+    if (const auto* cone = picker.cone_on_ground(most_reach_px_ + options.slack_px)) index_->find(*cone, items);
+  }
   std::ranges::sort(items, {}, [](std::uint32_t item) {
     constexpr std::array<std::uint32_t, kKinds> kOrder{3, 1, 0, 2};  // areas, lines, models, points
     return std::pair(kOrder[item % kKinds], item);
   });
-  ObjectPicker picker(view, ground, pixel_px, options);
+  items.erase(std::ranges::unique(items).begin(), items.end());
   for (const std::uint32_t item : items) take(part_of(item), picker);
   for (const std::uint32_t k : labels) {
     if (k < labels_.size()) take({ObjectKind::label, k}, picker);

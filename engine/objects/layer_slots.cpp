@@ -49,10 +49,12 @@ std::size_t LayerObjects::bucket_of(const KeptPoint& point) const {
 }
 
 std::size_t LayerObjects::bucket_of(const KeptLine& line) const {
+  if (line.object->heights == HeightMode::clamp_to_ground) return LayerBatches::kDraped;
   return bucket_of(is_underground(*line.object), line.object->color, line.object->through_surface);
 }
 
 std::size_t LayerObjects::outline_bucket(const KeptArea& area) const {
+  if (area.object->heights == HeightMode::clamp_to_ground) return LayerBatches::kDraped;
   return bucket_of(is_underground(*area.object), area.object->stroke, area.object->through_surface);
 }
 
@@ -124,13 +126,14 @@ void LayerObjects::drop(PartRef part) {
       batches_.markers.drop(point.slot);
     }
   } else if (part.kind == ObjectKind::line) {
-    batches_.lines.drop(lines_[part.index].slot);
+    lines_of(lines_[part.index].object->heights).drop(lines_[part.index].slot);
   } else if (part.kind == ObjectKind::polygon) {
     KeptArea& area = areas_[part.index];
-    triangles_ -= area.triangles.count / 3;
+    const bool draped = area.object->heights == HeightMode::clamp_to_ground;
+    triangles_ -= draped ? area.fill.count : area.triangles.count / 3;
     area.triangles = {};
-    batches_.lines.drop(area.outline);
-    batches_.fill_vertices.drop(area.fill);
+    lines_of(area.object->heights).drop(area.outline);
+    draped ? batches_.draped_fills.drop(area.fill) : batches_.fill_vertices.drop(area.fill);
   } else if (part.kind == ObjectKind::mesh && meshes_[part.index].object.model) {
     batches_.models[meshes_[part.index].model].stands.drop(meshes_[part.index].slot);
   } else if (part.kind == ObjectKind::label) {
@@ -196,14 +199,15 @@ void LayerObjects::draw(KeptMesh& mesh) {
   mesh.slot = stands.add(bucket, std::span(&item, 1));
 }
 
-void LayerObjects::color_line(Slot& slot, std::size_t bucket, const ObjectColor& color, float width_px) {
+void LayerObjects::color_line(SlotBatch<LineVertex>& lines, Slot& slot, std::size_t bucket, const ObjectColor& color,
+                              float width_px) {
   if (slot.count == 0) return;
   if (slot.bucket != bucket) {
-    const std::vector<LineVertex> vertices = copy_of(batches_.lines.at(slot));
-    batches_.lines.drop(slot);
-    slot = batches_.lines.add(bucket, vertices);
+    const std::vector<LineVertex> vertices = copy_of(lines.at(slot));
+    lines.drop(slot);
+    slot = lines.add(bucket, vertices);
   }
-  for (LineVertex& vertex : batches_.lines.change(slot)) {
+  for (LineVertex& vertex : lines.change(slot)) {
     vertex.color = color;
     if (vertex.width_px > 0.0F) vertex.width_px = width_px;
   }
@@ -211,13 +215,18 @@ void LayerObjects::color_line(Slot& slot, std::size_t bucket, const ObjectColor&
 
 void LayerObjects::draw(KeptLine& line) {
   const LineObject& object = *line.object;
-  color_line(line.slot, bucket_of(line), drawn(object.color, line), object.width_px);
+  color_line(lines_of(object.heights), line.slot, bucket_of(line), drawn(object.color, line), object.width_px);
 }
 
 void LayerObjects::draw(KeptArea& area) {
   const PolygonObject& object = *area.object;
-  color_line(area.outline, outline_bucket(area), drawn(object.stroke, area), object.stroke_width_px);
+  color_line(lines_of(object.heights), area.outline, outline_bucket(area), drawn(object.stroke, area),
+             object.stroke_width_px);
   if (area.fill.count == 0) return;
+  if (object.heights == HeightMode::clamp_to_ground) {
+    for (DrapeTriangle& triangle : batches_.draped_fills.change(area.fill)) triangle.color = drawn(object.fill, area);
+    return;
+  }
   if (area.fill.bucket != fill_bucket(area)) {
     const std::vector<FillVertex> vertices = copy_of(batches_.fill_vertices.at(area.fill));
     std::vector<std::uint32_t> triangles = own_triangles(batches_, area);

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "objects/ground/on_ground.h"
 #include "objects/object_picker.h"
 
 namespace terrella {
@@ -17,15 +18,19 @@ std::optional<PickedObject> pick_object(const View& view, const Ground& ground, 
   ObjectPicker picker(view, ground, pixel_px, options);
   const Ellipsoid& e = ground.ellipsoid();
   for (std::size_t k = 0; k < scene.polygons.size(); ++k) {
-    picker.area(scene.polygons[k], PickArea(scene.polygons[k], e), k);
+    picker.area(scene.polygons[k], PickArea(cut_shape(scene.polygons[k], ground), e), k);
   }
-  for (std::size_t k = 0; k < scene.lines.size(); ++k) picker.line(scene.lines[k], pick_way(scene.lines[k], e), k);
+  for (std::size_t k = 0; k < scene.lines.size(); ++k)
+    picker.line(scene.lines[k], pick_way(cut_shape(scene.lines[k], ground), e), k);
   for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
     const MeshObject& mesh = scene.meshes[k];
-    if (mesh.model) picker.mesh(mesh, e.to_ecef(mesh.place).xyz_m, reach_m(*mesh.model) * mesh.scale, k);
+    if (mesh.model)
+      picker.mesh(mesh, e.to_ecef(over_ground(mesh.place, mesh.heights, ground)).xyz_m,
+                  reach_m(*mesh.model) * mesh.scale, k);
   }
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
-    picker.point(scene.points[k], e.to_ecef(scene.points[k].place).xyz_m, k);
+    const PointObject& point = scene.points[k];
+    picker.point(point, e.to_ecef(over_ground(point.place, point.heights, ground)).xyz_m, k);
   }
   return picker.best();
 }

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <utility>
 
 #include "geo/great_circle.h"
 #include "objects/object_shapes.h"
@@ -157,7 +158,8 @@ void ObjectPicker::mesh(const MeshObject& mesh, const glm::dvec3& place_m, doubl
 }
 
 void ObjectPicker::line(const LineObject& line, const PickWay& way, std::size_t index) {
-  along(ObjectKind::line, index, line.of, way, line.width_px);
+  const auto find = line.heights == HeightMode::clamp_to_ground ? &ObjectPicker::along_ground : &ObjectPicker::along;
+  (this->*find)(ObjectKind::line, index, line.of, way, line.width_px);
 }
 
 void ObjectPicker::label(const LabelObject& label, const glm::dvec3& place_m, std::size_t index) {
@@ -183,14 +185,70 @@ void ObjectPicker::along(ObjectKind kind, std::size_t index, const ObjectIdentit
   }
 }
 
+const std::optional<Geodetic>& ObjectPicker::place() {
+  if (!std::exchange(looked_, true)) place_ = pick(view_, ground_, pixel_px_);
+  return place_;
+}
+
+// Ground that faces the eye is seen less slanted than the ellipsoid under it.
+const PickCone* ObjectPicker::cone_on_ground(double reach_px) {
+  if (!place()) return nullptr;
+  constexpr double kSlant = 16.0;
+  View lowered = view_;
+  lowered.eye.xyz_m -= place()->height_m * Ellipsoid::normal(place()->lat, place()->lon).xyz;
+  return &cone_.emplace(lowered, pixel_px_, kSlant * reach_px);
+}
+
+// True if the ground at a place of the ellipsoid is drawn within reach of the pixel.
+bool ObjectPicker::reaches(const glm::dvec3& place_m, double reach_px, glm::dvec3& at_m) const {
+  Geodetic on_ground = ground_.ellipsoid().to_geodetic(Ecef{place_m});
+  on_ground.height_m = ground_.height_m(on_ground.lat, on_ground.lon);
+  const Ecef at = ground_.ellipsoid().to_ecef(on_ground);
+  const auto px = project(view_, at);
+  at_m = at.xyz_m;
+  return px && glm::length(*px - pixel_px_) <= reach_px;
+}
+
+// Of a piece, its place nearest to the ground under the pixel counts, and its place straight before or behind it.
+void ObjectPicker::along_ground(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way,
+                                float width_px) {
+  const double reach_px = 0.5 * double(width_px) + options_.slack_px;
+  const PickCone* cone = cone_on_ground(reach_px);
+  if (cone == nullptr) return;
+  const glm::dvec3 foot_m = ground_.ellipsoid().to_ecef({.lat = place_->lat, .lon = place_->lon}).xyz_m;
+  const glm::dvec3 beside = glm::cross(ray_, Ellipsoid::normal(place_->lat, place_->lon).xyz);
+  for (std::size_t run = 0; run < way.runs.size(); ++run) {
+    if (!cone->meets(way.runs[run].center_m, way.runs[run].radius_m)) continue;
+    const std::size_t end = std::min((run + 1) * PickWay::kRun, way.places_m.size() - 1);
+    for (std::size_t k = run * PickWay::kRun; k < end; ++k) {
+      const glm::dvec3 from_m = way.places_m[k], piece_m = way.places_m[k + 1] - from_m, to_m = foot_m - from_m;
+      for (const double part : {glm::dot(to_m, piece_m) / std::max(glm::dot(piece_m, piece_m), 1e-12),
+                                glm::dot(to_m, beside) / glm::dot(piece_m, beside)}) {
+        glm::dvec3 at_m;
+        if (!std::isfinite(part) || !reaches(from_m + std::clamp(part, 0.0, 1.0) * piece_m, reach_px, at_m)) continue;
+        take(kind, index, of, at_m);
+        break;
+      }
+    }
+  }
+}
+
 // The fill lies at one height, so the ray is intersected with the body raised by that height.
 void ObjectPicker::area(const PolygonObject& polygon, const PickArea& area, std::size_t index) {
+  const bool draped = polygon.heights == HeightMode::clamp_to_ground;
   if (polygon.stroke.alpha > 0) {
+    const auto find = draped ? &ObjectPicker::along_ground : &ObjectPicker::along;
     for (const PickWay& way : area.outlines) {
-      along(ObjectKind::polygon, index, polygon.of, way, polygon.stroke_width_px);
+      (this->*find)(ObjectKind::polygon, index, polygon.of, way, polygon.stroke_width_px);
     }
   }
   if (polygon.fill.alpha == 0) return;
+  if (draped) {
+    if (place() && area.covers({place()->lon.deg(), place()->lat.deg()})) {
+      take(ObjectKind::polygon, index, polygon.of, ground_.ellipsoid().to_ecef(*place()).xyz_m);
+    }
+    return;
+  }
   const Ellipsoid& e = ground_.ellipsoid();
   const double a_m = e.a_m() + area.height_m, b_m = e.b_m() + area.height_m;
   const auto distance = Ellipsoid(a_m, 1.0 - b_m / a_m).intersect_m(view_.eye, EcefDir{ray_});

@@ -54,12 +54,18 @@ class ObjectPicker {
   /// A label whose text covers the pixel.
   void label(const LabelObject& label, const glm::dvec3& place_m, std::size_t index);
   [[nodiscard]] const std::optional<PickedObject>& best() const { return best_; }
+  /// Returns a cone around what may be drawn within `reach_px` of the pixel on the ground, if the ground were the
+  /// ellipsoid; null if the pixel shows no ground.
+  [[nodiscard]] const PickCone* cone_on_ground(double reach_px);
 
  private:
   void take(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const glm::dvec3& at_m);
   void sphere(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const Ball& ball);
   void along(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way, float width_px);
   [[nodiscard]] bool in_icon(const PointObject& icon, const glm::dvec3& place_m, const glm::dvec2& at_px) const;
+  void along_ground(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way, float width_px);
+  [[nodiscard]] bool reaches(const glm::dvec3& place_m, double reach_px, glm::dvec3& at_m) const;
+  [[nodiscard]] const std::optional<Geodetic>& place();
   [[nodiscard]] bool hidden(const glm::dvec3& at_m) const;
 
   const View& view_;
@@ -68,6 +74,9 @@ class ObjectPicker {
   PickOptions options_;
   glm::dvec3 ray_;
   std::optional<PickedObject> best_;
+  bool looked_ = false;            ///< place_ is set
+  std::optional<Geodetic> place_;  ///< the ground under the pixel
+  std::optional<PickCone> cone_;
 };
 
 }  // namespace terrella

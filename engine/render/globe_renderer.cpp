@@ -79,6 +79,9 @@ Status GlobeRenderer::prepare(const Pass& pass) {
   } else if (!samples) {
     if (Status s = make_once(outline_); !s) return s;
   }
+  if (objects_) {
+    if (Status s = objects_->prepare_drapes(samples); !s) return s;
+  }
   return pass.input.stereo == Stereo::interlaced ? make_once(interlace_) : Done{};
 }
 
@@ -137,6 +140,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
     draw_callers(pass, DrawStage::below_ground);
   }
   draw_surface(pass);
+  draw_drapes(pass);
   draw_callers(pass, DrawStage::ground);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
@@ -175,6 +179,21 @@ void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice
   state.stencil = stencil(pass.eye, {.set = mark});
   if (air_ != nullptr) air_->bind_ground();
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
+}
+
+// Before anything else is drawn on the ground, because what lies on the ground is found by the depth of the picture.
+void GlobeRenderer::draw_drapes(const Pass& pass) {
+  if (!objects_ || !objects_->has_drapes()) return;
+  const GroundRange range = pass.input.relief != nullptr ? pass.input.relief->range_m() : GroundRange{};
+  const bool samples = targets_->samples() > 0;
+  if (air_ != nullptr) air_->bind_ground();
+  pass.counts.draw_calls +=
+      objects_->draw_drapes({.viewport = pass.eye.view.viewport,
+                             .at = {pass.eye.left_px, 0, pass.eye.interlaced ? 2 : 1},
+                             .depth = samples ? targets_->depth_samples() : targets_->depth(),
+                             .ground_range_m = {std::min(0.0, range.min_m), std::max(0.0, range.max_m)},
+                             .polar_scale = 1.0 / ellipsoid_.one_minus_e2()},
+                            picture_state(pass.eye));
 }
 
 // The sky is drawn where there is no surface. It writes no depth, so it does not affect the near and the far plane

@@ -172,6 +172,7 @@ class GlobeRenderer {
   void draw_from_below(const Pass& pass);
   void draw_naively(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
+  void draw_drapes(const Pass& pass);
   void draw_sky(const Pass& pass);
   void draw_inner_sphere(const Pass& pass);
   void draw_far_side_curtain(const Pass& pass);

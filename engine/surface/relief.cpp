@@ -101,6 +101,17 @@ bool Relief::changed_since(const TileId& id, std::uint64_t since) const {
                      });
 }
 
+bool Relief::changed_since(const Geodetic& place, std::uint64_t since) const {
+  if (since < changes_forgotten_) return true;
+  const double row_deg = field_.row_deg(place.lat), lon_deg = place.lon.deg();
+  return std::any_of(changes_.begin() + static_cast<std::ptrdiff_t>(since - changes_forgotten_), changes_.end(),
+                     [&](const Change& change) {
+                       const double apart_deg = wrapped_deg(0.5 * (change.west + change.east) - lon_deg);
+                       return row_deg >= change.south && row_deg <= change.north &&
+                              std::abs(apart_deg) <= 0.5 * (change.east - change.west);
+                     });
+}
+
 // New nodes are up to date (TreeGrowth), so the roots tell of all nodes.
 void Relief::refresh_bounds(PatchTree& tree) const {
   if (tree.root(CubeFace::pos_x).relief.bounds_seen == changes_seen()) return;

@@ -62,6 +62,7 @@ class Relief : public GroundHeights {
   }
   /// True if heights of the tile, or beside it, may have changed since changes_seen() was `since`.
   [[nodiscard]] bool changed_since(const TileId& id, std::uint64_t since) const;
+  [[nodiscard]] bool changed_since(const Geodetic& place, std::uint64_t since) const;  ///< the same of a place
   /// Makes the meshes of nodes whose heights have changed: the heights of their vertices, and the error between them.
   /// Returns the number of meshes made.
   int make_meshes(PatchTree& tree, const std::vector<NodeRef>& nodes) const;

@@ -58,6 +58,16 @@ class StyleReader {
     return std::nullopt;
   }
 
+  /// Names of KML.
+  HeightMode height_mode() const {
+    const json* value = find("altitude-mode");
+    if (value == nullptr || *value == "absolute") return HeightMode::absolute;
+    if (*value == "clampToGround") return HeightMode::clamp_to_ground;
+    if (*value == "relativeToGround") return HeightMode::relative_to_ground;
+    complain_("\"altitude-mode\" must be absolute, clampToGround or relativeToGround");
+    return HeightMode::absolute;
+  }
+
   /// Text of a property that simplestyle does not define. Another type causes no complaint, because other programs may
   /// use the name differently.
   std::string text(const char* name) const {
@@ -201,6 +211,8 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   }
   style.mesh.through_surface = style.point.through_surface = style.line.through_surface =
       style.polygon.through_surface = through;
+  style.mesh.heights = style.point.heights = style.line.heights = style.polygon.heights = style.label.heights =
+      reader.height_mode();
   static_cast<void>(reader.simplestyle_text("description"));
   const std::string symbol = reader.marker_symbol();
   style.label.text = reader.simplestyle_text("title");

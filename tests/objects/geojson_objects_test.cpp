@@ -90,6 +90,19 @@ TEST(GeojsonObjects, ReadsAGeometryOrAFeatureThatIsTheWholeDocument) {
   EXPECT_EQ(good(feature(kPoint)).scene.points.size(), 1U);
 }
 
+TEST(GeojsonObjects, AnAltitudeModeSaysWhatHeightsMean) {
+  const ObjectFile file =
+      good(collection(feature(kPoint, R"({"altitude-mode":"clampToGround","title":"Here"})") + "," +
+                      feature(geometry("LineString", "[[0,0],[1,1]]"), R"({"altitude-mode":"relativeToGround"})") +
+                      "," + feature(kPoint, R"({"altitude-mode":"absolute"})") + "," + feature(kPoint) + "," +
+                      feature(kPoint, R"({"altitude-mode":"onTheSeaFloor"})")));
+  EXPECT_THAT(file.complaints, ElementsAre(HasSubstr("\"altitude-mode\" must be absolute, clampToGround or")));
+  EXPECT_EQ(file.scene.points[0].heights, HeightMode::clamp_to_ground);
+  EXPECT_EQ(file.scene.labels[0].heights, HeightMode::clamp_to_ground);
+  EXPECT_EQ(file.scene.lines[0].heights, HeightMode::relative_to_ground);
+  for (const std::size_t k : {1U, 2U, 3U}) EXPECT_EQ(file.scene.points[k].heights, HeightMode::absolute);
+}
+
 TEST(GeojsonObjects, StylesAreSimplestyleRadiusAndThroughSurface) {
   const ObjectFile file = good(collection(
       feature(kPoint, R"({"marker-color":"#1E90ff","marker-size":"large","title":"Here","through_surface":true})") +

@@ -34,6 +34,12 @@ void LayerBuffers::follow(LayerObjects& objects) {
   follow_all(lines, batches.lines);
   follow_all(fill_vertices, batches.fill_vertices);
   follow_all(fill_indices, batches.fill_indices);
+  const auto follow_drape = [](FollowingBuffer& buffer, auto& batch) {
+    auto& bucket = batch.bucket(LayerBatches::kDraped);
+    buffer.follow(bucket.items, bucket.changed);
+  };
+  follow_drape(draped_lines, batches.draped_lines);
+  follow_drape(draped_fills, batches.draped_fills);
   stands.resize(batches.models.size());
   for (std::size_t k = 0; k < stands.size(); ++k) follow_all(stands[k], batches.models[k].stands);
 }

@@ -36,6 +36,7 @@ struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
   Buckets markers, icons, lines, fill_vertices, fill_indices;
+  FollowingBuffer draped_lines, draped_fills;
   std::vector<Buckets> stands;  ///< per model of the layer
   IconAtlas icon_atlas;
 

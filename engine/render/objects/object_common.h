@@ -41,6 +41,30 @@ inline gl::VertexArray dot_array(GLuint divisor) {
   return array;
 }
 
+inline constexpr std::size_t kVerticesOfAPiece = 4;  ///< the previous vertex, this one, the next, the one after that
+
+/// Makes a vertex array that reads a piece of a line per instance: four LineVertex.
+inline gl::VertexArray line_pieces_array() {
+  gl::VertexArray array = gl::make_vertex_array();
+  for (GLuint k = 0; k < kVerticesOfAPiece; ++k) {
+    gl::float_attribute(array.name(), 2 * k, k, 3, offsetof(LineVertex, high_m));
+    gl::float_attribute(array.name(), 2 * k + 1, k, 3, offsetof(LineVertex, low_m));
+    glVertexArrayBindingDivisor(array.name(), k, 1);
+  }
+  gl::float_attribute(array.name(), 8, 1, 1, offsetof(LineVertex, width_px));
+  gl::color_attribute(array.name(), 9, 1, offsetof(LineVertex, color));
+  return array;
+}
+
+/// Binds it with a buffer of LineVertex.
+inline void bind_line_pieces(const gl::VertexArray& array, GLuint buffer) {
+  glBindVertexArray(array.name());
+  for (GLuint k = 0; k < kVerticesOfAPiece; ++k) {
+    glVertexArrayVertexBuffer(array.name(), k, buffer, static_cast<GLintptr>(k * sizeof(LineVertex)),
+                              sizeof(LineVertex));
+  }
+}
+
 /// Makes a buffer with these elements; no buffer if there are none.
 template <class T>
 gl::Buffer buffer_of(const std::vector<T>& items) {

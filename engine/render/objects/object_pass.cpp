@@ -44,15 +44,7 @@ void ObjectPass::set_up_arrays() {
   gl::float_attribute(fill_array_.name(), 0, 0, 3, offsetof(FillVertex, high_m));
   gl::float_attribute(fill_array_.name(), 1, 0, 3, offsetof(FillVertex, low_m));
   gl::color_attribute(fill_array_.name(), 2, 0, offsetof(FillVertex, color));
-  line_array_ = gl::make_vertex_array();
-  const GLuint lines = line_array_.name();
-  for (GLuint k = 0; k < 4; ++k) {  // the previous vertex, this one, the next and the one after that
-    gl::float_attribute(lines, 2 * k, k, 3, offsetof(LineVertex, high_m));
-    gl::float_attribute(lines, 2 * k + 1, k, 3, offsetof(LineVertex, low_m));
-    glVertexArrayBindingDivisor(lines, k, 1);
-  }
-  gl::float_attribute(lines, 8, 1, 1, offsetof(LineVertex, width_px));
-  gl::color_attribute(lines, 9, 1, offsetof(LineVertex, color));
+  line_array_ = line_pieces_array();
 }
 
 void ObjectPass::set_layers(std::vector<DrawnLayer> layers) {
@@ -112,6 +104,18 @@ void ObjectPass::plan_fills() {
       }
     }
   }
+}
+
+bool ObjectPass::has_drapes() const {
+  return std::ranges::any_of(layers_, [](const DrawnLayer& layer) { return layer.objects->has_drapes(); });
+}
+
+Status ObjectPass::prepare_drapes(bool samples) {
+  if (!has_drapes() || (drapes_ && drapes_->has_samples() == samples)) return Done{};
+  auto made = DrapePass::create(depth_, samples);
+  if (!made) return made.error();
+  drapes_ = std::move(*made);
+  return Done{};
 }
 
 bool ObjectPass::has(ObjectPart part) const {
@@ -175,18 +179,13 @@ int ObjectPass::draw_markers(const DrawnLayer& layer, const ObjectDraw& draw) co
 }
 
 int ObjectPass::draw_lines(const DrawnLayer& layer, const ObjectDraw& draw) const {
-  constexpr std::size_t kVerticesOfAPiece = 4;
   int calls = 0;
   const auto [first, end] = buckets_of(draw.part, draw.opaque, draw.choice);
   for (std::size_t bucket = first; bucket < end; ++bucket) {
     const std::size_t count = layer.objects->batches().lines.bucket(bucket).items.size();
     if (count < kVerticesOfAPiece) continue;
     if (calls++ == 0) apply(draw.state.with(line_.name()));
-    glBindVertexArray(line_array_.name());
-    for (GLuint k = 0; k < kVerticesOfAPiece; ++k) {
-      glVertexArrayVertexBuffer(line_array_.name(), k, layer.buffers->lines[bucket].name(),
-                                static_cast<GLintptr>(k * sizeof(LineVertex)), sizeof(LineVertex));
-    }
+    bind_line_pieces(line_array_, layer.buffers->lines[bucket].name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count - kVerticesOfAPiece + 1));
   }
   return calls;

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <utility>
+
+#include "objects/ground/on_ground.h"
+#include "objects/layer_objects.h"
+
+// The objects of a layer that stand on the ground or lie on it.
+namespace terrella {
+SlotBatch<LineVertex>& LayerObjects::lines_of(HeightMode mode) {
+  return mode == HeightMode::clamp_to_ground ? batches_.draped_lines : batches_.lines;
+}
+
+bool LayerObjects::has_drapes() const {
+  return batches_.draped_lines.has(ObjectPart::above_ground) || batches_.draped_fills.has(ObjectPart::above_ground);
+}
+
+// A line that is cut anew mostly has as many vertices as before.
+void LayerObjects::put(KeptLine& line, std::span<const LineVertex> vertices) {
+  SlotBatch<LineVertex>& lines = lines_of(line.object->heights);
+  if (line.slot.count > 0 && line.slot.count == vertices.size()) {
+    std::ranges::copy(vertices, lines.change(line.slot).begin());
+    return;
+  }
+  lines.drop(line.slot);
+  line.slot = lines.add(bucket_of(line), vertices);
+}
+
+glm::dvec3 LayerObjects::place_of(const Geodetic& place, HeightMode mode) const {
+  return ellipsoid_.to_ecef(over_ground(place, mode, ground_)).xyz_m;
+}
+
+HeightMode LayerObjects::mode_of(PartRef part) const {
+  switch (part.kind) {
+    case ObjectKind::point:
+      return points_[part.index].object.heights;
+    case ObjectKind::line:
+      return lines_[part.index].object->heights;
+    case ObjectKind::polygon:
+      return areas_[part.index].object->heights;
+    case ObjectKind::mesh:
+      return meshes_[part.index].object.heights;
+    case ObjectKind::label:
+      break;
+  }
+  return labels_[part.index].object.heights;
+}
+
+bool LayerObjects::depends_on_ground(PartRef part) const {
+  const HeightMode mode = mode_of(part);
+  const bool is_shape = part.kind == ObjectKind::line || part.kind == ObjectKind::polygon;
+  return mode == HeightMode::relative_to_ground || (mode == HeightMode::clamp_to_ground && !is_shape);
+}
+
+void LayerObjects::follow(PartRef part, const std::function<bool(const Geodetic&)>& has_changed) {
+  const Kept& object = kept(part);
+  if (object.removed || !depends_on_ground(part)) return;
+  const auto stand = [&](auto& one) {
+    if (!has_changed(one.object.place)) return false;
+    one.place_m = place_of(one.object.place, one.object.heights);
+    return true;
+  };
+  bool moved = false;
+  if (part.kind == ObjectKind::point) {
+    moved = stand(points_[part.index]);
+  } else if (part.kind == ObjectKind::mesh) {
+    moved = stand(meshes_[part.index]);
+  } else if (part.kind == ObjectKind::label) {
+    stand(labels_[part.index]);
+  } else if (part.kind == ObjectKind::line) {
+    KeptLine& line = lines_[part.index];
+    if (std::ranges::none_of(line.object->places, has_changed)) return;
+    line.picked.reset();
+    if (std::exchange(line.asked, false)) ask_for(part.index, line);
+  } else {
+    KeptArea& area = areas_[part.index];
+    if (std::ranges::none_of(area.object->rings,
+                             [&](const auto& ring) { return std::ranges::any_of(ring, has_changed); })) {
+      return;
+    }
+    area.picked.reset();
+    area.asked_fill = area.asked_outline = false;
+    ask_for(part.index, area);
+  }
+  if (!moved) return;
+  draw_again(part);
+  if (index_) index_part(part);
+}
+
+void LayerObjects::follow(const Ground& ground, const std::function<bool(const Geodetic&)>& has_changed) {
+  ground_ = ground;
+  if (!stands_on_ground()) return;
+  const auto each = [&](ObjectKind kind, std::size_t count) {
+    for (std::uint32_t k = 0; k < count; ++k) follow({kind, k}, has_changed);
+  };
+  each(ObjectKind::point, points_.size());
+  each(ObjectKind::line, lines_.size());
+  each(ObjectKind::polygon, areas_.size());
+  each(ObjectKind::mesh, meshes_.size());
+  each(ObjectKind::label, labels_.size());
+}
+
+}  // namespace terrella
