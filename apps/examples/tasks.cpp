@@ -98,10 +98,10 @@ void draw_own(Globe& globe) {
   // [end]
 }
 
-Status follow_terrain(Globe& globe, LayerId fleet, Geodetic place) {
+Status follow_terrain(Globe& globe, LayerId fleet, const Geodetic& place) {
   // [follow the terrain]
-  place.height_m = globe.ground_height_m(place.lat, place.lon);
-  return globe.edit_objects(fleet, {.moves = {{ObjectId{2}, place}}});
+  const PointObject follower{.place = place, .of = {ObjectId{2}}, .heights = HeightMode::clamp_to_ground};
+  return globe.edit_objects(fleet, {.add = {.points = {follower}}});
   // [end]
 }
 
@@ -117,8 +117,7 @@ Status draw_map(Globe& globe, unsigned framebuffer, std::chrono::steady_clock::t
 
 ObjectScene fleet_of() {
   const auto feature = std::make_shared<ObjectFeature>(ObjectFeature{.properties = R"({"name": "TE 1"})"});
-  return {.points = {{.place = kAway, .size_px = 16.0F, .of = {.id = kAircraft, .feature = feature}},
-                     {.place = kAway, .of = {.id = ObjectId{2}}}}};
+  return {.points = {{.place = kAway, .size_px = 16.0F, .of = {.id = kAircraft, .feature = feature}}}};
 }
 
 Status do_tasks(const char* tiles, const char* output) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "tests/facade/geodetic_at.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -15,9 +16,6 @@ namespace {
 constexpr Viewport kLiving{160, 120};
 constexpr ObjectColor kRed{220, 20, 20}, kGreen{20, 200, 20};
 
-Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
-  return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
-}
 ObjectIdentity named(std::uint64_t id) { return {.id = ObjectId{id}}; }
 
 PointObject marker(std::uint64_t id, const Geodetic& place, ObjectColor color = kRed) {

@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/facade/geodetic_at.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -12,10 +13,6 @@ namespace {
 constexpr Viewport kPicked{200, 120};
 // A pixel of the projected place lies at most a tenth of a pixel from the pixel that was picked.
 constexpr double kInverse_px = 0.1;
-
-Geodetic at(double lat_deg, double lon_deg, double height_m = 0.0) {
-  return {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg), .height_m = height_m};
-}
 
 class Picks : public GlTest {
  protected:
