@@ -43,7 +43,7 @@ struct LayerBatches {
   std::array<std::vector<FillRun>, Batch<char>::kBuckets> fill_runs;  ///< per bucket of fill_indices, lowest first
   std::uint64_t fill_version = 0;                                     ///< counts changes of fill_runs
   std::vector<ModelStands> models;
-  /// What lies on the ground, each list in the order of the objects in one bucket.
+  /// Drapes on the ground, each list in the order of the objects in one bucket.
   static constexpr std::size_t kDraped = Batch<char>::kBuckets - 1;
   SlotBatch<LineVertex> draped_lines;
   SlotBatch<DrapeTriangle> draped_fills;

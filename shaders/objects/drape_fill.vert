@@ -19,6 +19,7 @@ flat out vec4 fill_color;
 
 const int kCorners[24] = int[24](0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 0, 3, 2, 3, 5);
 const float kAround_px = 1.0;                // the prism reaches further than the triangle
+const float kRounding = 1.0e-6;              // error of a plane's distance, relative to that of its places
 
 vec3 up_at(vec3 place_ecef) { return normalize(place_ecef * vec3(1.0, 1.0, polar_scale)); }
 
@@ -48,14 +49,18 @@ void main() {
   fill_color = color;
   gl_Position = kNowhere;
   if (color.a == 0.0) return;
-  bool clockwise = dot(cross(at[1] - at[0], at[2] - at[0]), place[0]) < 0.0;
+  vec3 across = cross(at[1] - at[0], at[2] - at[0]);
+  float longest = max(length(at[1] - at[0]), max(length(at[2] - at[1]), length(at[0] - at[2])));
+  float farthest = max(length(at[0]), max(length(at[1]), length(at[2])));
+  // A needle that is thinner than the rounding of its planes has no inside.
+  if (length(across) < kRounding * farthest * longest) return;
+  bool clockwise = dot(across, place[0]) < 0.0;
   int corner = kCorners[gl_VertexID], k = corner % 3;
   if (clockwise) {
     corner = kCorners[gl_VertexID - gl_VertexID % 3 + 2 - gl_VertexID % 3];
     k = corner % 3;
   }
   // A flat triangle lies under the ellipsoid by at most the square of its longest side over six radii.
-  float longest = max(length(at[1] - at[0]), max(length(at[2] - at[1]), length(at[0] - at[2])));
   float sag = longest * longest / (6.0 * length(place[0]));
   // Each side moves out by the same length.
   vec3 up = up_at(place[k]), to_next = at[(k + 1) % 3] - at[k], to_last = at[(k + 2) % 3] - at[k];
