@@ -98,7 +98,7 @@ TEST(BadInputTest, KindsOfTiffThatAreNotReadSaySo) {
   const ScratchFolder folder;
   TIFF* tiff = TIFFOpen((folder / "float.tif").c_str(), "w");
   for (const auto& [tag, value] :
-       {std::pair{TIFFTAG_IMAGEWIDTH, 4}, std::pair{TIFFTAG_IMAGELENGTH, 2}, std::pair{TIFFTAG_BITSPERSAMPLE, 16},
+       {std::pair{TIFFTAG_IMAGEWIDTH, 4}, std::pair{TIFFTAG_IMAGELENGTH, 2}, std::pair{TIFFTAG_BITSPERSAMPLE, 24},
         std::pair{TIFFTAG_SAMPLESPERPIXEL, 1}, std::pair{TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP},
         std::pair{TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK}}) {
     TIFFSetField(tiff, static_cast<std::uint32_t>(tag), value);
@@ -107,7 +107,7 @@ TEST(BadInputTest, KindsOfTiffThatAreNotReadSaySo) {
   TIFFWriteScanline(tiff, row.data(), 0, 0);
   TIFFWriteScanline(tiff, row.data(), 1, 0);
   TIFFClose(tiff);
-  expect_picture_refused(folder, folder / "float.tif", {"16 bits (floats)", "gdal_translate"});
+  expect_picture_refused(folder, folder / "float.tif", {"24 bits (floats)", "gdal_translate"});
 }
 
 class Output : public testing::Test {

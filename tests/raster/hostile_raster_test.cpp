@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Harm{"children_beyond_the_end", TiffBytes().set(330, kLong, 1, 0x7fffff00), "list of pictures"},
                     Harm{"no_compression_known", TiffBytes().set(259, kShort, 1, 999), "compression 999"},
                     Harm{"deflate_of_no_deflate", TiffBytes().set(259, kShort, 1, 8), "block 0, 0 of level 0"},
-                    Harm{"bits", TiffBytes().set(258, kShort, 1, 13), "13 bits"},
+                    Harm{"bits", TiffBytes().set(258, kShort, 1, 33), "33 bits"},
                     Harm{"samples", TiffBytes().set(277, kShort, 1, 0), ""},
                     Harm{"colours_without_samples", TiffBytes().set(262, kShort, 1, 2), "fewer samples"},
                     Harm{"colour_space", TiffBytes().set(262, kShort, 1, 8), "colour space"},
