@@ -44,7 +44,7 @@ struct LayerBatches {
   std::uint64_t fill_version = 0;                                     ///< counts changes of fill_runs
   SlotBatch<SolidVertex> solids;                                      ///< extruded areas: corners of triangles
   std::vector<ModelStands> models;
-  /// What lies on the ground, each list in the order of the objects in one bucket.
+  /// Objects that lie on the ground, each list in the order of the objects in one bucket.
   static constexpr std::size_t kDraped = Batch<char>::kBuckets - 1;
   SlotBatch<LineVertex> draped_lines;
   SlotBatch<DrapeTriangle> draped_fills;

@@ -213,7 +213,7 @@ bool ObjectPicker::reaches(const glm::dvec3& place_m, double reach_px, glm::dvec
   return px && glm::length(*px - pixel_px_) <= reach_px;
 }
 
-// Of a piece, its place nearest to the ground under the pixel counts, and its place straight before or behind it.
+// Two places of a piece count: the nearest to the ground under the pixel, and the one straight before or behind it.
 void ObjectPicker::along_ground(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way,
                                 float width_px) {
   const double reach_px = 0.5 * double(width_px) + options_.slack_px;

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <string>
 
 #include "caller_scene.h"
+#include "objects/object_picker.h"
+#include "objects/solid/solid_area.h"
 #include "tests/facade/geodetic_at.h"
 
 namespace terrella::test {
@@ -129,8 +132,15 @@ TEST_F(ExtrudedAreas, ATowerCoversThePixelsWhoseRaysMeetItInAllDepthModes) {
   }
 }
 
-// The Sun stands over the tower, so walls differ by their slant to the eye alone.
-TEST_F(ExtrudedAreas, AWallIsDarkerTheMoreItIsSlantedAndTheRoofIsLitByTheSun) {
+/// Brightness of a side: the light of spheres and models. The Sun stands over 23.4 degrees north at the summer
+/// solstice, and in the tower's south at 11:34 UTC.
+double light_of(const glm::dvec3& normal, const glm::dvec3& ray) {
+  const double sunny = std::clamp(
+      (glm::dot(normal, Ellipsoid::normal(Angle::degrees(23.4), Angle::degrees(kSolidLon)).xyz) + 0.5) / 1.3, 0.0, 1.0);
+  return (0.5 + 0.5 * std::abs(glm::dot(normal, ray))) * (0.8 + 0.28 * sunny * sunny * (3.0 - 2.0 * sunny));
+}
+
+TEST_F(ExtrudedAreas, EachSideIsLitByItsDirectionToTheEyeAndToTheSun) {
   GlobeOptions options;
   options.time = *parse_utc("2026-06-21T11:34Z");
   const auto globe = globe_with(options, false);
@@ -139,23 +149,30 @@ TEST_F(ExtrudedAreas, AWallIsDarkerTheMoreItIsSlantedAndTheRoofIsLitByTheSun) {
   const Picture shot = settled(*globe);
   const View view = globe->view(kScene);
   const TowerTruth truth(*globe);
-  std::array<double, 5> sum{}, expected{}, count{};
-  for (int y = 0; y < kScene.height_px; ++y) {
-    for (int x = 0; x < kScene.width_px; ++x) {
-      const glm::dvec3 ray = pixel_ray(view, {x + 0.5, y + 0.5}).xyz;
-      const int side = truth.side(view.eye.xyz_m, ray);
-      const glm::dvec3 beside = pixel_ray(view, {x + 2.5, y + 2.5}).xyz,
-                       before = pixel_ray(view, {x - 1.5, y - 1.5}).xyz;
-      if (side < 0 || truth.side(view.eye.xyz_m, beside) != side || truth.side(view.eye.xyz_m, before) != side)
+  std::array<std::vector<double>, 5> reds;
+  for (int y = 2; y < kScene.height_px - 2; ++y) {
+    for (int x = 2; x < kScene.width_px - 2; ++x) {
+      const auto side_at = [&](double dx, double dy) {
+        const glm::dvec2 px(x + 0.5 + dx, y + 0.5 + dy);
+        return meets(*globe, view, truth, false, px) ? truth.side(view.eye.xyz_m, pixel_ray(view, px).xyz) : -1;
+      };
+      const int side = side_at(0.0, 0.0);
+      if (side < 0 || side_at(2, 2) != side || side_at(-2, -2) != side || side_at(2, -2) != side ||
+          side_at(-2, 2) != side) {
         continue;
-      const auto s = static_cast<std::size_t>(side);
-      sum[s] += shot.at(x, y)[0];
-      expected[s] += 0.5 + 0.5 * std::abs(glm::dot(truth.normal(side), ray));
-      count[s] += 1.0;
+      }
+      const double red = double(shot.at(x, y)[0]);
+      reds[static_cast<std::size_t>(side)].push_back(red);
+      const double light = light_of(truth.normal(side), pixel_ray(view, {x + 0.5, y + 0.5}).xyz);
+      EXPECT_NEAR(red, kOpaqueBrick.red * light, 2.0) << side << " at " << x << " " << y;
     }
   }
-  for (std::size_t k = 0; k < 5; ++k)
-    std::printf("%zu: %g %g %g\n", k, count[k], sum[k] / count[k], expected[k] / count[k]);
+  const auto mean = [](const std::vector<double>& all) {
+    return std::accumulate(all.begin(), all.end(), 0.0) / double(all.size());
+  };
+  for (const std::size_t seen : {0U, 3U, 4U}) EXPECT_GT(reds[seen].size(), 100U) << seen;
+  EXPECT_GT(mean(reds[0]), mean(reds[3]) + 10.0) << "the south wall has the Sun";
+  EXPECT_GT(std::abs(mean(reds[4]) - mean(reds[0])), 2.0);
 }
 
 TEST_F(ExtrudedAreas, PicksFindRoofAndWallsAtTheirDistance) {
@@ -216,6 +233,47 @@ TEST_F(ExtrudedAreas, EditsChangeColourSightAndSelectionWithoutANewCut) {
   EXPECT_EQ(after({.id = id, .fill = kOpaqueBrick}), whole);
   EXPECT_TRUE(globe->edit_objects(layer, {.remove = {id}}));
   EXPECT_EQ(settled(*globe).rgba, bare);
+}
+
+// Rings in both directions, a courtyard, ±180 degrees and a pole.
+TEST(ExtrudedShapes, EachWallLooksOutOfTheAreaAndIsCounterclockwiseFromOutside) {
+  using Rings = std::vector<std::vector<Geodetic>>;
+  const std::vector<Geodetic> yard{at(45.97, 6.97), at(45.97, 7.03), at(46.03, 7.0)};
+  const std::vector<Geodetic> yard_back(yard.rbegin(), yard.rend());
+  std::vector<Geodetic> back = tower_corners();
+  std::ranges::reverse(back);
+  const Ellipsoid e = earth().ellipsoid;
+  for (const Rings& rings : {Rings{tower_corners()},
+                             {back},
+                             {back, yard},
+                             {back, yard_back},
+                             {tower_corners(), yard_back},
+                             {{at(-1, 179.5), at(-1, -179.5), at(1, -179.5), at(1, 179.5)}},
+                             {{at(80, 0), at(80, 120), at(80, -120)}}}) {
+    const PolygonObject area{.rings = rings, .extrude_m = kHigh_m};
+    const FillMesh roof = fill_area(roof_of(area), e, 1'000'000);
+    const auto solid = solid_of(area, roof, e, kLineStep);
+    const PickArea truth(area, e);
+    ASSERT_GT(solid.size(), roof.indices.size());
+    const auto corner = [&](std::size_t k) { return glm::dvec3(solid[k].high_m) + glm::dvec3(solid[k].low_m); };
+    int faults = 0;
+    for (std::size_t k = 0; k < solid.size(); k += 3) {
+      const glm::dvec3 a = corner(k), b = corner(k + 1), c = corner(k + 2), normal(solid[k].normal);
+      const glm::dvec3 middle = (a + b + c) / 3.0, faces = glm::cross(b - a, c - a);
+      constexpr double kSliver_m2 = 1.0;  // a pole has triangles without a size
+      faults += glm::dot(faces, normal) > 0.99 * glm::length(faces) - kSliver_m2 ? 0 : 1;
+      if (k < roof.indices.size()) {
+        faults += glm::dot(normal, glm::normalize(middle)) > 0.9 ? 0 : 1;
+        continue;
+      }
+      const auto covers = [&](double out_m) {
+        const Geodetic place = e.to_geodetic(Ecef{middle + out_m * normal});
+        return truth.covers({place.lon.deg(), place.lat.deg()});
+      };
+      faults += covers(20.0) || !covers(-20.0) ? 1 : 0;
+    }
+    EXPECT_EQ(faults, 0) << rings.size() << " rings, the first at " << rings[0][0].lat.deg();
+  }
 }
 
 }  // namespace
