@@ -94,6 +94,7 @@ class ExtrudedAreas : public GlTest {
  protected:
   static std::unique_ptr<Globe> globe_with(GlobeOptions options, bool hills) {
     options.relief_meshes_per_frame = 10000;
+    options.exaggeration = 4.0;  // over 10 km the ground rises by hundreds of metres
     auto imagery = one_colour({.tile_px = 16, .max_level = 1}, kGrass);
     auto globe = hills ? Globe::create(options, imagery, *ElevationSource::open(wave_heights(), "waves"))
                        : Globe::create(options, imagery);
@@ -233,6 +234,22 @@ TEST_F(ExtrudedAreas, EditsChangeColourSightAndSelectionWithoutANewCut) {
   EXPECT_EQ(after({.id = id, .fill = kOpaqueBrick}), whole);
   EXPECT_TRUE(globe->edit_objects(layer, {.remove = {id}}));
   EXPECT_EQ(settled(*globe).rgba, bare);
+}
+
+TEST_F(ExtrudedAreas, ATowerFollowsTheGroundWhenItChanges) {
+  const auto globe = globe_with(unlit_options(), true);
+  globe->set_camera(tower_views()[1]);
+  for (const HeightMode heights : {HeightMode::clamp_to_ground, HeightMode::relative_to_ground}) {
+    globe->set_exaggeration(4.0);
+    const LayerId layer = *globe->add_objects(tower(kOpaqueBrick, heights));
+    const auto low = settled(*globe).rgba;
+    globe->set_exaggeration(8.0);
+    const auto high = settled(*globe).rgba;
+    EXPECT_NE(high, low);
+    ASSERT_TRUE(globe->set_objects(layer, tower(kOpaqueBrick, heights)));
+    EXPECT_EQ(settled(*globe).rgba, high);
+    ASSERT_TRUE(globe->remove(layer));
+  }
 }
 
 // Rings in both directions, a courtyard, ±180 degrees and a pole.
