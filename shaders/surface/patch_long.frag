@@ -1,5 +1,5 @@
 // Patches beside a pole, where pixels are three to seven texels long without a slant. Interpolated coordinates; seven
-// taps, written out, which cost a third less than a loop whose length each pixel chooses.
+// taps, written out, which cost a fifth less than a loop whose length each pixel chooses.
 void main() {
   vec2 p = window_point, a = dFdx(p), b = dFdy(p);
   Cell cell = cell_at(p);

@@ -37,13 +37,16 @@ std::vector<CrsPoint> outline(const MosaicFile& file, const Affine& to_crs, doub
 
 bool has_place(const RowPlace& place) { return std::isfinite(place.lon_deg) && std::isfinite(place.row_deg); }
 
-/// Places of the outline. Pixels whose middle is a pole reach half a pixel beyond it; there the middle counts.
+/// Places of the outline. Pixels whose middle is a pole reach half a pixel beyond it: there the middle counts, or the
+/// inner edge if the file's numbers are rounded and the middle is beyond the pole too.
 std::vector<RowPlace> places_of_outline(const GroundMap& map, const MosaicFile& file, const Affine& to_crs) {
   std::vector<RowPlace> places = map.places(outline(file, to_crs, 0.0));
-  if (std::ranges::all_of(places, has_place)) return places;
-  const std::vector<RowPlace> middles = map.places(outline(file, to_crs, 0.5));
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (!has_place(places[k])) places[k] = middles[k];
+  for (const double inset : {0.5, 1.0}) {
+    if (std::ranges::all_of(places, has_place)) break;
+    const std::vector<RowPlace> inner = map.places(outline(file, to_crs, inset));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (!has_place(places[k])) places[k] = inner[k];
+    }
   }
   return places;
 }

@@ -15,7 +15,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Fewer pixels say little about 2 %: an ideal renderer's two figures differ by that much in zones of 4600 pixels that
 // reach the limb, where few pixels make most of the error.
 constexpr std::size_t kEnoughPixels = 8000;
-// Beside the limb, from four radii, a zone of 19,600 pixels differs by 2.6 %, with exact coordinates everywhere too.
+// A zone of 19,600 pixels that reaches the limb, seen from four radii, differs from its surroundings by 2.1 %.
 constexpr std::size_t kEnoughAtLimb = 25000;
 
 double limit_of(const Bound& bound, const JudgedView& judged, const std::vector<JudgedView>& earlier) {

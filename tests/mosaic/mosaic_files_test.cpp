@@ -133,6 +133,27 @@ TEST(MosaicFilesTest, HeightsInFeetBecomeMetresAndOtherUnitsAreRefused) {
   EXPECT_NE(refused.error().message.find("\"K\""), std::string::npos) << refused.error().message;
 }
 
+// A planet whose pixels' middles lie on both poles, as ETOPO has them, with bounds that were rounded outwards.
+TEST(MosaicFilesTest, RowsOfPolesMayLieBeyondThemByRounding) {
+  const ScratchFolder folder;
+  const auto value = [](int x, int y) { return 10 * x + y; };
+  const Cell exact{.west_deg = -182.5, .north_deg = 92.5, .pixel_deg = 5.0, .width_px = 72, .height_px = 37};
+  Cell rounded = exact;
+  rounded.pixel_deg += 1e-5;  // beyond both poles
+  rounded.north_deg += 2e-4;
+  std::filesystem::create_directories(folder / "exact");
+  std::filesystem::create_directories(folder / "rounded");
+  write_cell(folder / "exact/etopo.tif", exact, value);
+  write_cell(folder / "rounded/etopo.tif", rounded, value);
+  const auto a = must_open(folder / "exact", {.tile_px = 16}), b = must_open(folder / "rounded", {.tile_px = 16});
+  ASSERT_EQ(a->info().grid.max_level, b->info().grid.max_level);
+  for (const TileId& id : tiles_of(a->info().grid, a->info().grid.max_level)) {
+    const BlockDifference found = difference(must_read(*a, id), must_read(*b, id));
+    EXPECT_EQ(found.one_only, 0);
+    EXPECT_LE(found.largest, 0.1);  // rows lie 4e-5 pixels apart, columns 1.4e-4 by the end, where a step is 710
+  }
+}
+
 TEST(MosaicFilesTest, ListsAndDescriptionsNameFilesAndFolders) {
   const ScratchFolder folder;
   write_cells(folder, 4, 1);
