@@ -60,7 +60,7 @@ struct PointIcon {
 /// follow it when heights arrive, without a call.
 enum class HeightMode {
   absolute,            ///< metres over the ellipsoid
-  clamp_to_ground,     ///< unused: points stand on the ground, lines and areas lie on it as if they were painted there
+  clamp_to_ground,     ///< unused: points stand on the ground, lines and flat areas lie on it as if painted
   relative_to_ground,  ///< metres over the ground under each place
 };
 
@@ -88,6 +88,10 @@ struct LineObject {
 
 /// An area with holes: all that an odd number of rings encloses. geo/great_circle.h defines edges, ±180° and poles. The
 /// fill lies at one height, the mean height of the places. The stroke follows the height of each place.
+///
+/// An extruded area is a body: a roof, `extrude_m` over the fill's height, and vertical walls under it, both lit, in
+/// the colour of the fill. The stroke goes round the roof. Walls begin at the fill's height. With the other height
+/// modes they begin at the lowest ground under the edges, and the roof counts from the mean ground under the places.
 struct PolygonObject {
   std::vector<std::vector<Geodetic>> rings = {};  ///< the last place of a ring may repeat its first
   ObjectColor fill{230, 60, 50, 90};              ///< alpha 0: no fill
@@ -96,6 +100,7 @@ struct PolygonObject {
   bool through_surface = false;
   ObjectIdentity of = {};
   HeightMode heights = HeightMode::absolute;
+  double extrude_m = 0.0;  ///< height of the walls, metres; not over 0: a flat area
 };
 
 /// A text, UTF-8, to the right of the marker or sphere at a place.
@@ -163,6 +168,13 @@ struct ObjectScene {
     return points.empty() && lines.empty() && polygons.empty() && labels.empty() && meshes.empty();
   }
 };
+
+/// True if a line or an area lies on the ground as if it were painted there. An extruded area stands on the ground.
+[[nodiscard]] inline bool is_draped(const LineObject& line) { return line.heights == HeightMode::clamp_to_ground; }
+[[nodiscard]] inline bool is_extruded(const PolygonObject& polygon) { return polygon.extrude_m > 0.0; }
+[[nodiscard]] inline bool is_draped(const PolygonObject& polygon) {
+  return polygon.heights == HeightMode::clamp_to_ground && !is_extruded(polygon);
+}
 
 /// True if any place of the object lies under the ground (height < 0). The surface is then drawn over the object. An
 /// object that is clamped to the ground does not lie under it.

@@ -35,15 +35,33 @@ std::vector<DrapeTriangle> drape_of(const FillMesh& mesh) {
   return drape;
 }
 
+/// Cuts an extruded area. Its outlines go round the roof.
+AreaCut cut_solid(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
+  AreaCut cut{.index = area.index};
+  const PolygonObject roof = roof_of(*area.shape);
+  double lift_m = sag_m(job.ellipsoid, job.step);
+  if (area.fill) {
+    const FillMesh mesh = fill_area(roof, job.ellipsoid, most_triangles);
+    if (!mesh.indices.empty()) cut.solid = solid_of(*area.shape, mesh, job.ellipsoid, job.step);
+    cut.dropped = cut.solid.empty() || cut.solid.size() / 3 > most_triangles;
+    if (cut.dropped) cut.solid.clear();
+    lift_m = std::max(lift_m, mesh.lift_m);
+  }
+  if (!area.outline) return cut;
+  for (const auto& ring : roof.rings) append_way(outline(ring, job.ellipsoid, job.step, lift_m), true, cut.outline);
+  return cut;
+}
+
 /// Outlines lie at the height of the fill.
 AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
   AreaCut cut{.index = area.index};
   const PolygonObject& shape = *area.shape;
+  if (is_extruded(shape)) return cut_solid(area, job, most_triangles);
   double lift_m = sag_m(job.ellipsoid, job.step);
   if (area.fill) {
     FillMesh mesh = fill_area(shape, job.ellipsoid, most_triangles);
     cut.dropped = mesh.indices.empty();
-    if (shape.heights == HeightMode::clamp_to_ground) {
+    if (is_draped(shape)) {
       cut.draped = drape_of(mesh);
       mesh = {};
     }
@@ -62,6 +80,10 @@ AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_t
 }
 
 }  // namespace
+
+std::size_t triangles_of(const AreaCut& cut) {
+  return (cut.triangles.size() + cut.solid.size()) / 3 + cut.draped.size();
+}
 
 bool CutJob::is_large() const {
   double pieces = 0.0;
@@ -99,7 +121,7 @@ CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop) {
   for (const CutJob::Area& area : job.areas) {
     if (stop) return cut;
     cut.areas.push_back(cut_area(area, job, job.most_triangles));
-    job.most_triangles -= cut.areas.back().triangles.size() / 3 + cut.areas.back().draped.size();
+    job.most_triangles -= triangles_of(cut.areas.back());
   }
   std::ranges::sort(cut.areas, {}, &AreaCut::index);
   return cut;

@@ -8,6 +8,7 @@
 #include "geo/ellipsoid.h"
 #include "objects/object_batches.h"
 #include "objects/object_shapes.h"
+#include "objects/solid/solid_area.h"
 
 namespace terrella {
 
@@ -27,9 +28,13 @@ struct AreaCut {
   std::vector<FillVertex> fill = {};
   std::vector<std::uint32_t> triangles = {};
   std::vector<DrapeTriangle> draped = {};  ///< in place of these two, if the area lies on the ground
+  std::vector<SolidVertex> solid = {};     ///< in place of all these, if the area is extruded
   std::vector<LineVertex> outline = {};
   bool dropped = false;  ///< the fill is invalid, or the layer would have more than kMostFillTriangles
 };
+
+/// Returns the number of triangles of a fill.
+[[nodiscard]] std::size_t triangles_of(const AreaCut& cut);
 
 /// Lines and areas to be cut, which is the slow part of drawing them. Only the places of the objects are read.
 struct CutJob {

@@ -44,7 +44,7 @@ struct KeptLine : Kept {
 struct KeptArea : Kept {
   std::shared_ptr<PolygonObject> object;
   double height_m = 0.0;
-  Slot fill = {}, triangles = {}, outline = {};  ///< a draped fill is its triangles
+  Slot fill = {}, triangles = {}, outline = {};  ///< a draped or extruded fill is its triangles
   bool asked_fill = false, asked_outline = false;
   std::unique_ptr<PickArea> picked = {};
 };

@@ -42,8 +42,9 @@ struct LayerBatches {
   SlotBatch<std::uint32_t> fill_indices;
   std::array<std::vector<FillRun>, Batch<char>::kBuckets> fill_runs;  ///< per bucket of fill_indices, lowest first
   std::uint64_t fill_version = 0;                                     ///< counts changes of fill_runs
+  SlotBatch<SolidVertex> solids;                                      ///< extruded areas: corners of triangles
   std::vector<ModelStands> models;
-  /// Drapes on the ground, each list in the order of the objects in one bucket.
+  /// Objects that lie on the ground, each list in the order of the objects in one bucket.
   static constexpr std::size_t kDraped = Batch<char>::kBuckets - 1;
   SlotBatch<LineVertex> draped_lines;
   SlotBatch<DrapeTriangle> draped_fills;

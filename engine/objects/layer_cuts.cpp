@@ -80,10 +80,12 @@ void LayerObjects::place(AreaCut& cut) {
   if (area.removed) return;
   replaced_ += area.fill.count + area.outline.count > 0 ? 1U : 0U;
   drop({ObjectKind::polygon, cut.index});
-  triangles_ += cut.triangles.size() / 3 + cut.draped.size();
+  triangles_ += triangles_of(cut);
   fills_dropped_ += cut.dropped ? 1U : 0U;
-  area.outline = lines_of(area.object->heights).add(outline_bucket(area), cut.outline);
-  if (area.object->heights == HeightMode::clamp_to_ground) {
+  area.outline = lines_of(is_draped(*area.object)).add(outline_bucket(area), cut.outline);
+  if (is_extruded(*area.object)) {
+    area.fill = batches_.solids.add(fill_bucket(area), cut.solid);
+  } else if (is_draped(*area.object)) {
     area.fill = batches_.draped_fills.add(LayerBatches::kDraped, cut.draped);
   } else {
     put_fill(area, cut.fill, std::move(cut.triangles));
@@ -106,17 +108,17 @@ void LayerObjects::place_all_again() {
   }
   for (KeptLine& line : lines_) {
     if (line.removed) continue;
-    const bool draped = line.object->heights == HeightMode::clamp_to_ground;
-    line.slot =
-        lines_of(line.object->heights).add(bucket_of(line), (draped ? old.draped_lines : old.lines).at(line.slot));
+    const bool draped = is_draped(*line.object);
+    line.slot = lines_of(draped).add(bucket_of(line), (draped ? old.draped_lines : old.lines).at(line.slot));
     draw(line);
   }
   for (KeptArea& area : areas_) {
     if (area.removed) continue;
-    const bool draped = area.object->heights == HeightMode::clamp_to_ground;
-    area.outline = lines_of(area.object->heights)
-                       .add(outline_bucket(area), (draped ? old.draped_lines : old.lines).at(area.outline));
-    if (draped) {
+    const bool draped = is_draped(*area.object);
+    area.outline = lines_of(draped).add(outline_bucket(area), (draped ? old.draped_lines : old.lines).at(area.outline));
+    if (is_extruded(*area.object)) {
+      area.fill = batches_.solids.add(fill_bucket(area), old.solids.at(area.fill));
+    } else if (draped) {
       area.fill = batches_.draped_fills.add(LayerBatches::kDraped, old.draped_fills.at(area.fill));
     } else {
       put_fill(area, old.fill_vertices.at(area.fill), own_triangles(old, area));

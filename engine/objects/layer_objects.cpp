@@ -155,6 +155,7 @@ bool LayerObjects::has(ObjectPart part) const {
   }
   if (batches_.markers.has(part) || batches_.icons.has(part)) return true;
   if (batches_.lines.has(part) || batches_.fill_vertices.has(part)) return true;
+  if (batches_.solids.has(part)) return true;
   return std::ranges::any_of(batches_.models, [part](const ModelStands& model) { return model.stands.has(part); });
 }
 

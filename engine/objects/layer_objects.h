@@ -88,7 +88,7 @@ class LayerObjects {
   void take_away(PartRef part);
   void order_labels(std::size_t first);
   void forget_removed();
-  // layer_slots.cpp and layer_cuts.cpp: objects in the batches
+  // layer_slots.cpp, layer_cuts.cpp and solid/layer_solids.cpp: objects in the batches
   [[nodiscard]] std::size_t bucket_of(bool underground, const ObjectColor& color, bool chosen) const;
   [[nodiscard]] std::size_t bucket_of(const KeptPoint& point) const;
   [[nodiscard]] std::size_t bucket_of(const KeptLine& line) const;
@@ -100,6 +100,7 @@ class LayerObjects {
   void draw(KeptLine& line);
   void draw(KeptArea& area);
   void draw(KeptMesh& mesh);
+  void draw_solid(KeptArea& area);
   /// Returns an area's triangles as indices of its own vertices.
   [[nodiscard]] static std::vector<std::uint32_t> own_triangles(const LayerBatches& batches, const KeptArea& area);
   void put_fill(KeptArea& area, std::span<const FillVertex> fill, std::vector<std::uint32_t> triangles);
@@ -115,7 +116,7 @@ class LayerObjects {
   [[nodiscard]] IconInstance icon(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
   // layer_ground.cpp: objects on the ground
-  [[nodiscard]] SlotBatch<LineVertex>& lines_of(HeightMode mode);
+  [[nodiscard]] SlotBatch<LineVertex>& lines_of(bool draped);
   void put(KeptLine& line, std::span<const LineVertex> vertices);
   [[nodiscard]] glm::dvec3 place_of(const Geodetic& place, HeightMode mode) const;
   /// Shares the object if its heights do not depend on the ground.

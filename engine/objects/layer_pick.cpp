@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "objects/layer_objects.h"
 #include "objects/object_shapes.h"
@@ -62,7 +63,10 @@ void LayerObjects::index_part(PartRef part) {
   } else if (part.kind == ObjectKind::line) {
     index_->put(item_of(part), ball_of({as_cut(lines_[part.index].object)->places}, ellipsoid_, false));
   } else if (part.kind == ObjectKind::polygon) {
-    index_->put(item_of(part), ball_of(as_cut(areas_[part.index].object)->rings, ellipsoid_, true));
+    const auto shape = as_cut(areas_[part.index].object);
+    std::vector<std::vector<Geodetic>> rings = shape->rings;
+    if (is_extruded(*shape)) std::ranges::copy(roof_of(*shape).rings, std::back_inserter(rings));
+    index_->put(item_of(part), ball_of(rings, ellipsoid_, true));
   } else if (const KeptMesh& mesh = meshes_[part.index]; mesh.object.model) {
     index_->put(item_of(part), {mesh.place_m, batches_.models[mesh.model].reach_m * mesh.object.scale});
   }

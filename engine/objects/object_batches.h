@@ -61,6 +61,15 @@ struct FillVertex {
 };
 static_assert(sizeof(FillVertex) == 28);
 
+/// A corner of a triangle of an extruded area. Positions are Earth-fixed; both sides of a triangle are drawn.
+struct SolidVertex {
+  glm::vec3 high_m;
+  glm::vec3 low_m;
+  glm::vec3 normal;  ///< outwards, unit, Earth-fixed
+  ObjectColor color;
+};
+static_assert(sizeof(SolidVertex) == 40);
+
 /// A triangle of an area that lies on the ground, corners on the ellipsoid, counterclockwise or not.
 struct DrapeTriangle {
   std::array<glm::vec3, 3> high_m;

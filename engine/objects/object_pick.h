@@ -29,8 +29,9 @@ struct PickOptions {
 
 /// Returns the object under a pixel (as in geo/coordinates.h) that is nearest to the eye. At equal distance, points win
 /// over lines and lines over areas, and a later object over an earlier one. Markers and lines are tested by their size
-/// on the screen, spheres and areas by their shape, meshes by their bounding sphere, labels not at all. Takes about 1
-/// µs per vertex of all objects in the scene. thread: main if the ground has heights, else thread: any
+/// on the screen, spheres and areas by their shape (roof and walls if they are extruded), meshes by their bounding
+/// sphere, labels not at all. Takes about 1 µs per vertex of all objects in the scene. thread: main if the ground has
+/// heights, else thread: any
 [[nodiscard]] std::optional<PickedObject> pick_object(const View& view, const Ground& ground, const ObjectScene& scene,
                                                       glm::dvec2 pixel_px, const PickOptions& options = {});
 

@@ -9,6 +9,7 @@
 
 #include "geo/great_circle.h"
 #include "objects/object_shapes.h"
+#include "objects/solid/solid_area.h"
 
 namespace terrella {
 namespace {
@@ -64,8 +65,11 @@ PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid) {
 }
 
 PickArea::PickArea(const PolygonObject& polygon, const Ellipsoid& ellipsoid)
-    : rings(map_rings(polygon)), height_m(mean_height_m(polygon)) {
-  for (const auto& ring : polygon.rings) {
+    : rings(map_rings(polygon)),
+      height_m(mean_height_m(polygon)),
+      depth_m(is_extruded(polygon) ? polygon.extrude_m : 0.0) {
+  height_m += depth_m;
+  for (const auto& ring : depth_m > 0.0 ? roof_of(polygon).rings : polygon.rings) {
     outlines.emplace_back(outline(ring, ellipsoid, pick_step(ring), 0.0));
   }
   box = bounds_of(rings);
@@ -158,7 +162,7 @@ void ObjectPicker::mesh(const MeshObject& mesh, const glm::dvec3& place_m, doubl
 }
 
 void ObjectPicker::line(const LineObject& line, const PickWay& way, std::size_t index) {
-  const auto find = line.heights == HeightMode::clamp_to_ground ? &ObjectPicker::along_ground : &ObjectPicker::along;
+  const auto find = is_draped(line) ? &ObjectPicker::along_ground : &ObjectPicker::along;
   (this->*find)(ObjectKind::line, index, line.of, way, line.width_px);
 }
 
@@ -209,7 +213,7 @@ bool ObjectPicker::reaches(const glm::dvec3& place_m, double reach_px, glm::dvec
   return px && glm::length(*px - pixel_px_) <= reach_px;
 }
 
-// A piece counts by its place nearest to the ground under the pixel, and by its place straight before or behind it.
+// Two places of a piece count: the nearest to the ground under the pixel, and the one straight before or behind it.
 void ObjectPicker::along_ground(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way,
                                 float width_px) {
   const double reach_px = 0.5 * double(width_px) + options_.slack_px;
@@ -235,7 +239,7 @@ void ObjectPicker::along_ground(ObjectKind kind, std::size_t index, const Object
 
 // The fill lies at one height, so the ray is intersected with the body raised by that height.
 void ObjectPicker::area(const PolygonObject& polygon, const PickArea& area, std::size_t index) {
-  const bool draped = polygon.heights == HeightMode::clamp_to_ground;
+  const bool draped = is_draped(polygon);
   if (polygon.stroke.alpha > 0) {
     const auto find = draped ? &ObjectPicker::along_ground : &ObjectPicker::along;
     for (const PickWay& way : area.outlines) {
@@ -249,6 +253,7 @@ void ObjectPicker::area(const PolygonObject& polygon, const PickArea& area, std:
     }
     return;
   }
+  if (area.depth_m > 0.0) walls(polygon, area, index);
   const Ellipsoid& e = ground_.ellipsoid();
   const double a_m = e.a_m() + area.height_m, b_m = e.b_m() + area.height_m;
   const auto distance = Ellipsoid(a_m, 1.0 - b_m / a_m).intersect_m(view_.eye, EcefDir{ray_});

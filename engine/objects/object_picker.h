@@ -18,7 +18,7 @@ struct PickWay {
   std::vector<Ball> runs;
 };
 
-/// An area as it is picked.
+/// An area as it is picked; the roof, if it is extruded.
 struct PickArea {
   PickArea(const PolygonObject& polygon, const Ellipsoid& ellipsoid);
   /// True if the fill covers the place: the even-odd rule in the plane in which rings_of() cuts the rings.
@@ -27,6 +27,7 @@ struct PickArea {
   std::vector<MapRing> rings;
   MapRect box{0.0, 0.0, 0.0, 0.0};
   double height_m;
+  double depth_m;  ///< height of the walls under the outlines; 0: no walls
 };
 
 [[nodiscard]] PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid);
@@ -63,6 +64,7 @@ class ObjectPicker {
   void sphere(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const Ball& ball);
   void along(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way, float width_px);
   [[nodiscard]] bool in_icon(const PointObject& icon, const glm::dvec3& place_m, const glm::dvec2& at_px) const;
+  void walls(const PolygonObject& polygon, const PickArea& area, std::size_t index);
   void along_ground(ObjectKind kind, std::size_t index, const ObjectIdentity& of, const PickWay& way, float width_px);
   [[nodiscard]] bool reaches(const glm::dvec3& place_m, double reach_px, glm::dvec3& at_m) const;
   [[nodiscard]] const std::optional<Geodetic>& place();

@@ -40,6 +40,12 @@ vec4 clip_of(vec3 position_view, float pull) {
   return vec4(position_view.xy * clip_scale.xy, vertex_depth(w * pull) / pull, w);
 }
 
+// Light on a side that faces the eye: like spheres, darker at a slant, and a little brighter on the sun's side.
+float light_on(vec3 normal_ecef, vec3 to_eye) {
+  float sunny = mix(0.8, 1.08, smoothstep(-0.5, 0.8, dot(normal_ecef, sun_ecef.xyz)));
+  return mix(1.0, mix(0.5, 1.0, dot(normal_ecef, to_eye)) * sunny, sun_ecef.w);
+}
+
 // A triangle around the unit circle, which needs half as many triangles as a square.
 vec2 corner_of(int vertex) {
   const float s = 1.7320508;

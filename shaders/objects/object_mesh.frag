@@ -23,9 +23,8 @@ void main() {
   vec3 to_eye = -normalize(way_ecef);
   vec3 normal = normalize(dot(normal_ecef, normal_ecef) > 0.0 ? normal_ecef : flat_normal);
   if (dot(normal, to_eye) < 0.0) normal = -normal;
-  float light = mix(0.5, 1.0, dot(normal, to_eye)) * mix(0.8, 1.08, smoothstep(-0.5, 0.8, dot(normal, sun_ecef.xyz)));
   vec3 srgb = mix(srgb_of(clamp(color.rgb, 0.0, 1.0)), tint.rgb, tint.a);
-  color_srgb = vec4(srgb * mix(1.0, light, sun_ecef.w), mix(1.0, color.a, alpha.y));
+  color_srgb = vec4(srgb * light_on(normal, to_eye), mix(1.0, color.a, alpha.y));
   if (in_air()) color_srgb.rgb = seen_through(color_srgb.rgb, air_through, air_light);
   WRITE_DEPTH(pull);
 }

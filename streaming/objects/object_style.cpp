@@ -186,12 +186,12 @@ std::optional<ObjectColor> read_color(std::string_view text) {
 }
 
 ObjectStyle read_object_style(const json& properties, const Complain& complain) {
-  constexpr double kMostRadius_m = 1.0e9, kMostWidth_px = 256.0, kLeastScale = 1.0e-6, kMostScale = 1.0e6;
+  constexpr double kMostLength_m = 1.0e9, kMostWidth_px = 256.0, kLeastScale = 1.0e-6, kMostScale = 1.0e6;
   const StyleReader reader(properties, complain);
   ObjectStyle style = simplestyle_defaults();
   set_color(style.point.color, reader.color("marker-color"));
   if (const auto size = reader.marker_size()) style.point.size_px = *size;
-  if (const auto radius = reader.number("radius_m", 0.0, kMostRadius_m)) style.point.radius_m = *radius;
+  if (const auto radius = reader.number("radius_m", 0.0, kMostLength_m)) style.point.radius_m = *radius;
   const auto stroke = reader.color("stroke");
   const auto stroke_opacity = reader.number("stroke-opacity", 0.0, 1.0);
   const auto stroke_width = reader.number("stroke-width", 0.0, kMostWidth_px);
@@ -202,6 +202,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   if (stroke_width) style.line.width_px = style.polygon.stroke_width_px = static_cast<float>(*stroke_width);
   set_color(style.polygon.fill, reader.color("fill"));
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
+  style.polygon.extrude_m = reader.number("extrude_m", 0.0, kMostLength_m).value_or(0.0);
   const bool through = reader.flag("through_surface");
   read_icon(reader, style);
   style.model = reader.text("model");

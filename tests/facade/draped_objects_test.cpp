@@ -76,8 +76,8 @@ class DrapedObjects : public GlTest {
   }
 };
 
-/// Visibility of a place on the ground. A crest is drawn within half a pixel, so a place that a ray a pixel lower
-/// misses may be hidden or not.
+/// Sight of a place over the ground before it. A crest is drawn within half a pixel, so a place that a ray a pixel
+/// lower misses may be hidden or not.
 enum class Sight { open, doubtful, hidden };
 Sight sight_of(const Globe& globe, const View& view, const Ecef& place, const glm::dvec2& px) {
   const double away_m = glm::length(place.xyz_m - view.eye.xyz_m);
@@ -314,7 +314,7 @@ TEST_F(DrapedObjects, PointsFollowTheGroundWhenHeightsArriveAndChange) {
   }
 }
 
-// Picks find drapes where they are drawn, and not beside them.
+// Lines and areas on the ground are picked where they are drawn, and not beside.
 TEST_F(DrapedObjects, PicksFindWhatLiesOnTheGround) {
   const auto globe = hilly_globe(5.0);
   const auto places = winding(0.1), corners = meadow(0.1);

@@ -103,6 +103,20 @@ TEST(GeojsonObjects, AnAltitudeModeSaysWhatHeightsMean) {
   for (const std::size_t k : {1U, 2U, 3U}) EXPECT_EQ(file.scene.points[k].heights, HeightMode::absolute);
 }
 
+TEST(GeojsonObjects, AnAreaIsExtrudedByMetres) {
+  const std::string area = geometry("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]");
+  std::string features = feature(area, R"({"extrude_m":120.5})") + "," + feature(area);
+  for (const char* wrong : {"\"tall\"", "-3", "2e9"}) {
+    features += "," + feature(area, fmt::format(R"({{"extrude_m":{}}})", wrong));
+  }
+  const ObjectFile file = good(collection(features));
+  const auto complaint = HasSubstr("\"extrude_m\" must be a number from 0 to 1000000000");
+  EXPECT_THAT(file.complaints, ElementsAre(complaint, complaint, complaint));
+  ASSERT_EQ(file.scene.polygons.size(), 5U);
+  EXPECT_EQ(file.scene.polygons[0].extrude_m, 120.5);
+  for (const std::size_t k : {1U, 2U, 3U, 4U}) EXPECT_EQ(file.scene.polygons[k].extrude_m, 0.0);
+}
+
 TEST(GeojsonObjects, StylesAreSimplestyleRadiusAndThroughSurface) {
   const ObjectFile file = good(collection(
       feature(kPoint, R"({"marker-color":"#1E90ff","marker-size":"large","title":"Here","through_surface":true})") +

@@ -6,9 +6,7 @@
 
 // The objects of a layer that stand on the ground or lie on it.
 namespace terrella {
-SlotBatch<LineVertex>& LayerObjects::lines_of(HeightMode mode) {
-  return mode == HeightMode::clamp_to_ground ? batches_.draped_lines : batches_.lines;
-}
+SlotBatch<LineVertex>& LayerObjects::lines_of(bool draped) { return draped ? batches_.draped_lines : batches_.lines; }
 
 bool LayerObjects::has_drapes() const {
   return batches_.draped_lines.has(ObjectPart::above_ground) || batches_.draped_fills.has(ObjectPart::above_ground);
@@ -16,7 +14,7 @@ bool LayerObjects::has_drapes() const {
 
 // A line that is cut anew mostly has as many vertices as before.
 void LayerObjects::put(KeptLine& line, std::span<const LineVertex> vertices) {
-  SlotBatch<LineVertex>& lines = lines_of(line.object->heights);
+  SlotBatch<LineVertex>& lines = lines_of(is_draped(*line.object));
   if (line.slot.count > 0 && line.slot.count == vertices.size()) {
     std::ranges::copy(vertices, lines.change(line.slot).begin());
     return;
@@ -46,9 +44,9 @@ HeightMode LayerObjects::mode_of(PartRef part) const {
 }
 
 bool LayerObjects::depends_on_ground(PartRef part) const {
-  const HeightMode mode = mode_of(part);
-  const bool is_shape = part.kind == ObjectKind::line || part.kind == ObjectKind::polygon;
-  return mode == HeightMode::relative_to_ground || (mode == HeightMode::clamp_to_ground && !is_shape);
+  if (part.kind == ObjectKind::line && is_draped(*lines_[part.index].object)) return false;
+  if (part.kind == ObjectKind::polygon && is_draped(*areas_[part.index].object)) return false;
+  return mode_of(part) != HeightMode::absolute;
 }
 
 void LayerObjects::follow(PartRef part, const std::function<bool(const Geodetic&)>& has_changed) {

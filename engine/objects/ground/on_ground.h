@@ -1,6 +1,9 @@
 #pragma once
 
+#include <utility>
+
 #include "geo/objects.h"
+#include "objects/solid/solid_area.h"
 #include "view/ground.h"
 
 // Heights of objects over the drawn ground. thread: as Ground's
@@ -28,6 +31,7 @@ namespace terrella {
   return line;
 }
 [[nodiscard]] inline PolygonObject cut_shape(PolygonObject area, const Ground& ground) {
+  if (is_extruded(area)) return standing_shape(std::move(area), ground);
   for (auto& ring : area.rings) {
     for (Geodetic& place : ring) place = cut_place(place, area.heights, ground);
   }

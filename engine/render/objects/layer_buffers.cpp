@@ -34,6 +34,7 @@ void LayerBuffers::follow(LayerObjects& objects) {
   follow_all(lines, batches.lines);
   follow_all(fill_vertices, batches.fill_vertices);
   follow_all(fill_indices, batches.fill_indices);
+  follow_all(solids, batches.solids);
   const auto follow_drape = [](FollowingBuffer& buffer, auto& batch) {
     auto& bucket = batch.bucket(LayerBatches::kDraped);
     buffer.follow(bucket.items, bucket.changed);

@@ -64,6 +64,11 @@ Status ObjectPass::prepare() {
       if (!made) return made.error();
       meshes_ = std::move(*made);
     }
+    if (!solids_ && SolidPass::is_needed(layer)) {
+      auto made = SolidPass::create(depth_);
+      if (!made) return made.error();
+      solids_ = std::move(*made);
+    }
     if (!icons_ && !layer.objects->batches().icon_images.empty()) {
       auto made = IconPass::create(depth_);
       if (!made) return made.error();
@@ -138,6 +143,7 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
   // Areas lie on the ground: everything else is over them.
   int calls = draw_fills(opaque) + draw_fills(translucent);
   for (const ObjectDraw& draw : {opaque, translucent}) {
+    for (const DrawnLayer& layer : layers_) calls += solids_ ? solids_->draw(layer, draw) : 0;
     for (const DrawnLayer& layer : layers_) calls += meshes_ ? meshes_->draw(layer, draw) : 0;
     for (const DrawnLayer& layer : layers_) calls += spheres_->draw(layer, draw, frame, viewport, hiding_radius_m);
     for (const DrawnLayer& layer : layers_) calls += draw_lines(layer, draw);

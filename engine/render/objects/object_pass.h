@@ -15,13 +15,14 @@
 #include "render/objects/label_pass.h"
 #include "render/objects/layer_buffers.h"
 #include "render/objects/mesh_pass.h"
+#include "render/objects/solid_pass.h"
 #include "render/objects/sphere_pass.h"
 #include "view/render_modes.h"
 
 namespace terrella {
 
-/// Draws the objects of layers: areas, spheres, meshes, lines, markers, icons, labels. All positions are relative to
-/// the eye. thread: main
+/// Draws the objects of layers: areas, extruded areas, spheres, meshes, lines, markers, icons, labels. All positions
+/// are relative to the eye. thread: main
 class ObjectPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<ObjectPass>> create(DepthMode depth);
@@ -54,10 +55,10 @@ class ObjectPass {
   /// Opaque objects write depth. Translucent ones come after them and do not. Objects over or on the ground are drawn a
   /// little towards the eye, objects under the ground are not. Returns the draw calls made: at most one for each of
   /// areas, lines and markers, opaque and translucent, chosen or not, of each layer, plus the calls of
-  /// SpherePass::draw(), MeshPass::draw() and IconPass::draw(). Areas of several layers may take more, as they are
-  /// drawn from the lowest to the highest. `hiding_radius_m` is the radius of an opaque sphere around the planet's
-  /// centre, if there is one and the eye is outside of it. Spheres and markers inside and behind that sphere are not
-  /// drawn, because on software GL they would cost as much as visible ones.
+  /// SpherePass::draw(), MeshPass::draw(), SolidPass::draw() and IconPass::draw(). Areas of several layers may take
+  /// more, as they are drawn from the lowest to the highest. `hiding_radius_m` is the radius of an opaque sphere around
+  /// the planet's centre, if there is one and the eye is outside of it. Spheres and markers inside and behind that
+  /// sphere are not drawn, because on software GL they would cost as much as visible ones.
   int draw(ObjectPart part, const FrameBlock& frame, Viewport viewport, const DrawState& state,
            ObjectChoice choice = ObjectChoice::all, double hiding_radius_m = 0.0);
 
@@ -83,6 +84,7 @@ class ObjectPass {
   std::vector<std::byte> font_;
   std::unique_ptr<LabelPass> labels_;
   std::unique_ptr<MeshPass> meshes_;
+  std::unique_ptr<SolidPass> solids_;
   std::unique_ptr<IconPass> icons_;
   std::vector<DrawnLayer> layers_;
   std::vector<std::uint64_t> planned_;  ///< LayerBatches::fill_version of each layer in fills_
