@@ -108,7 +108,7 @@ std::optional<PickedObject> LayerObjects::pick(const View& view, const Ground& g
     constexpr std::array<std::uint32_t, kKinds> kOrder{3, 1, 0, 2};  // areas, lines, models, points
     return std::pair(kOrder[item % kKinds], item);
   });
-  items.erase(std::ranges::unique(items).begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
   for (const std::uint32_t item : items) take(part_of(item), picker);
   for (const std::uint32_t k : labels) {
     if (k < labels_.size()) take({ObjectKind::label, k}, picker);
