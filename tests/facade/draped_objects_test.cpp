@@ -16,7 +16,8 @@ namespace {
 constexpr Viewport kHills{160, 120};
 constexpr double kHillLat = 46.0, kHillLon = 7.0;
 constexpr float kWidth_px = 4.0F;
-// A pixel; on the outer side of a bend that is seen at a slant a line is wider by up to 0.75 px.
+// A pixel, and 0.75 px on the outer side of a bend that is seen at a slant. There the border between two pieces is
+// slanted to the line. A border across the line in the picture would let pieces overlap on the inner side.
 constexpr double kBeside_px = 1.75;
 constexpr double kEnd_px = 6.0;  // an end is cut across the line, and not looked at
 constexpr ObjectColor kHillInk{230, 20, 20};
@@ -284,6 +285,31 @@ TEST_F(DrapedObjects, DrapesAgreeWithTheGroundInAllDepthModes) {
              {.rings = {corners}, .fill = kHillInk, .stroke = {0, 0, 0, 0}, .heights = HeightMode::clamp_to_ground}}}));
     settle(*globe, kHills);
     EXPECT_EQ(off_by_more_than_a_pixel(inked(), truth_of_area(*globe, corners)), 0);
+  }
+}
+
+// A pixel that two pieces of a line coloured would be redder than the line's colour makes it.
+TEST_F(DrapedObjects, ATranslucentLineColoursEachPixelOnce) {
+  constexpr ObjectColor kTint{220, 20, 20, 128};
+  const int once = (220 * 128 + 127 * kMeadow[0]) / 255;
+  for (const double exaggeration : {1.0, 20.0}) {
+    const auto globe = hilly_globe(exaggeration);
+    ASSERT_TRUE(globe->add_objects({.lines = {{.places = winding(0.1),
+                                               .width_px = 2.0F * kWidth_px,
+                                               .color = kTint,
+                                               .heights = HeightMode::clamp_to_ground}}}));
+    for (const double pitch_deg : {-90.0, -15.0}) {
+      look(*globe, 10e3, pitch_deg);
+      settle(*globe, kHills);
+      const Picture shot = picture();
+      int tinted = 0, twice = 0;
+      for (std::size_t k = 0; k < shot.rgba.size(); k += 4) {
+        tinted += shot.rgba[k] > once / 2 ? 1 : 0;
+        twice += shot.rgba[k] > once + 2 ? 1 : 0;
+      }
+      EXPECT_GT(tinted, 500) << pitch_deg;
+      EXPECT_EQ(twice, 0) << exaggeration << " times, pitch " << pitch_deg << ", of " << tinted;
+    }
   }
 }
 
