@@ -95,24 +95,19 @@ struct LineTruth {
   std::vector<glm::dvec2> shown_px, perhaps_px, ends_px;
 };
 LineTruth line_truth(const Globe& globe, const std::vector<Geodetic>& places) {
-  constexpr int kParts = 1;
   const View view = globe.view(kHills);
   LineTruth truth;
   for (std::size_t k = 0; k + 1 < places.size(); k += 3) {
-    for (int part = 0; part < kParts; ++part) {
-      const double t = double(part) / kParts;
-      Geodetic place = hill_at((1.0 - t) * places[k].lat.deg() + t * places[k + 1].lat.deg(),
-                               (1.0 - t) * places[k].lon.deg() + t * places[k + 1].lon.deg());
-      place.height_m = globe.ground_height_m(place.lat, place.lon);
-      const Ecef on_ground = globe.options().body.ellipsoid.to_ecef(place);
-      const auto px = project(view, on_ground);
-      if (!px || px->x < -9.0 || px->y < -9.0 || px->x > kHills.width_px + 9.0 || px->y > kHills.height_px + 9.0)
-        continue;
-      const Sight sight = sight_of(globe, view, on_ground, *px);
-      if (part == 0 && (k == 0 || k + 4 >= places.size())) truth.ends_px.push_back(*px);
-      if (sight == Sight::open) truth.shown_px.push_back(*px);
-      if (sight != Sight::hidden) truth.perhaps_px.push_back(*px);
-    }
+    Geodetic place = places[k];
+    place.height_m = globe.ground_height_m(place.lat, place.lon);
+    const Ecef on_ground = globe.options().body.ellipsoid.to_ecef(place);
+    const auto px = project(view, on_ground);
+    if (!px || px->x < -9.0 || px->y < -9.0 || px->x > kHills.width_px + 9.0 || px->y > kHills.height_px + 9.0)
+      continue;
+    const Sight sight = sight_of(globe, view, on_ground, *px);
+    if (k == 0 || k + 4 >= places.size()) truth.ends_px.push_back(*px);
+    if (sight == Sight::open) truth.shown_px.push_back(*px);
+    if (sight != Sight::hidden) truth.perhaps_px.push_back(*px);
   }
   return truth;
 }

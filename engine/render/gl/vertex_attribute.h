@@ -14,6 +14,13 @@ inline void float_attribute(GLuint array, GLuint index, GLuint binding, GLint si
   glVertexArrayAttribBinding(array, index, binding);
 }
 
+/// Reads `size` unsigned 32-bit integers, which the shader takes as integers.
+inline void uint_attribute(GLuint array, GLuint index, GLuint binding, GLint size, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, index);
+  glVertexArrayAttribIFormat(array, index, size, GL_UNSIGNED_INT, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, index, binding);
+}
+
 /// Declares a colour input of four bytes, as floats from 0 to 1. thread: main
 inline void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);

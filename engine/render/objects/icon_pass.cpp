@@ -28,9 +28,7 @@ Result<std::unique_ptr<IconPass>> IconPass::create(DepthMode depth) {
   gl::float_attribute(array, 2, 0, 4, offsetof(IconInstance, up));
   gl::float_attribute(array, 3, 0, 2, offsetof(IconInstance, anchor));
   gl::float_attribute(array, 4, 0, 1, offsetof(IconInstance, size_px));
-  glEnableVertexArrayAttrib(array, 5);
-  glVertexArrayAttribIFormat(array, 5, 1, GL_UNSIGNED_INT, offsetof(IconInstance, image));
-  glVertexArrayAttribBinding(array, 5, 0);
+  gl::uint_attribute(array, 5, 0, 1, offsetof(IconInstance, image));
   gl::color_attribute(array, 6, 0, offsetof(IconInstance, color));
   gl::color_attribute(array, 7, 0, offsetof(IconInstance, wash));
   glVertexArrayBindingDivisor(array, 0, 1);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 
-#include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
@@ -31,14 +30,7 @@ gl::Texture texture_of(const std::uint8_t* rgba, int width_px, int height_px) {
 
 Result<std::unique_ptr<MeshPass>> MeshPass::create(DepthMode depth) {
   std::unique_ptr<MeshPass> pass(new MeshPass);
-  if (Status s =
-          build_into(pass->program_,
-                     {{GL_VERTEX_SHADER,
-                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_mesh.vert"}},
-                      {GL_FRAGMENT_SHADER,
-                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_mesh.frag"}}},
-                     {depth_define(depth)});
-      !s)
+  if (Status s = build_object_program(pass->program_, "object_mesh.vert", "object_mesh.frag", depth); !s)
     return s.error();
   constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
   pass->white_ = texture_of(kWhite.data(), 1, 1);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "geo/camera.h"
 #include "objects/object_batches.h"
 #include "render/gl/draw_state.h"
 #include "render/gl/gl_handle.h"
+#include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
@@ -21,6 +23,16 @@ struct ObjectDraw {
 };
 
 // Functions that the object passes share; the uniforms are those of shaders/objects/object_common.glsl. thread: main
+
+/// Builds a program of objects with air before them.
+inline Status build_object_program(gl::Program& program, std::string_view vertex, std::string_view fragment,
+                                   DepthMode depth) {
+  return build_into(
+      program,
+      {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", vertex}},
+       {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", fragment}}},
+      {depth_define(depth)});
+}
 
 inline void set_object_uniforms(const gl::Program& program, Viewport viewport, float bias, double hiding_radius_m) {
   constexpr GLint kViewport = 0, kBias = 1, kHiding = 2;

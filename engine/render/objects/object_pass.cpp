@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/gl/shader_library.h"
 #include "render/objects/object_common.h"
 
 namespace terrella {
@@ -26,16 +25,9 @@ Result<std::unique_ptr<ObjectPass>> ObjectPass::create(DepthMode depth) {
 }
 
 Status ObjectPass::build_programs(DepthMode depth) {
-  const auto build = [depth](gl::Program& program, std::string_view vertex, std::string_view fragment) {
-    return build_into(
-        program,
-        {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", vertex}},
-         {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", fragment}}},
-        {depth_define(depth)});
-  };
-  if (Status s = build(fill_, "object_fill.vert", "object_fill.frag"); !s) return s;
-  if (Status s = build(line_, "object_line.vert", "object_line.frag"); !s) return s;
-  return build(marker_, "object_marker.vert", "object_marker.frag");
+  if (Status s = build_object_program(fill_, "object_fill.vert", "object_fill.frag", depth); !s) return s;
+  if (Status s = build_object_program(line_, "object_line.vert", "object_line.frag", depth); !s) return s;
+  return build_object_program(marker_, "object_marker.vert", "object_marker.frag", depth);
 }
 
 void ObjectPass::set_up_arrays() {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
@@ -14,14 +13,7 @@ constexpr GLint kSolidBiasUniform = 1;
 
 Result<std::unique_ptr<SolidPass>> SolidPass::create(DepthMode depth) {
   std::unique_ptr<SolidPass> pass(new SolidPass);
-  if (Status s =
-          build_into(pass->program_,
-                     {{GL_VERTEX_SHADER,
-                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_solid.vert"}},
-                      {GL_FRAGMENT_SHADER,
-                       {"frame.glsl", "object_common.glsl", "air_part.glsl", "object_air.glsl", "object_solid.frag"}}},
-                     {depth_define(depth)});
-      !s)
+  if (Status s = build_object_program(pass->program_, "object_solid.vert", "object_solid.frag", depth); !s)
     return s.error();
   pass->array_ = gl::make_vertex_array();
   const GLuint array = pass->array_.name();

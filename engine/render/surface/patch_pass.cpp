@@ -129,16 +129,12 @@ void PatchPass::set_up_vertex_array() {
   gl::float_attribute(array, 4, 1, 4, offsetof(PatchDraw, center_and_scale));
   gl::float_attribute(array, 5, 1, 4, offsetof(PatchDraw, frame));
   gl::float_attribute(array, 6, 1, 4, offsetof(PatchDraw, row));
-  glEnableVertexArrayAttrib(array, 7);
-  glVertexArrayAttribIFormat(array, 7, 4, GL_UNSIGNED_INT, offsetof(PatchDraw, window));
-  glVertexArrayAttribBinding(array, 7, 1);
+  gl::uint_attribute(array, 7, 1, 4, offsetof(PatchDraw, window));
   if (!has_relief_) return;
   gl::float_attribute(array, 8, 2, 2, 0);
   glVertexArrayBindingDivisor(array, 3, 1);
   gl::float_attribute(array, 9, 3, 4, offsetof(SlopeDraw, center_and_scale));
-  glEnableVertexArrayAttrib(array, 10);
-  glVertexArrayAttribIFormat(array, 10, 4, GL_UNSIGNED_INT, offsetof(SlopeDraw, window));
-  glVertexArrayAttribBinding(array, 10, 3);
+  gl::uint_attribute(array, 10, 3, 4, offsetof(SlopeDraw, window));
 }
 
 void PatchPass::set_up_samplers() {
