@@ -94,7 +94,7 @@ class Ring {
         thin_(is_thin()),
         rows_(static_cast<int>(
             thin_ ? 2.0 + (top_ + pixel_ - lowest_) / (kThinRow_px * pixel_)
-                  : std::clamp(3.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
+                  : std::clamp(4.0 + kRowsAPixel * (top_ / pixel_ + 1.0), double(kLeastRingRows), double(kRingRows)))),
         turn_(2 * static_cast<int>(std::clamp(0.5 * std::numbers::pi / std::sqrt(2.0 * kChord_px * pixel_),
                                               0.5 * kLeastRingTurn, 0.5 * kRingTurn))) {}
 
@@ -129,15 +129,17 @@ class Ring {
     const double off = squared(nadir_rad(top_ + pixel_) - nadir_rad(lowest_)) / 8.0;
     return off < kChord_px * pixel_;
   }
-  // Rows are closest at the limb, where the air is densest.
+  // The second and the third row are those where a pixel leaves the globe: a mean grows from the limb's lower side to
+  // its upper side. Beyond, rows are closest at the limb, where the air is densest.
   [[nodiscard]] double height(int row) const {
     if (row == 0) return lowest_;
     if (thin_) return lowest_ + (top_ + pixel_ - lowest_) * row / (rows_ - 1.0);
-    const double part = (row - 1) / (rows_ - 2.0), whole = top_ + pixel_;
+    if (row == 1) return -0.5 * pixel_;
+    const double part = (row - 2) / (rows_ - 3.0), whole = top_ + 0.5 * pixel_;
     const double step =
         std::max(kRowStep_px * pixel_, kRowStep_scales * top_ * air_.air().gas_scale_m / air_.air().top_m);
-    const double even = std::min(1.0, step * (rows_ - 2.0) / whole);
-    return whole * part * (even + (1.0 - even) * part) - (row == 1 ? 0.5 * pixel_ : 0.0);
+    const double even = std::min(1.0, step * (rows_ - 3.0) / whole);
+    return 0.5 * pixel_ + whole * part * (even + (1.0 - even) * part);
   }
   [[nodiscard]] double limb_height(int k) const { return pixel_ * k / SkyColors::kLimbSteps; }
 

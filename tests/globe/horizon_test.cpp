@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/limb_rows.h"
@@ -80,6 +81,30 @@ TEST_F(Horizon, HasNoJaggedCoastInTheGlint) {
   }
   EXPECT_GT(coast, kHorizon.width_px / 2) << "no coast in the glint: nothing was tested";
   EXPECT_LT(std::sqrt(squares / std::max(1, 2 * coast)), 9.0);
+}
+
+// The sky meets the ground without dashes: each pixel around the horizon is that of the same picture drawn larger,
+// within three levels, which are the rounding and the dither of both pictures and the squares in which light is mixed.
+TEST_F(Horizon, HasNoDashes) {
+  constexpr int kTimes = 4;
+  constexpr double kMost_levels = 3.0;
+  const Viewport large{kTimes * kHorizon.width_px, kTimes * kHorizon.height_px};
+  const auto globe = make_globe(sky_options(), one_colour({.tile_px = 64, .max_level = 1}, {60, 90, 90}));
+  for (const double height_m : {1.1e5, 2.0e5, 4.0e5, 1.0e6, 2.0e6}) {
+    const double dip = std::acos(6371e3 / (6371e3 + height_m)) * 180.0 / std::numbers::pi;
+    globe->set_camera(camera_at(46, 7, height_m, 0, -dip, 6));
+    settle(*globe, large);
+    const Levels truth = reduced(picture().rgba, large, kTimes);
+    settle(*globe, kHorizon);
+    const Levels seen = reduced(picture().rgba, kHorizon, 1);
+    double most = 0.0;
+    for (int y = 0; y < kHorizon.height_px; ++y) {
+      for (int x = 0; x < kHorizon.width_px; ++x) {
+        for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(seen.at(x, y, c) - truth.at(x, y, c)));
+      }
+    }
+    EXPECT_LT(most, kMost_levels) << "from " << height_m << " m";
+  }
 }
 
 }  // namespace
