@@ -31,6 +31,7 @@ struct BenchOptions {
 
 /// Runs a benchmark and returns its table. An error names the missing part. Each benchmark creates its own OpenGL
 /// context and needs the processor for itself. thread: main
+[[nodiscard]] Result<Report> bench_views(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_polar(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_accuracy(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);

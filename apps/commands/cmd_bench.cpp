@@ -29,12 +29,13 @@ struct NamedBench {
   Result<bench::Report> (*run)(const bench::BenchOptions&);
 };
 constexpr std::array kBenches{
-    NamedBench{"polar", bench::bench_polar},       NamedBench{"accuracy", bench::bench_accuracy},
-    NamedBench{"traverse", bench::bench_traverse}, NamedBench{"stream", bench::bench_stream},
-    NamedBench{"objects", bench::bench_objects},   NamedBench{"stability", bench::bench_stability},
-    NamedBench{"growth", bench::bench_growth}};
+    NamedBench{"views", bench::bench_views},         NamedBench{"polar", bench::bench_polar},
+    NamedBench{"accuracy", bench::bench_accuracy},   NamedBench{"traverse", bench::bench_traverse},
+    NamedBench{"stream", bench::bench_stream},       NamedBench{"objects", bench::bench_objects},
+    NamedBench{"stability", bench::bench_stability}, NamedBench{"growth", bench::bench_growth}};
 
 constexpr const char* kBenchExamples =
+    "views      time and error of the table of the README: the globe against a plain sphere, all texturings\n"
     "polar      time and error of texturing at the poles: the globe against the textured sphere of A. Zuev\n"
     "           (Method of synthesis of a seamless textured sphere for visualization in geoinformation and\n"
     "           cartographic systems, 2023)\n"
@@ -154,7 +155,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<BenchCommand>();
   sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
-      ->type_name("polar|accuracy|traverse|stream|objects|stability|growth|all");
+      ->type_name("views|polar|accuracy|traverse|stream|objects|stability|growth|all");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
   sub.add_option("--work", command->work,

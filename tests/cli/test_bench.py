@@ -11,6 +11,7 @@ from program import DONE, FAILED, WRONG_USAGE, ProgramTest
 
 # Every row of a benchmark has a time and an error.
 BENCHES = {
+    "views": ("plain_time", "rms_auto"),
     "polar": ("time", "rms_mid"),
     "accuracy": ("time", "position_error"),
     "traverse": ("time", "rms_lag"),
@@ -61,6 +62,8 @@ class Bench(ProgramTest):
                     # Looking down on the pole there are no mid latitudes.
                     found = [row[e] for e in (error, "rms_pole") if row.get(e) is not None]
                     self.assertTrue(found and all(math.isfinite(e) and 0.0 <= e < 60.0 for e in found), row)
+                if name == "views":
+                    self.check_the_readmes_table(rows)
                 if name == "polar":
                     self.check_the_papers_sphere(rows)
         self.check_the_self_test(results["stability"])
@@ -92,6 +95,14 @@ class Bench(ProgramTest):
                 self.assertIsNotNone(section.find("{http://www.w3.org/2000/svg}svg"))
         for said in ("processor", "cores", "terrella"):
             self.assertIn(said, page)
+
+    def check_the_readmes_table(self, rows):
+        for row in rows:
+            # Ratios of different texturings; `auto` chooses the better coordinates at the pole.
+            for name in ("vertex_over_plain", "paper_over_vertex", "exact_over_vertex", "auto_over_vertex"):
+                self.assertGreater(row[name], 0.0, row)
+                self.assertGreater(row[name + "_cpu"], 0.0, row)
+            self.assertLessEqual(row["rms_auto"], row["rms_vertex"] + 0.01, row)
 
     def check_the_papers_sphere(self, rows):
         plain = [row for row in rows if row["method"] == "sphere: plain"]
