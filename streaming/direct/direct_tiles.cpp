@@ -71,7 +71,8 @@ std::optional<std::pair<RasterLevel, RasterLevel>> far_levels(const std::vector<
 
 bool shows_at_once(const RasterInfo& raster) {
   const RasterLevel& coarsest = raster.levels.front();
-  return !raster.by_rows && coarsest.width_px * coarsest.height_px <= kMostCoarsestPixels && !far_levels(raster.levels);
+  const std::int64_t most = raster.levels.size() > 1 ? kMostCoarsestOverviewPixels : kMostCoarsestPixels;
+  return !raster.by_rows && coarsest.width_px * coarsest.height_px <= most && !far_levels(raster.levels);
 }
 
 Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> raster, const RasterPlace& place,

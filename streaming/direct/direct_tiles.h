@@ -40,6 +40,9 @@ struct RasterPlace {
 
 /// Most pixels of the coarsest level. The first tile reads all of them, in about 0.2 s on two cores.
 inline constexpr std::int64_t kMostCoarsestPixels = 1LL << 24;
+/// The same for a file of this machine that has overviews: an eighth of 86400 x 43200, where GDAL's COGs of a JPEG end.
+/// Reading them takes a second; the file's cut would take a minute.
+inline constexpr std::int64_t kMostCoarsestOverviewPixels = 1LL << 26;
 
 /// Largest factor between the sides of neighbouring levels. A tile between the two reads all pixels of the finer one
 /// under it: about as many as a coarsest level may have.

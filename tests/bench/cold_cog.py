@@ -6,7 +6,8 @@ byte ranges, and from the same tiles one by one. Run from the repository's root:
   build/terrella cut noise.png -o noise-tiles
   TERRELLA_SOURCE=. python3 tests/bench/cold_cog.py build/terrella noise.tif noise-tiles
 
-Exit code 1 if the COG needs more requests in any view, or more than 3 requests or 128 KiB before the first tile's."""
+Each view of the COG is drawn twice with the same cache. Exit code 1 if the COG needs more requests in any view, more
+than 3 requests or 128 KiB before the first tile's, or any request for the second time."""
 
 import argparse
 import json
@@ -28,10 +29,13 @@ MOST_BEFORE, MOST_BYTES_BEFORE = 3, 128 << 10
 def measure_cog(program, cog, camera, latency_ms):
     with tempfile.TemporaryDirectory(prefix="terrella-cold-") as folder:
         with range_server(cog.read_bytes(), name="a.tif", latency_s=latency_ms / 1000) as (url, server):
+            command = [program, "render", url, "-o", f"{folder}/view.png", "--unlit", "--camera", camera, "--cache",
+                       f"{folder}/cache.gpkg"]
             begun = time.monotonic()
-            subprocess.run([program, "render", url, "-o", f"{folder}/view.png", "--unlit", "--camera", camera,
-                            "--cache", f"{folder}/cache.gpkg"], check=True, stdout=subprocess.DEVNULL)
-            return server.asked, time.monotonic() - begun
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            seconds, asked = time.monotonic() - begun, list(server.asked)
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            return asked, len(server.asked) - len(asked), seconds
 
 
 def before_tiles(asked):
@@ -49,17 +53,17 @@ def main():
     parser.add_argument("--latency-ms", type=int, default=20)
     options = parser.parse_args()
     grid = json.loads((options.tiles / "tileset.json").read_text())
-    print("| view | requests, COG | tiles | bytes, COG | tiles | before the first tile | seconds, COG | tiles |\n"
-          "|---|---|---|---|---|---|---|---|")
+    print("| view | requests, COG | tiles | bytes, COG | tiles | before the first tile | second run | seconds, COG | tiles |\n"
+          "|---|---|---|---|---|---|---|---|---|")
     good = True
     for name, camera, _ in CAMERAS:
-        asked, seconds = measure_cog(options.program, options.cog, camera, options.latency_ms)
+        asked, again, seconds = measure_cog(options.program, options.cog, camera, options.latency_ms)
         requests, size, tile_seconds = measure(options.program, options.tiles, grid, camera, options.latency_ms)
         count, head = before_tiles(asked)
         cog_size = sum(last + 1 - first for first, last in asked)
-        good = good and len(asked) <= requests and count <= MOST_BEFORE and head <= MOST_BYTES_BEFORE
+        good = good and len(asked) <= requests and count <= MOST_BEFORE and head <= MOST_BYTES_BEFORE and again == 0
         print(f"| {name} | {len(asked)} | {requests} | {cog_size / 1e6:.2f} MB | {size / 1e6:.2f} MB | {count}, "
-              f"{head >> 10} KiB | {seconds:.2f} | {tile_seconds:.2f} |", flush=True)
+              f"{head >> 10} KiB | {again} | {seconds:.2f} | {tile_seconds:.2f} |", flush=True)
     return 0 if good else 1
 
 
