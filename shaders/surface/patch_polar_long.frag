@@ -1,5 +1,5 @@
-// As patch_polar_short.frag, for longer pixels: near a pole the pixel's footprint is long in longitude. Every polar patch
-// of a lit picture, because at the limb its pixels are long in any direction.
+// As patch_polar_short.frag, for longer pixels: near a pole the pixel's footprint is long in longitude. In a lit picture
+// this also replaces patch_polar.frag, because at the limb pixels are long in any direction.
 
 // Texels are narrow there, but imagery has no finer detail than elsewhere. So a pixel needs no more taps than this many
 // times its true length.
