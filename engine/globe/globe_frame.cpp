@@ -62,6 +62,7 @@ PatchSelectionOptions GlobeView::Impl::selection_options() const {
   if (!options.unlit) {
     selection.max_footprint_texels = kLitPixel_texels;
     selection.slant_power = kLitSlantPower;
+    selection.columns_beside = true;
   }
   selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {

@@ -31,6 +31,8 @@ struct Scene {
 };
 
 constexpr Viewport kSize{240, 180};
+constexpr int kTimes = 8;
+constexpr Viewport kLarge{kTimes * kSize.width_px, kTimes* kSize.height_px};
 constexpr Scene kScenes[] = {{"disc", "earth", "15,20,18000000", "2026-06-21T10:30Z"},
                              {"terminator", "earth", "25,60,12000000", "2026-03-20T15:30Z"},
                              {"horizon", "earth", "35,15,400000,60,-20,40", "2026-06-21T10:00Z"},
@@ -90,6 +92,16 @@ class GroundTruth {
   bool relief_;
 };
 
+/// A picture and its view.
+struct Drawn {
+  Image image;
+  View view;
+  [[nodiscard]] glm::dvec3 at(const glm::ivec2& px) const {
+    const auto k = static_cast<std::size_t>(4 * (px.y * image.width_px + px.x));
+    return {image.rgba[k], image.rgba[k + 1], image.rgba[k + 2]};
+  }
+};
+
 class Page {
  public:
   Page(std::string tiles, std::string elevation, std::string folder)
@@ -99,18 +111,17 @@ class Page {
     const Body body = value_or_throw(parse_body(scene.body));
     const auto air = atmosphere_of(body);
     const auto globe = globe_of(scene, body, false);
-    save(scene, "ours", drawn(*globe));
+    save(scene, "ours", drawn(*globe, kSize).image);
     SurfaceLook dull;
     dull.glint = false;
     globe->set_surface(dull);
     globe->set_sky(false);
-    const Image own = air ? drawn(*globe) : drawn(*globe_of(scene, body, true));
-    const View view = globe->view(kSize);
+    const Drawn own = air ? drawn(*globe, kSize) : drawn(*globe_of(scene, body, true), kSize);
     const Almanac almanac = value_or_throw(almanac_at(value_or_throw(parse_utc(scene.time))));
     save(scene, "truth",
-         air ? through_air(own, view, {*globe, body.ellipsoid, scene.relief && !elevation_.empty()},
+         air ? through_air(own, drawn(*globe, kLarge), {*globe, body.ellipsoid, scene.relief && !elevation_.empty()},
                            test::AirTruth(*air, body.ellipsoid), almanac.sun.xyz)
-             : dust(own, view, body, body_sun(body, scene)));
+             : dust(own.image, own.view, body, body_sun(body, scene)));
   }
 
  private:
@@ -144,12 +155,12 @@ class Page {
     globe->set_camera(camera);
     return globe;
   }
-  Image drawn(Globe& globe) {
-    const OffscreenTarget target{kSize};
-    if (!globe.render_until_settled(target.framebuffer(), kSize, Clock::now() + std::chrono::minutes(3)))
+  static Drawn drawn(Globe& globe, Viewport size) {
+    const OffscreenTarget target{size};
+    if (!globe.render_until_settled(target.framebuffer(), size, Clock::now() + std::chrono::minutes(3)))
       throw std::runtime_error("the globe has not settled after three minutes");
-    globe.render(target.framebuffer(), kSize);
-    return {kSize.width_px, kSize.height_px, target.read()};
+    globe.render(target.framebuffer(), size);
+    return {{size.width_px, size.height_px, target.read()}, globe.view(size)};
   }
   static bool on_limb(const View& view, const GroundTruth& true_ground, const glm::dvec2& px) {
     int ground = 0;
@@ -158,26 +169,48 @@ class Page {
     }
     return ground != 0 && ground != 4;
   }
-  static Image through_air(const Image& own, const View& view, const GroundTruth& ground, const test::AirTruth& truth,
+  /// The ground's own colour at a ray of the larger picture, whose pixels on the limb are mixed with what is behind it:
+  /// there the colour of the nearest pixel that is ground throughout.
+  static glm::dvec3 own_color(const Drawn& own, const GroundTruth& ground, const glm::ivec2& px) {
+    constexpr int kReach_px = 3, kSide = 2 * kReach_px + 1;
+    glm::ivec2 best = px;
+    int least = on_limb(own.view, ground, glm::dvec2(px)) ? kSide * kSide : 0;
+    for (int k = 0; least > 0 && k < kSide * kSide; ++k) {
+      const glm::ivec2 off(k % kSide - kReach_px, k / kSide - kReach_px), at = px + off;
+      const int far = off.x * off.x + off.y * off.y;
+      if (far >= least ||
+          at != glm::clamp(at, glm::ivec2(0), glm::ivec2(own.image.width_px - 1, own.image.height_px - 1)))
+        continue;
+      if (on_limb(own.view, ground, glm::dvec2(at)) ||
+          !ground.hit_m(own.view.eye, pixel_ray(own.view, glm::dvec2(at) + 0.5)))
+        continue;
+      best = at, least = far;
+    }
+    return own.at(best);
+  }
+  /// A ray through the middle of each pixel, and `kTimes` by `kTimes` rays through a pixel on the limb. Each of those
+  /// meets the ground's colour in the larger picture.
+  static Image through_air(const Drawn& own, const Drawn& large, const GroundTruth& ground, const test::AirTruth& truth,
                            const glm::dvec3& sun) {
-    Image out = own;
+    Image out = own.image;
     for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
-      const auto at = static_cast<std::size_t>(4 * k);
-      const glm::dvec3 thing(own.rgba[at], own.rgba[at + 1], own.rgba[at + 2]);
+      const glm::ivec2 px(k % kSize.width_px, k / kSize.width_px);
+      const bool limb = on_limb(own.view, ground, glm::dvec2(px));
+      const Drawn& picture = limb ? large : own;
+      const int side = limb ? kTimes : 1;
       glm::dvec3 sum(0.0);
-      const int rays = on_limb(view, ground, {k % kSize.width_px, k / kSize.width_px}) ? 4 : 1;
-      for (int r = 0; r < rays; ++r) {
-        const glm::dvec2 px = rays == 1 ? glm::dvec2(k % kSize.width_px + 0.5, k / kSize.width_px + 0.5)
-                                        : glm::dvec2(k % kSize.width_px + 0.25 + 0.5 * (r % 2),
-                                                     k / kSize.width_px + 0.25 + 0.5 * (r / 2));
-        const glm::dvec3 ray = pixel_ray(view, px).xyz;
-        const auto metres = ground.hit_m(view.eye, EcefDir{ray});
-        sum += metres ? truth.thing(view.eye.xyz_m, ray, *metres, sun,
-                                    thing * truth.ground_tint(view.eye.xyz_m + *metres * ray, sun))
-                      : truth.color(view.eye.xyz_m, ray, sun, 0.0);
+      for (int r = 0; r < side * side; ++r) {
+        const glm::ivec2 at = side * px + glm::ivec2(r % side, r / side);
+        const glm::dvec3 ray = pixel_ray(picture.view, glm::dvec2(at) + 0.5).xyz, eye_m = picture.view.eye.xyz_m;
+        const auto metres = ground.hit_m(picture.view.eye, EcefDir{ray});
+        const auto ground_color = [&] { return limb ? own_color(large, ground, at) : own.at(at); };
+        sum += metres ? truth.thing(eye_m, ray, *metres, sun,
+                                    ground_color() * truth.ground_tint(eye_m + *metres * ray, sun))
+                      : truth.color(eye_m, ray, sun, 0.0);
       }
       for (std::size_t c = 0; c < 3; ++c)
-        out.rgba[at + c] = static_cast<std::uint8_t>(std::clamp(sum[int(c)] / rays + 0.5, 0.0, 255.0));
+        out.rgba[static_cast<std::size_t>(4 * k) + c] =
+            static_cast<std::uint8_t>(std::clamp(sum[int(c)] / (side * side) + 0.5, 0.0, 255.0));
     }
     return out;
   }

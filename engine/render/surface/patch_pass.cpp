@@ -170,6 +170,8 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
 PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
   using enum PatchLayer::Program;
   if (patch.footprint_texels <= kThreeTaps_texels) return polar_short;
+  // At the limb of a lit picture pixels may be far longer than the estimate for the middle of the patch.
+  if (plain_footprint_texels_ < kPlainFootprint_texels) return polar_long;
   return patch.footprint_texels <= most_of_seven() ? polar : polar_long;
 }
 

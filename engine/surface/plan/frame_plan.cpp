@@ -47,7 +47,8 @@ void leave_out_other_side(const LayerSnapshot& layer, const glm::dvec3& sun, std
   });
 }
 
-void plan_tiles(const View& view, const FrameSnapshot& snapshot, bool has_relief, FramePlan& plan) {
+void plan_tiles(const View& view, const FrameSnapshot& snapshot, const PatchSelectionOptions& options,
+                FramePlan& plan) {
   for (std::size_t k = 0; k < plan.layers.size(); ++k) {
     const LayerSnapshot& layer = snapshot.layers[k];
     LayerPlan& out = plan.layers[k];
@@ -59,7 +60,8 @@ void plan_tiles(const View& view, const FrameSnapshot& snapshot, bool has_relief
                       .residency = *layer.tiles,
                       .texels_per_pixel = layer.texels_per_pixel * out.detail,
                       .out_of_bounds = k == 0 ? OutOfBounds::ancestor : OutOfBounds::nothing,
-                      .has_relief = has_relief},
+                      .has_relief = options.relief != nullptr,
+                      .columns_beside = k == 0 && options.columns_beside},
                      out.coverage);
   }
 }
@@ -88,7 +90,7 @@ FramePlan plan_frame(const View& view, const FrameSnapshot& snapshot, PatchSelec
   }
   for (int step = 0; step <= kMostCoarser; ++step) {
     plan_all_patches(view, snapshot, options, plan);
-    plan_tiles(view, snapshot, options.relief != nullptr, plan);
+    plan_tiles(view, snapshot, options, plan);
     if (!coarsen(snapshot, plan)) break;
   }
   return plan;

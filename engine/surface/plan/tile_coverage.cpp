@@ -86,17 +86,28 @@ class Coverer {
   }
 
   void cover(const SelectedPatch& patch, const TileWindow& win, const Choice* choice) {
-    out_.draws.push_back(describe(*patch.node, win, static_cast<std::uint32_t>(out_.cells.size())));
+    const int beside = columns_beside(patch, win);
+    out_.draws.push_back(describe(*patch.node, win, beside, static_cast<std::uint32_t>(out_.cells.size())));
     const TileId last = last_tile(win.level);
     bool uncovered = false;
     for (int y = 0; y < win.h; ++y) {
-      for (int x = 0; x < win.w; ++x, ++choice) {
-        const Found found = find(patch, tile_of(win, x, y, last), *choice);
+      for (int x = -beside; x < win.w + beside; ++x) {
+        const bool inside = x >= 0 && x < win.w;
+        const Found found =
+            inside ? find(patch, tile_of(win, x, y, last), *choice++) : find_unseen(patch, tile_of(win, x, y, last));
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up, found.levels_up + found.squeeze - win.squeeze));
       }
     }
     if (uncovered) ++out_.uncovered;
+  }
+
+  // Columns added to a window on either side, up to half of the circle in all.
+  [[nodiscard]] int columns_beside(const SelectedPatch& patch, const TileWindow& win) const {
+    if (!input_.columns_beside || !patch.in_band) return 0;
+    const std::int64_t all = columns(grid_, win.level);
+    if (static_cast<double>(all) * tile_span_deg(grid_, win.level) != 360.0) return 0;
+    return static_cast<int>(std::clamp<std::int64_t>(((all >> win.squeeze) - win.w) / 2, 0, win.w));
   }
 
   [[nodiscard]] TileId last_tile(int level) {
@@ -105,9 +116,11 @@ class Coverer {
     return *last;
   }
 
-  // Cells beyond the planet repeat its edge.
+  // Cells beyond the planet repeat its edge. Columns beside a window go round the planet.
   static TileId tile_of(const TileWindow& win, int x, int y, const TileId& last) {
-    return {win.level, std::min((win.x0 + x) << win.squeeze, last.x), std::min(win.y0 + y, last.y)};
+    const std::int64_t column = (win.x0 + x) << win.squeeze;
+    const std::int64_t round = x < 0 || x >= win.w ? (column + last.x + 1) % (last.x + 1) : column;
+    return {win.level, std::min(round, last.x), std::min(win.y0 + y, last.y)};
   }
 
   static TileId coarser(const TileId& id, int levels) { return {id.level - levels, id.x >> levels, id.y >> levels}; }
@@ -186,19 +199,22 @@ class Coverer {
     if (use.state == TileState::missing) ++out_.missing;
   }
 
-  [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, std::uint32_t first) const {
+  [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, int beside,
+                                   std::uint32_t first) const {
+    const std::int64_t x0 = win.x0 - beside;
     const double row = node.row_center_deg;
     const TileXY center = tile_xy(grid_, win.level, row, node.lon_center_deg);
     const double per_deg = 1.0 / tile_span_deg(grid_, win.level);
     PatchDraw draw;
     draw.center_and_scale =
-        glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(win.x0),
-                  center.y - static_cast<double>(win.y0), std::ldexp(per_deg, -win.squeeze), per_deg);
+        glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(x0), center.y - static_cast<double>(win.y0),
+                  std::ldexp(per_deg, -win.squeeze), per_deg);
     draw.frame = glm::vec4(node.frame);
     draw.row = glm::vec4(row, static_cast<double>(grid_.max_level - win.level), 0.0, 0.0);
     const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
-    draw.window = glm::uvec4(first, static_cast<std::uint32_t>(win.w) | static_cast<std::uint32_t>(win.h) << 16U,
-                             low(win.x0), low(win.y0));
+    draw.window =
+        glm::uvec4(first, static_cast<std::uint32_t>(win.w + 2 * beside) | static_cast<std::uint32_t>(win.h) << 16U,
+                   low(x0), low(win.y0));
     return draw;
   }
 

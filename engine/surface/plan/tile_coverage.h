@@ -57,6 +57,9 @@ struct CoverInput {
   double texels_per_pixel = 1.0;  ///< as PatchSelectionOptions has it
   OutOfBounds out_of_bounds = OutOfBounds::ancestor;
   bool has_relief = false;  ///< patches have heights
+  /// Windows of patches in a pole band get cells on both sides, of tiles that are loaded anyhow: at the limb their
+  /// pixels reach far over the patch.
+  bool columns_beside = false;
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
