@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +20,7 @@ struct Arguments {
   std::string picture, shot, cache, write_truth;
   std::vector<double> camera, body{Spheroid{}.a_m, Spheroid{}.f}, tiles;
   std::string projection = "equirectangular", latitude = "graphic";
+  double meridian_deg = 180.0;
   int rays_per_side = 8;
   bool json = false;
 };
@@ -36,6 +38,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("--tiles", arguments.tiles, "root span in degrees, level: judge this grid's tile borders too")
       ->delimiter(',')
       ->expected(2);
+  app.add_option("--meridian", arguments.meridian_deg,
+                 "judge the zones of the antimeridian around this meridian, for comparison")
+      ->capture_default_str();
   app.add_option("--rays", arguments.rays_per_side, "rays a side of a pixel")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -52,6 +57,13 @@ TruthCamera camera_of(std::vector<double> values) {
   return {{values[0], values[1], values[2]}, values[3], values[4], values[5]};
 }
 
+/// Renames the meridians, so that the zones of the antimeridian lie around the given one.
+void turn(TruthImage& truth, double meridian_deg) {
+  for (float& lon_deg : truth.lon_deg) {
+    lon_deg = static_cast<float>(std::remainder(static_cast<double>(lon_deg) - meridian_deg + 180.0, 360.0));
+  }
+}
+
 Picture rounded(const TruthImage& truth) {
   Picture picture{truth.width, truth.height, {}};
   for (const float level : truth.rgb) picture.rgb.push_back(static_cast<std::uint8_t>(level + 0.5F));
@@ -64,10 +76,11 @@ void run(const Arguments& arguments) {
   const Picture shot = read_picture(arguments.shot);
   const Spheroid body{arguments.body[0], arguments.body[1]};
   const TruthOptions options{.width = shot.width, .height = shot.height, .rays_per_side = arguments.rays_per_side};
-  const TruthImage truth = cast_cached(source, rows, body, camera_of(arguments.camera), options, arguments.cache);
+  TruthImage truth = cast_cached(source, rows, body, camera_of(arguments.camera), options, arguments.cache);
   if (!arguments.write_truth.empty()) write_png(rounded(truth), arguments.write_truth);
   std::optional<TileBorders> borders;
   if (!arguments.tiles.empty()) borders = TileBorders{arguments.tiles[0], static_cast<int>(arguments.tiles[1])};
+  turn(truth, arguments.meridian_deg);
   const Judgement judgement = judge(shot, truth, body, rows, borders);
   fmt::print("{}", arguments.json ? as_json(judgement).dump() + "\n" : as_table(judgement));
 }

@@ -53,6 +53,18 @@ TEST(JudgeTest, ZonesAreWhereTheirNamesSay) {
   EXPECT_GT(judgement[Zone::tile_borders].pixels, 100U);
 }
 
+TEST(JudgeTest, TheCoreIsADiscAroundAVisiblePole) {
+  constexpr std::size_t kDisc_px = 5025;  // lattice points within 40 of the middle
+  const auto core_from = [](const TruthCamera& camera) {
+    const TruthImage image = cast(noise_planet({.width = 256, .height = 128}), {}, Spheroid{}, camera, kOptions);
+    return judge({128, 128, std::vector<std::uint8_t>(3 * 128 * 128)}, image, Spheroid{}, {}, {})[Zone::pole_core];
+  };
+  EXPECT_EQ(core_from({.eye = {90, 0, 6e6}}).pixels, kDisc_px);
+  EXPECT_EQ(core_from({.eye = {-88, 30, 2e6}}).pixels, kDisc_px);
+  EXPECT_EQ(core_from({.eye = {60, 0, 1e6}}).pixels, 0U) << "the pole is beyond the picture";
+  EXPECT_EQ(core_from(kCamera).pixels, 0U) << "the poles are beyond the limb";
+}
+
 TEST(JudgeTest, AnErrorCountsInItsZonesOnly) {
   Picture shot = rounded_truth();
   const Judgement before = judged(shot);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/bench/truth/masked_error.h"
 #include "apps/bench/truth/tile_border_mask.h"
 
 namespace terrella::truth {
@@ -18,7 +19,7 @@ constexpr double kFacing_deg = 12.0;
 constexpr double kMidLatitude_deg = 60.0;
 constexpr double kAntimeridian_deg = 2.0;
 constexpr double kAntimeridianSurroundings_deg = 6.0;
-constexpr double kBorderIncidence_deg = 55.0;
+constexpr double kOpenIncidence_deg = 55.0;
 constexpr int kLimbReach_px = 2;
 constexpr int kBorderGap_px = 1;
 constexpr int kBorderSurroundings_px = 12;
@@ -29,24 +30,31 @@ struct Spot {
   double incidence_deg;
   bool at_border;
   bool near_border;
+  bool in_core;
 };
+
+// True away from the limb, where few pixels make most of the error.
+bool is_open(const Spot& s) { return s.incidence_deg < kOpenIncidence_deg; }
 
 // True where tile borders are far apart. Near the limb and the pole they crowd together and would be compared with
 // surroundings elsewhere.
-bool border_is_open(const Spot& s) { return s.incidence_deg < kBorderIncidence_deg && s.abs_lat_deg < kPoleBand_deg; }
+bool border_is_open(const Spot& s) { return is_open(s) && s.abs_lat_deg < kPoleBand_deg; }
 
 bool contains(Zone zone, const Spot& s) {
   switch (zone) {
     case Zone::all:
       return true;
     case Zone::antimeridian:
-      return s.to_antimeridian_deg <= kAntimeridian_deg;
+      return s.to_antimeridian_deg <= kAntimeridian_deg && is_open(s);
     case Zone::antimeridian_surroundings:
-      return s.to_antimeridian_deg > kAntimeridian_deg && s.to_antimeridian_deg <= kAntimeridianSurroundings_deg;
+      return s.to_antimeridian_deg > kAntimeridian_deg && s.to_antimeridian_deg <= kAntimeridianSurroundings_deg &&
+             is_open(s);
     case Zone::pole:
       return s.abs_lat_deg > kPoleBand_deg;
     case Zone::pole_clear:
       return s.abs_lat_deg > kPoleBand_deg && s.incidence_deg < kGrazing_deg;
+    case Zone::pole_core:
+      return s.in_core;
     case Zone::clear:
       return s.incidence_deg < kGrazing_deg;
     case Zone::facing:
@@ -130,34 +138,47 @@ Mask partly_covered(const TruthImage& truth) {
   return mask;
 }
 
-struct BorderMasks {
-  Mask at;
+struct SpotMasks {
+  Mask border;
   Mask surroundings;
+  Mask core;
 };
 
-BorderMasks border_masks(const TruthImage& truth, const Spheroid& body, const RowRule& rows,
-                         const std::optional<TileBorders>& borders) {
+SpotMasks spot_masks(const TruthImage& truth, const Spheroid& body, const RowRule& rows,
+                     const std::optional<TileBorders>& borders) {
   const Mask none{truth.width, truth.height, std::vector<std::uint8_t>(truth.hits.size())};
-  if (!borders) return {none, none};
-  BorderMasks masks{tile_border_mask(truth, body, rows, *borders), none};
-  const Mask close = grown(masks.at, kBorderGap_px);
-  masks.surroundings = grown(masks.at, kBorderSurroundings_px);
+  if (!borders) return {none, none, pole_core_mask(truth)};
+  SpotMasks masks{tile_border_mask(truth, body, rows, *borders), none, pole_core_mask(truth)};
+  const Mask close = grown(masks.border, kBorderGap_px);
+  masks.surroundings = grown(masks.border, kBorderSurroundings_px);
   for (std::size_t i = 0; i < close.set.size(); ++i)
     masks.surroundings.set[i] &= static_cast<std::uint8_t>(!close.set[i]);
   return masks;
 }
 
-Spot spot_of(const TruthImage& truth, const BorderMasks& border, std::size_t at) {
-  return {std::abs(static_cast<double>(truth.lat_deg[at])), 180.0 - std::abs(static_cast<double>(truth.lon_deg[at])),
-          static_cast<double>(truth.incidence_deg[at]), border.at.set[at] != 0, border.surroundings.set[at] != 0};
+Spot spot_of(const TruthImage& truth, const SpotMasks& masks, std::size_t at) {
+  return {std::abs(static_cast<double>(truth.lat_deg[at])),
+          180.0 - std::abs(static_cast<double>(truth.lon_deg[at])),
+          static_cast<double>(truth.incidence_deg[at]),
+          masks.border.set[at] != 0,
+          masks.surroundings.set[at] != 0,
+          masks.core.set[at] != 0};
 }
 
 }  // namespace
 
 std::string_view zone_name(Zone zone) {
-  constexpr std::array<std::string_view, kZones> kNames{
-      "all",           "antimeridian", "antimeridian surroundings", "pole", "pole clear", "clear", "facing",
-      "mid latitudes", "tile borders", "border surroundings"};
+  constexpr std::array<std::string_view, kZones> kNames{"all",
+                                                        "antimeridian",
+                                                        "antimeridian surroundings",
+                                                        "pole",
+                                                        "pole clear",
+                                                        "pole core",
+                                                        "clear",
+                                                        "facing",
+                                                        "mid latitudes",
+                                                        "tile borders",
+                                                        "border surroundings"};
   return kNames[static_cast<std::size_t>(zone)];
 }
 
@@ -167,7 +188,7 @@ Judgement judge(const Picture& shot, const TruthImage& truth, const Spheroid& bo
     throw std::invalid_argument("the picture is " + std::to_string(shot.width) + "x" + std::to_string(shot.height) +
                                 ", the truth " + std::to_string(truth.width) + "x" + std::to_string(truth.height));
   }
-  const BorderMasks border = border_masks(truth, body, rows, borders);
+  const SpotMasks masks = spot_masks(truth, body, rows, borders);
   const Mask limb = grown(partly_covered(truth), kLimbReach_px);
   Judgement result{};
   std::array<ZoneSums, kZones> sums{};
@@ -178,7 +199,7 @@ Judgement judge(const Picture& shot, const TruthImage& truth, const Spheroid& bo
       if (limb.set[at]) count(result.limb, error);
       continue;
     }
-    const Spot spot = spot_of(truth, border, at);
+    const Spot spot = spot_of(truth, masks, at);
     for (std::size_t z = 0; z < kZones; ++z) {
       if (contains(static_cast<Zone>(z), spot)) sums[z].add(error, cell_of(spot));
     }

@@ -14,17 +14,18 @@ namespace terrella::truth {
 /// of the pixel's centre.
 enum class Zone {
   all,                        ///< every covered pixel
-  antimeridian,               ///< within 2° of ±180°
-  antimeridian_surroundings,  ///< 2° to 6° from ±180°
+  antimeridian,               ///< within 2° of ±180°; incidence under 55°
+  antimeridian_surroundings,  ///< 2° to 6° from ±180°, under the same condition
   pole,                       ///< latitude over 81°, north or south
   pole_clear,                 ///< latitude over 81° and incidence under 81°
+  pole_core,                  ///< within 40 px of the pole and incidence under 81°
   clear,                      ///< incidence under 81°
   facing,                     ///< incidence under 12°: the pole band as seen from over the pole, from four radii
   mid_latitudes,              ///< latitude under 60°
   tile_borders,               ///< within a pixel of a tile border; incidence under 55°, outside the pole bands
   border_surroundings,        ///< 2 to 12 pixels from a tile border, under the same conditions
 };
-inline constexpr std::size_t kZones = 10;
+inline constexpr std::size_t kZones = 11;
 [[nodiscard]] std::string_view zone_name(Zone zone);
 
 /// The two surroundings are weighted by cells of 10° of incidence and latitude. Each cell counts as often as the

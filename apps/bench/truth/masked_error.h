@@ -14,6 +14,10 @@ namespace terrella::truth {
 /// Fully covered pixels with incidence under 81°.
 [[nodiscard]] Mask clear_mask(const TruthImage& truth);
 
+/// Fully covered pixels within 40 px of the pole: the core, where meridians converge. Empty if the picture contains no
+/// pole, or contains it on its outermost row or column or with an incidence over 81°.
+[[nodiscard]] Mask pole_core_mask(const TruthImage& truth);
+
 /// The error over fully covered pixels within a mask. Shot, truth and mask must have the same size.
 [[nodiscard]] ZoneError masked_error(const Picture& shot, const TruthImage& truth, const Mask& mask);
 
