@@ -43,7 +43,17 @@ void to_bytes(std::span<const float> row, std::uint8_t* out) {
   for (std::size_t i = 0; i < row.size(); ++i) out[i] = static_cast<std::uint8_t>(static_cast<int>(row[i] + 0.5F));
 }
 
+bool are_opaque(std::span<const std::uint8_t> rgba) {
+  std::uint8_t all = 255;
+  for (std::size_t i = 3; i < rgba.size(); i += 4) all &= rgba[i];
+  return all == 255;
+}
+
 void premultiply(std::span<const std::uint8_t> rgba, float* out) {
+  if (are_opaque(rgba)) {
+    for (std::size_t i = 0; i < rgba.size(); ++i) out[i] = static_cast<float>(rgba[i]);
+    return;
+  }
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     const float alpha = static_cast<float>(rgba[i + 3]);
     for (std::size_t c = 0; c < 3; ++c) out[i + c] = static_cast<float>(rgba[i + c]) * alpha / 255.0F;

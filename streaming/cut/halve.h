@@ -18,7 +18,11 @@ void halve_rows(const float* a, const float* b, float weight_a, float weight_b, 
 /// Rounds to 8 bits, halves up.
 void to_bytes(std::span<const float> row, std::uint8_t* out);
 
-/// Multiplies colour by alpha before averaging, so that invisible pixels do not tint visible ones.
+/// True if all pixels have alpha 255.
+[[nodiscard]] bool are_opaque(std::span<const std::uint8_t> rgba);
+
+/// Multiplies colour by alpha before averaging, so that invisible pixels do not tint visible ones. Opaque pixels become
+/// their own values.
 void premultiply(std::span<const std::uint8_t> rgba, float* out);
 /// Reverses premultiply() and rounds to 8 bits. Pixels with alpha 0 get no colour.
 void unpremultiply(std::span<const float> row, std::uint8_t* out);

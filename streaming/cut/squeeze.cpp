@@ -35,25 +35,27 @@ void gather(const Strip& strip, const std::uint8_t* pixels, std::int64_t from, R
 void halve_sharply(const std::vector<float>& in, std::vector<float>& out) {
   const std::size_t last = in.size() / 4 - 1, pairs = in.size() / 8;
   out.resize(pairs * 4);
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const float* before = in.data() + 4 * (i == 0 ? 0 : 2 * i - 1);
-    const float* pair = in.data() + 8 * i;
-    const float* after = in.data() + 4 * std::min(2 * i + 2, last);
-    float* to = out.data() + 4 * i;
+  const auto mix = [](const float* before, const float* pair, const float* after, float* __restrict to) {
     for (std::size_t c = 0; c < 4; ++c) to[c] = 0.5625F * (pair[c] + pair[4 + c]) - 0.0625F * (before[c] + after[c]);
-  }
+  };
+  const float* pair = in.data();
+  float* to = out.data();
+  mix(pair, pair, pair + 4 * std::min<std::size_t>(2, last), to);
+  for (std::size_t i = 1; i + 1 < pairs; ++i) mix(pair + 8 * i - 4, pair + 8 * i, pair + 8 * i + 8, to + 4 * i);
+  const std::size_t end = pairs - 1;
+  if (end > 0) mix(pair + 8 * end - 4, pair + 8 * end, pair + 4 * std::min(2 * end + 2, last), to + 4 * end);
 }
 
 /// Clamps the overshoot of the filter, and rounds values halfway between two whole numbers to the even one. Such values
 /// are common, and rounding all of them up would brighten the row.
 void settle(std::vector<float>& row) {
+  // A float of this size has no fraction: added and taken away, it rounds to whole numbers, halves to the even one.
+  constexpr float kWhole = 3.0F * (1 << 22);
   for (std::size_t i = 0; i < row.size(); i += 4) {
-    row[i + 3] = std::clamp(row[i + 3], 0.0F, 255.0F);
+    const float alpha = std::clamp(row[i + 3], 0.0F, 255.0F);
     for (std::size_t c = 0; c < 4; ++c) {
-      float& value = row[i + c];
-      value = std::clamp(value, 0.0F, row[i + 3]);
-      const float even = std::nearbyint(value);
-      if (std::abs(value - even) == 0.5F) value = even;
+      const float value = std::clamp(row[i + c], 0.0F, alpha), even = (value + kWhole) - kWhole;
+      row[i + c] = std::abs(value - even) == 0.5F ? even : value;
     }
   }
 }

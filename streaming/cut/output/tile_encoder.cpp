@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "codecs/float_tiff.h"
+#include "streaming/cut/halve.h"
 #include "streaming/cut/input/heights.h"
 #include "streaming/cut/output/gray16_png.h"
 
@@ -26,10 +27,7 @@ Image copy_of_tile(const Strip& strip, std::int64_t index) {
 bool is_opaque(const Strip& strip, std::int64_t index) {
   const auto side = static_cast<std::size_t>(strip.tile_px);
   for (std::size_t y = 0; y < side; ++y) {
-    const std::uint8_t* row = strip.tile(index) + y * strip.stride_bytes();
-    for (std::size_t x = 0; x < side; ++x) {
-      if (row[x * 4 + 3] != 255) return false;
-    }
+    if (!are_opaque({strip.tile(index) + y * strip.stride_bytes(), side * 4})) return false;
   }
   return true;
 }
