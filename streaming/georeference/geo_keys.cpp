@@ -7,6 +7,8 @@
 #include <geotiff.h>
 #include <geovalues.h>
 #include <proj.h>
+// Needs proj.h.
+#include <proj_experimental.h>
 
 #include <array>
 #include <cmath>
@@ -133,6 +135,23 @@ void complete(const GTIFDefn& defn, std::string& text) {
   }
 }
 
+/// Puts a projection onto the registered geographic system that the keys name, so that its datum counts.
+std::string on_base(const std::string& projection, int geographic_code) {
+  const ProjContext context = make_proj_context();
+  const ProjHandle own(proj_create(context.get(), projection.c_str()));
+  const ProjHandle base(proj_create(context.get(), fmt::format("EPSG:{}", geographic_code).c_str()));
+  if (!own || !base || proj_get_type(own.get()) != PJ_TYPE_PROJECTED_CRS ||
+      proj_get_type(base.get()) != PJ_TYPE_GEOGRAPHIC_2D_CRS) {
+    return projection;
+  }
+  const ProjHandle conversion(proj_crs_get_coordoperation(context.get(), own.get()));
+  const ProjHandle axes(proj_crs_get_coordinate_system(context.get(), own.get()));
+  if (!conversion || !axes) return projection;
+  const ProjHandle made(proj_create_projected_crs(context.get(), "unknown", base.get(), conversion.get(), axes.get()));
+  const char* wkt = made ? proj_as_wkt(context.get(), made.get(), PJ_WKT2_2019, nullptr) : nullptr;
+  return wkt != nullptr ? wkt : projection;
+}
+
 Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   const auto code = short_key(keys, ProjectedCSTypeGeoKey).value_or(KvUserDefined);
   const bool has_own = short_key(keys, ProjCoordTransGeoKey).has_value();
@@ -166,7 +185,9 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   if (defn.PMLongToGreenwich != 0.0 && whole.find("+pm=") == std::string::npos) {
     whole += fmt::format(" +pm={:.17g}", defn.PMLongToGreenwich);
   }
-  return whole + " +type=crs";
+  whole += " +type=crs";
+  const int base = short_key(keys, GeographicTypeGeoKey).value_or(KvUserDefined);
+  return base == KvUserDefined || base == 0 || defn.PMLongToGreenwich != 0.0 ? whole : on_base(whole, base);
 }
 
 Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std::string& title) {

@@ -15,7 +15,8 @@ import png  # noqa: E402
 SAME_RMS = 0.3
 # A coarse tile in another projection and that of the cut are rounded independently: 0.29 each.
 ROUNDED_RMS = 0.45
-GLOBAL = ("30,20,12000000", "0,180,6000000", "46,7,2500000,30,-50", "-50,-100,4000000", "90,0,6000000")
+GLOBAL = ("30,20,12000000", "0,180,6000000", "46,7,2500000,30,-50", "-50,-100,4000000", "90,0,6000000",
+          "75,30,1500000")
 TILED = ("-co", "TILED=YES", "-co", "COMPRESS=DEFLATE")
 
 

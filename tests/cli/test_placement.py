@@ -83,6 +83,9 @@ PARTS = {
     "oblique stereographic": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:28992", *box(0, 600000, 2000, SIDE)),
     "own transverse mercator": (EARTH, RESAMPLED, SIDE, *proj("+proj=tmerc +lat_0=10 +lon_0=20 +k=0.9 +x_0=1000 "
                                                               "+ellps=GRS80"), *box(0, 320000, 5000, SIDE)),
+    # Two hundred metres beside the same projection of the ellipsoid alone.
+    "own conic on the datum of 1927": (EARTH, RESAMPLED, SIDE, *proj("+proj=eqdc +lat_0=33.76 +lon_0=-117.47 +lat_1=33.9 "
+                                       "+lat_2=33.6 +datum=NAD27"), *box(-15000, 15000, 200, SIDE)),
     "north pole": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3413", *box(-2.4e6, -1.2e6, 20000, SIDE)),
     "south pole": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3031", *box(1e6, 3e6, 20000, SIDE)),
     "moon's pole": (MOON, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=90 +R=1737400"), *box(2e5, 7e5, 5000, SIDE)),

@@ -21,7 +21,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
 PROGRAM = os.environ["TERRELLA"]
-SPOTS = 150
+SPOTS = 1500
 SHIFTS_PX = [(0, 0), (2, 0), (-2, 0), (0, 2), (0, -2)]
 # Values that go together. Resampling smooths noise, and a stretch bends values: then the distance to the places beside
 # counts.
@@ -143,7 +143,10 @@ def check_file(path, folder):
     code, _, why = run(PROGRAM, "cut", path, "-o", cut, "--force", *words, *([] if "--elevation" in words else ["--format", "png"]))
     if code != 0:
         return refused(why) if code == 1 else f"CRASH {code}: {why[:200]}"
-    return judge_place(path, cut, info, "--elevation" in words)
+    # Numbers of colours go with no colour.
+    expanded = folder / "expanded.tif"
+    is_palette = run("gdal_translate", "-q", "-expand", "rgb", path, expanded)[0] == 0
+    return judge_place(expanded if is_palette else path, cut, info, "--elevation" in words)
 
 
 def check_direct(path, folder):

@@ -110,7 +110,7 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};
   std::array<char, kFormatHeadBytes> bytes{};
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  if (head.empty()) return Error{fmt::format("{}: is empty", name)};
+  if (head.empty()) return Error{fmt::format("{}: is empty; download or copy it again", name)};
   std::rewind(file.get());
   const ImageFormat format = sniff_format(std::as_bytes(std::span(head)));
   if (format != ImageFormat::unknown && choice.composite) {
