@@ -131,6 +131,9 @@ void add_all(const Inputs& inputs, Features& features) {
   add("stereo, interlaced", opaque, Stereo::interlaced);
   add("stereo, anaglyph", opaque, Stereo::anaglyph);
   add("translucent, interlaced", glass, Stereo::interlaced);
+  auto two_layers = make_globe(inputs, {}, false);
+  value_or_throw(two_layers->add_imagery(value_or_throw(open_tile_set(inputs.tiles)), {.opacity = 0.5}));
+  features.add("two layers", std::move(two_layers));
   add("bilinear magnification", {.sharpness = Sharpness::bilinear}, Stereo::off);
   features.add("unlit", make_globe(inputs, unlit(), false));
   features.add("sky", make_globe(inputs, with_sky(false), false));
