@@ -283,6 +283,31 @@ TEST_F(DrapedObjects, DrapesAgreeWithTheGroundInAllDepthModes) {
   }
 }
 
+// Planes through the sides of a triangle are rounded. If a triangle is as thin as the rounding, its planes can enclose
+// ground far beyond the triangle, and that ground must have no ink.
+TEST_F(DrapedObjects, AThinAreaHasNoInkBesideIt) {
+  const auto globe = hilly_globe(20.0);
+  const LayerId layer = *globe->add_objects({});
+  look(*globe, 100e3, -25.0);
+  constexpr double kThin_deg = 1e-8;  // a millimetre; floats 100 km from the eye have steps of 8 mm
+  for (int turn_deg = 0; turn_deg < 180; turn_deg += 15) {
+    const double north = std::cos(glm::radians(1.0 * turn_deg)), east = std::sin(glm::radians(1.0 * turn_deg));
+    const auto along = [&](double far_deg, double beside_deg) {
+      return hill_at(kHillLat + far_deg * north - beside_deg * east, kHillLon + far_deg * east + beside_deg * north);
+    };
+    const std::vector<Geodetic> corners = {along(-0.1, 0.0), along(0.3, kThin_deg), along(0.07, kThin_deg)};
+    ASSERT_TRUE(globe->set_objects(
+        layer,
+        {.polygons = {
+             {.rings = {corners}, .fill = kHillInk, .stroke = {0, 0, 0, 0}, .heights = HeightMode::clamp_to_ground}}}));
+    settle(*globe, kHills);
+    std::vector<Geodetic> middle;
+    for (int k = 0; k <= 250; ++k) middle.push_back(along(-0.1 + 0.4 * k / 250.0, 0.0));
+    const LineFaults faults = faults_of(inked(), line_truth(*globe, middle));
+    EXPECT_EQ(faults.strays, 0) << turn_deg << " degrees" << faults.where;
+  }
+}
+
 // A pixel that two pieces of a line coloured would be redder than the line's colour makes it.
 TEST_F(DrapedObjects, ATranslucentLineColoursEachPixelOnce) {
   constexpr ObjectColor kTint{220, 20, 20, 128};
