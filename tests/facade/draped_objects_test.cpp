@@ -41,11 +41,11 @@ std::unique_ptr<Globe> hilly_globe(double exaggeration, DepthMode depth = DepthM
   return *std::move(globe);
 }
 
-/// A winding track over hills and through valleys.
+/// A winding track over hills and through valleys. Its pieces are shorter than the line is wide.
 std::vector<Geodetic> winding(double span_deg) {
   std::vector<Geodetic> places;
-  for (int k = 0; k < 1000; ++k) {
-    const double t = (k - 499.5) / 1000.0;
+  for (int k = 0; k < 250; ++k) {
+    const double t = (k - 124.5) / 250.0;
     places.push_back(hill_at(kHillLat + span_deg * t, kHillLon + 0.3 * span_deg * std::sin(9.0 * t), 4321.0));
   }
   return places;
@@ -97,7 +97,7 @@ struct LineTruth {
 LineTruth line_truth(const Globe& globe, const std::vector<Geodetic>& places) {
   const View view = globe.view(kHills);
   LineTruth truth;
-  for (std::size_t k = 0; k + 1 < places.size(); k += 3) {
+  for (std::size_t k = 0; k + 1 < places.size(); ++k) {
     Geodetic place = places[k];
     place.height_m = globe.ground_height_m(place.lat, place.lon);
     const Ecef on_ground = globe.options().body.ellipsoid.to_ecef(place);
@@ -105,7 +105,7 @@ LineTruth line_truth(const Globe& globe, const std::vector<Geodetic>& places) {
     if (!px || px->x < -9.0 || px->y < -9.0 || px->x > kHills.width_px + 9.0 || px->y > kHills.height_px + 9.0)
       continue;
     const Sight sight = sight_of(globe, view, on_ground, *px);
-    if (k == 0 || k + 4 >= places.size()) truth.ends_px.push_back(*px);
+    if (k == 0 || k + 2 >= places.size()) truth.ends_px.push_back(*px);
     if (sight == Sight::open) truth.shown_px.push_back(*px);
     if (sight != Sight::hidden) truth.perhaps_px.push_back(*px);
   }
@@ -149,7 +149,7 @@ LineFaults faults_of(const std::vector<bool>& inked, const LineTruth& truth) {
 }
 
 TEST_F(DrapedObjects, ATrackLiesOnTheGroundFrom100KmTo100M) {
-  for (const double exaggeration : {1.0, 5.0, 20.0}) {
+  for (const double exaggeration : {1.0, 20.0}) {
     const auto globe = hilly_globe(exaggeration);
     LayerId layer = *globe->add_objects({});
     for (const double away_m : {100e3, 10e3, 1e3, 100.0}) {
@@ -231,7 +231,7 @@ std::vector<bool> truth_of_area(const Globe& globe, const std::vector<Geodetic>&
 TEST_F(DrapedObjects, ATranslucentAreaColoursEachPixelOfItsGroundOnce) {
   constexpr ObjectColor kTint{220, 20, 20, 128};
   const int once = (220 * 128 + 127 * kMeadow[0]) / 255;
-  for (const double exaggeration : {1.0, 5.0, 20.0}) {
+  for (const double exaggeration : {1.0, 20.0}) {
     const auto globe = hilly_globe(exaggeration);
     const LayerId layer = *globe->add_objects({});
     for (const double away_m : {100e3, 10e3, 1e3, 100.0}) {
@@ -283,6 +283,31 @@ TEST_F(DrapedObjects, DrapesAgreeWithTheGroundInAllDepthModes) {
   }
 }
 
+// Planes through the sides of a triangle are rounded. If a triangle is as thin as the rounding, its planes can enclose
+// ground far beyond the triangle, and that ground must have no ink.
+TEST_F(DrapedObjects, AThinAreaHasNoInkBesideIt) {
+  const auto globe = hilly_globe(20.0);
+  const LayerId layer = *globe->add_objects({});
+  look(*globe, 100e3, -25.0);
+  constexpr double kThin_deg = 1e-8;  // a millimetre; floats 100 km from the eye have steps of 8 mm
+  for (int turn_deg = 0; turn_deg < 180; turn_deg += 15) {
+    const double north = std::cos(glm::radians(1.0 * turn_deg)), east = std::sin(glm::radians(1.0 * turn_deg));
+    const auto along = [&](double far_deg, double beside_deg) {
+      return hill_at(kHillLat + far_deg * north - beside_deg * east, kHillLon + far_deg * east + beside_deg * north);
+    };
+    const std::vector<Geodetic> corners = {along(-0.1, 0.0), along(0.3, kThin_deg), along(0.07, kThin_deg)};
+    ASSERT_TRUE(globe->set_objects(
+        layer,
+        {.polygons = {
+             {.rings = {corners}, .fill = kHillInk, .stroke = {0, 0, 0, 0}, .heights = HeightMode::clamp_to_ground}}}));
+    settle(*globe, kHills);
+    std::vector<Geodetic> middle;
+    for (int k = 0; k <= 250; ++k) middle.push_back(along(-0.1 + 0.4 * k / 250.0, 0.0));
+    const LineFaults faults = faults_of(inked(), line_truth(*globe, middle));
+    EXPECT_EQ(faults.strays, 0) << turn_deg << " degrees" << faults.where;
+  }
+}
+
 // A pixel that two pieces of a line coloured would be redder than the line's colour makes it.
 TEST_F(DrapedObjects, ATranslucentLineColoursEachPixelOnce) {
   constexpr ObjectColor kTint{220, 20, 20, 128};
@@ -315,7 +340,7 @@ TEST_F(DrapedObjects, PointsFollowTheGroundWhenHeightsArriveAndChange) {
       const auto globe = hilly_globe(1.0);
       ObjectScene scene;
       const auto places = winding(away_m / 111e3 * 0.9);
-      for (std::size_t k = 0; k < places.size(); k += 40) {
+      for (std::size_t k = 0; k < places.size(); k += 10) {
         Geodetic place = places[k];
         place.height_m = over_m > 0.0 ? over_m : 4321.0;
         scene.points.push_back(

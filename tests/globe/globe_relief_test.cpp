@@ -31,7 +31,7 @@ std::string words_of(const Camera& c, double exaggeration) {
   return out.str();
 }
 
-/// True if a ray meets the ground: in steps that are small against its mountains, by the heights themselves.
+/// True if a ray meets the ground, by the heights themselves. Steps are short beside the mountains.
 bool meets_ground(const View& view, const Ellipsoid& body, glm::dvec2 px, double exaggeration) {
   const EcefDir ray = pixel_ray(view, px);
   const double top_m = exaggeration * kMost_m;
@@ -40,7 +40,8 @@ bool meets_ground(const View& view, const Ellipsoid& body, glm::dvec2 px, double
   if (!enters) return false;
   // Twice the way down from the highest to the lowest ground, or through to the other side where it is grazed.
   const double reach_m = 2.2 * std::sqrt(2.0 * body.a_m() * 2.0 * top_m) + 4.0 * top_m;
-  constexpr int kSteps = 3000;
+  constexpr int kSteps =
+      600;  // between two steps a ridge 2,000 km long sinks by some metres, and a pixel has kilometres
   for (int k = 0; k <= kSteps; ++k) {
     const Ecef p{view.eye.xyz_m + (*enters + reach_m * k / kSteps) * ray.xyz};
     const Geodetic at = body.to_geodetic(p);
