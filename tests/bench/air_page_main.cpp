@@ -31,8 +31,7 @@ struct Scene {
 };
 
 constexpr Viewport kSize{240, 180};
-constexpr int kTimes = 8;
-constexpr Viewport kLarge{kTimes * kSize.width_px, kTimes* kSize.height_px};
+constexpr int kTimes = 8, kTimesOverRelief = 2;  // rays through heights take long
 constexpr Scene kScenes[] = {{"disc", "earth", "15,20,18000000", "2026-06-21T10:30Z"},
                              {"terminator", "earth", "25,60,12000000", "2026-03-20T15:30Z"},
                              {"horizon", "earth", "35,15,400000,60,-20,40", "2026-06-21T10:00Z"},
@@ -119,7 +118,8 @@ class Page {
     const Drawn own = air ? drawn(*globe, kSize) : drawn(*globe_of(scene, body, true), kSize);
     const Almanac almanac = value_or_throw(almanac_at(value_or_throw(parse_utc(scene.time))));
     save(scene, "truth",
-         air ? through_air(own, drawn(*globe, kLarge), {*globe, body.ellipsoid, scene.relief && !elevation_.empty()},
+         air ? through_air(own, drawn(*globe, larger(scene.relief)),
+                           {*globe, body.ellipsoid, scene.relief && !elevation_.empty()},
                            test::AirTruth(*air, body.ellipsoid), almanac.sun.xyz)
              : dust(own.image, own.view, body, body_sun(body, scene)));
   }
@@ -162,6 +162,10 @@ class Page {
     globe.render(target.framebuffer(), size);
     return {{size.width_px, size.height_px, target.read()}, globe.view(size)};
   }
+  static Viewport larger(bool relief) {
+    const int times = relief ? kTimesOverRelief : kTimes;
+    return {times * kSize.width_px, times * kSize.height_px};
+  }
   static bool on_limb(const View& view, const GroundTruth& true_ground, const glm::dvec2& px) {
     int ground = 0;
     for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(2, -1), glm::dvec2(-1, 2), glm::dvec2(2, 2)}) {
@@ -188,8 +192,7 @@ class Page {
     }
     return own.at(best);
   }
-  /// A ray through the middle of each pixel, and `kTimes` by `kTimes` rays through a pixel on the limb. Each of those
-  /// meets the ground's colour in the larger picture.
+  /// A ray through the middle of each pixel, and one through each pixel of the larger picture on the limb.
   static Image through_air(const Drawn& own, const Drawn& large, const GroundTruth& ground, const test::AirTruth& truth,
                            const glm::dvec3& sun) {
     Image out = own.image;
@@ -197,13 +200,13 @@ class Page {
       const glm::ivec2 px(k % kSize.width_px, k / kSize.width_px);
       const bool limb = on_limb(own.view, ground, glm::dvec2(px));
       const Drawn& picture = limb ? large : own;
-      const int side = limb ? kTimes : 1;
+      const int side = picture.image.width_px / kSize.width_px;
       glm::dvec3 sum(0.0);
       for (int r = 0; r < side * side; ++r) {
         const glm::ivec2 at = side * px + glm::ivec2(r % side, r / side);
         const glm::dvec3 ray = pixel_ray(picture.view, glm::dvec2(at) + 0.5).xyz, eye_m = picture.view.eye.xyz_m;
         const auto metres = ground.hit_m(picture.view.eye, EcefDir{ray});
-        const auto ground_color = [&] { return limb ? own_color(large, ground, at) : own.at(at); };
+        const auto ground_color = [&] { return side == kTimes ? own_color(large, ground, at) : picture.at(at); };
         sum += metres ? truth.thing(eye_m, ray, *metres, sun,
                                     ground_color() * truth.ground_tint(eye_m + *metres * ray, sun))
                       : truth.color(eye_m, ray, sun, 0.0);
