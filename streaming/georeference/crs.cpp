@@ -23,14 +23,16 @@ ProjHandle wrap(PJconsts* object) { return ProjHandle(object); }
 
 std::string_view word(const char* text) { return text == nullptr ? std::string_view() : text; }
 
-/// Reduces a system to its horizontal part: removes heights and bound transformations.
-ProjHandle horizontal(PJ_CONTEXT* context, ProjHandle crs) {
+/// Reduces a system to its horizontal part: removes heights. A bound system goes to `bound`, and its source goes on.
+ProjHandle horizontal(PJ_CONTEXT* context, ProjHandle crs, ProjHandle& bound) {
   for (int depth = 0; crs && depth < 4; ++depth) {
     const PJ_TYPE type = proj_get_type(crs.get());
     if (type == PJ_TYPE_COMPOUND_CRS) {
       crs = wrap(proj_crs_get_sub_crs(context, crs.get(), 0));
     } else if (type == PJ_TYPE_BOUND_CRS) {
-      crs = wrap(proj_get_source_crs(context, crs.get()));
+      ProjHandle source = wrap(proj_get_source_crs(context, crs.get()));
+      if (!bound) bound = std::move(crs);
+      crs = std::move(source);
     } else {
       return crs;
     }
@@ -119,6 +121,11 @@ OwnDegrees own_degrees(PJ_CONTEXT* context, const PJconsts* geodetic) {
   return own;
 }
 
+bool is_registered(PJ_CONTEXT* context, const PJconsts* crs) {
+  const ProjHandle geodetic = wrap(proj_crs_get_geodetic_crs(context, crs));
+  return geodetic && proj_get_id_code(geodetic.get(), 0) != nullptr;
+}
+
 ProjHandle path_between(PJ_CONTEXT* context, const PJconsts* from, const PJconsts* to) {
   if (to == nullptr) return nullptr;
   const ProjHandle path = wrap(proj_create_crs_to_crs_from_pj(context, const_cast<PJconsts*>(from),
@@ -159,10 +166,12 @@ Result<Crs> Crs::open(const std::string& text) {
   Crs made;
   made.context_ = make_proj_context();
   PJ_CONTEXT* context = made.context_.get();
-  made.crs_ = horizontal(context, wrap(proj_create(context, text.c_str())));
+  made.crs_ = horizontal(context, wrap(proj_create(context, text.c_str())), made.bound_);
   if (!made.crs_ || proj_is_crs(made.crs_.get()) == 0) {
     return Error{"its coordinate system is not one that PROJ knows"};
   }
+  // PROJ knows better ways from registered datums than the shift that a text repeats.
+  if (made.bound_ && is_registered(context, made.crs_.get())) made.bound_.reset();
   const PJ_TYPE type = proj_get_type(made.crs_.get());
   CrsFacts& facts = made.facts_;
   facts.geographic =
@@ -194,7 +203,9 @@ bool Crs::is_earth() const {
 }
 
 bool Crs::is_same_as(const Crs& other) const {
-  return proj_is_equivalent_to_with_ctx(context_.get(), crs_.get(), other.crs_.get(),
+  if (static_cast<bool>(bound_) != static_cast<bool>(other.bound_)) return false;
+  return proj_is_equivalent_to_with_ctx(context_.get(), (bound_ ? bound_ : crs_).get(),
+                                        (other.bound_ ? other.bound_ : other.crs_).get(),
                                         PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
 }
 
@@ -206,7 +217,9 @@ std::string Crs::degrees_text() const {
 Status Crs::find_path() const {
   if (path_) return Done{};
   PJ_CONTEXT* context = context_.get();
-  if (is_earth()) path_ = path_between(context, crs_.get(), wrap(proj_create(context, "EPSG:4326")).get());
+  if (is_earth()) {
+    path_ = path_between(context, (bound_ ? bound_ : crs_).get(), wrap(proj_create(context, "EPSG:4326")).get());
+  }
   if (!path_) {
     const ProjHandle geodetic = wrap(proj_crs_get_geodetic_crs(context, crs_.get()));
     path_ = path_between(context, crs_.get(), geodetic.get());

@@ -81,6 +81,7 @@ class Crs {
   [[nodiscard]] Status find_path() const;
   ProjContext context_;
   ProjHandle crs_;
+  ProjHandle bound_;  ///< the system with its own shift to WGS 84, if it has one and its datum is not registered
   CrsFacts facts_;
   mutable ProjHandle path_;  ///< to degrees; found when first needed
   mutable OwnDegrees own_;

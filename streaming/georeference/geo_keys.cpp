@@ -86,6 +86,31 @@ std::string own_geographic(const GTIFDefn& defn, const std::string& title) {
       name, defn.SemiMajor, inverse_flattening, defn.PMLongToGreenwich, unit, own_unit);
 }
 
+/// Binds a system of the file's own to WGS 84 by the shift that its keys give: three or seven numbers, as a position
+/// vector transformation in metres, arc-seconds and millionths.
+std::string with_shift(const std::string& text, const GTIFDefn& defn) {
+  if (defn.TOWGS84Count != 3 && defn.TOWGS84Count != 7) return text;
+  const ProjContext context = make_proj_context();
+  const ProjHandle source(proj_create(context.get(), text.c_str())), target(proj_create(context.get(), "EPSG:4326"));
+  const auto wkt = [&](const ProjHandle& crs) {
+    const char* made = crs ? proj_as_wkt(context.get(), crs.get(), PJ_WKT2_2019, nullptr) : nullptr;
+    return std::string(made != nullptr ? made : "");
+  };
+  const std::string from = wkt(source), to = wkt(target);
+  if (from.empty() || to.empty()) return text;
+  constexpr std::array<const char*, 6> kNames{"X-axis translation", "Y-axis translation", "Z-axis translation",
+                                              "X-axis rotation",    "Y-axis rotation",    "Z-axis rotation"};
+  std::string shift;
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    shift += fmt::format("PARAMETER[\"{}\",{:.17g},ID[\"EPSG\",{}]],", kNames[k], defn.TOWGS84[k], 8605 + k);
+  }
+  return fmt::format(
+      "BOUNDCRS[SOURCECRS[{}],TARGETCRS[{}],ABRIDGEDTRANSFORMATION[\"of the file\",METHOD[\"Position Vector "
+      "transformation (geog2D domain)\",ID[\"EPSG\",9606]],{}PARAMETER[\"Scale "
+      "difference\",{:.17g},ID[\"EPSG\",8611]]]]",
+      from, to, shift, 1.0 + 1e-6 * defn.TOWGS84[6]);
+}
+
 Status check_figure(const GTIFDefn& defn) {
   const bool plausible = std::isfinite(defn.SemiMajor) && std::isfinite(defn.SemiMinor) && defn.SemiMajor >= 1.0 &&
                          defn.SemiMajor <= 1e10 && defn.SemiMinor > 0.0 && defn.SemiMinor <= defn.SemiMajor * 1.5;
@@ -187,7 +212,8 @@ Result<std::string> projected_text(GTIF* keys, GTIFDefn& defn) {
   }
   whole += " +type=crs";
   const int base = short_key(keys, GeographicTypeGeoKey).value_or(KvUserDefined);
-  return base == KvUserDefined || base == 0 || defn.PMLongToGreenwich != 0.0 ? whole : on_base(whole, base);
+  if (base == KvUserDefined || base == 0) return with_shift(whole, defn);
+  return defn.PMLongToGreenwich != 0.0 ? whole : on_base(whole, base);
 }
 
 Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std::string& title) {
@@ -201,7 +227,7 @@ Result<std::string> geographic_text(GTIF* keys, const GTIFDefn& defn, const std:
   if (!(defn.UOMAngleInDegrees > 1e-9 && defn.UOMAngleInDegrees < 360.0)) {
     return Error{fmt::format("its GeoKeys count angles in units of {:g} degrees", defn.UOMAngleInDegrees)};
   }
-  return own_geographic(defn, title);
+  return with_shift(own_geographic(defn, title), defn);
 }
 
 /// First line of the citations, without GDAL's prefix.

@@ -86,6 +86,11 @@ PARTS = {
     # Two hundred metres beside the same projection of the ellipsoid alone.
     "own conic on the datum of 1927": (EARTH, RESAMPLED, SIDE, *proj("+proj=eqdc +lat_0=33.76 +lon_0=-117.47 +lat_1=33.9 "
                                        "+lat_2=33.6 +datum=NAD27"), *box(-15000, 15000, 200, SIDE)),
+    # Half a kilometre beside the same ellipsoid around WGS 84's centre.
+    "own datum, seven parameters": (EARTH, RESAMPLED, SIDE, *proj("+proj=tmerc +lat_0=49.5 +lon_0=14 +ellps=bessel "
+                                    "+towgs84=570.8,85.7,462.8,4.998,1.587,5.261,3.56"), *box(-15000, 15000, 200, SIDE)),
+    "own datum, degrees": (EARTH, RESAMPLED, SIDE, *proj("+proj=longlat +ellps=bessel +towgs84=-148,507,685"),
+                           "-a_ullr", 135, 36, 135.5, 35.5),
     "north pole": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3413", *box(-2.4e6, -1.2e6, 20000, SIDE)),
     "south pole": (EARTH, RESAMPLED, SIDE, "-a_srs", "EPSG:3031", *box(1e6, 3e6, 20000, SIDE)),
     "moon's pole": (MOON, RESAMPLED, SIDE, *proj("+proj=stere +lat_0=90 +R=1737400"), *box(2e5, 7e5, 5000, SIDE)),
