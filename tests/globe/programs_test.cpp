@@ -59,7 +59,7 @@ TEST_F(Programs, ThePlainGlobeHasThoseOfItsGroundAndItsLimb) {
   EXPECT_EQ(of({}), plain());
   GlobeOptions options;
   options.texturing = Texturing::exact;
-  EXPECT_EQ(of(options), (Names{"limb_air.frag", "patch_polar.frag", "patch_polar_long.frag"}));
+  EXPECT_EQ(of(options), (Names{"limb_air.frag", "patch_polar_long.frag"}));
 }
 
 TEST_F(Programs, APatchProgramComesWithTheFirstPatchThatNeedsIt) {
