@@ -15,6 +15,12 @@ double derivative(double before_2, double before_1, double after_1, double after
   return (8.0 * (after_1 - before_1) - (after_2 - before_2)) / 12.0;
 }
 
+/// Rows and longitudes go on over a pole on the other side of the planet.
+bool is_beyond_pole(double row_deg) { return std::abs(row_deg) > 90.0; }
+double row_on_planet(double row_deg) {
+  return is_beyond_pole(row_deg) ? std::copysign(180.0, row_deg) - row_deg : row_deg;
+}
+
 /// Place and weights of four values in a row, for a value between the middle two.
 struct SplinePlace {
   std::int64_t first = 0;
@@ -86,22 +92,26 @@ std::vector<glm::vec2> HeightField::slopes_within(const TileId& id, const PixelR
   heights_m.reserve(static_cast<std::size_t>(width * (rect.height + 2 * kReach_px)));
   Cursor beyond(*this);
   for (std::int64_t y = rect.y0 - kReach_px; y < rect.y0 + rect.height + kReach_px; ++y) {
-    // Beyond a pole the last row repeats.
-    const double row = std::clamp(row_of(y), bottom_row_deg(grid_) + 0.5 * pixel_deg, 90.0 - 0.5 * pixel_deg);
+    const double row = row_on_planet(row_of(y)), turn_deg = is_beyond_pole(row_of(y)) ? 180.0 : 0.0;
     for (std::int64_t x = rect.x0 - kReach_px; x < rect.x0 + rect.width + kReach_px; ++x) {
       const bool own = x >= 0 && y >= 0 && x < held.own_columns && y < held.own_rows;
-      heights_m.push_back(own ? double{held.tile.heights_m[static_cast<std::size_t>(y * grid_.tile_px + x)]}
-                              : beyond.height_at_row_m(row, bounds.west_deg + (double(x) + 0.5) * pixel_deg));
+      heights_m.push_back(
+          own ? double{held.tile.heights_m[static_cast<std::size_t>(y * grid_.tile_px + x)]}
+              : beyond.height_at_row_m(row, bounds.west_deg + turn_deg + (double(x) + 0.5) * pixel_deg));
     }
   }
   std::vector<glm::vec2> slopes;
   slopes.reserve(static_cast<std::size_t>(rect.width * rect.height));
   for (std::int64_t y = 0; y < rect.height; ++y) {
     const double row = row_of(rect.y0 + y);
-    const auto lat_rad = [&](double row_deg) { return latitude_of_row(grid_, ellipsoid_, row_deg).rad(); };
+    const auto lat_rad = [&](double row_deg) {
+      return latitude_of_row(grid_, ellipsoid_, row_on_planet(row_deg)).rad();
+    };
     const double north_m =
-        std::max(1e-3, ellipsoid_.a_m() * (lat_rad(row + 0.5 * pixel_deg) - lat_rad(row - 0.5 * pixel_deg)));
-    const double east_m = ellipsoid_.a_m() * Angle::degrees(pixel_deg).rad() * std::max(1e-6, std::cos(lat_rad(row)));
+        std::max(1e-3, ellipsoid_.a_m() * std::abs(lat_rad(row + 0.5 * pixel_deg) - lat_rad(row - 0.5 * pixel_deg)));
+    // Over a pole columns run the other way. Both axes stay those of this side, so that slopes can be interpolated.
+    const double east_m = (is_beyond_pole(row) ? -1.0 : 1.0) * ellipsoid_.a_m() * Angle::degrees(pixel_deg).rad() *
+                          std::max(1e-6, std::cos(lat_rad(row)));
     const double* h = &heights_m[static_cast<std::size_t>((y + kReach_px) * width + kReach_px)];
     for (std::int64_t x = 0; x < rect.width; ++x, ++h) {
       slopes.emplace_back(derivative(h[-2], h[-1], h[1], h[2]) / east_m,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 
@@ -100,6 +101,53 @@ TEST(HeightSlopes, BeyondTheFinestLevelBendEvenlyBetweenTheHeights) {
     most = std::max(most, std::abs(slopes[k].x - 2.0F * slopes[k - 1].x + slopes[k - 2].x));
   }
   EXPECT_LT(most, 0.01F);
+}
+
+// A hill of 17 degrees beside a pole. Rows of the border lie beyond the pole; their colatitudes are negative.
+TEST(HeightSlopes, AreThoseOfTheNormalsAcrossThePoles) {
+  constexpr double kHill_m = 1.1e6, kHill_rad = 0.3, kMost_deg = 3.0;
+  constexpr int kBorder = 2;
+  const double a_m = earth().ellipsoid.a_m();
+  const auto from_top = [](double c, double lon) {
+    return glm::dvec2(c * std::sin(lon) - 0.1, c * std::cos(lon) + 0.05) / kHill_rad;
+  };
+  const auto height_m = [&](const glm::dvec2& p) { return kHill_m * std::exp(-glm::dot(p, p)); };
+  for (const bool north : {true, false}) {
+    HeightField field(earth().ellipsoid, kSlopesGrid);
+    const auto place = [&](const TileId& id, int row, int column) {
+      const TileBounds b = tile_bounds(kSlopesGrid, id);
+      const double pixel_deg = (b.east_deg - b.west_deg) / kSlopesGrid.tile_px;
+      const double lat = b.north_deg - (row + 0.5) * pixel_deg;
+      return glm::dvec2(90.0 - (north ? lat : -lat), b.west_deg + (column + 0.5) * pixel_deg) * kSlopesRadian;
+    };
+    const std::int64_t y = north ? 0 : rows(kSlopesGrid, 2) - 1;
+    for (std::int64_t x = 0; x < columns(kSlopesGrid, 2); ++x) {
+      HeightTile tile{.id = {.level = 2, .x = x, .y = y}, .side_px = kSlopesGrid.tile_px, .heights_m = {}};
+      for (int k = 0; k < kSlopesGrid.tile_px * kSlopesGrid.tile_px; ++k) {
+        const glm::dvec2 at = place(tile.id, k / kSlopesGrid.tile_px, k % kSlopesGrid.tile_px);
+        tile.heights_m.push_back(static_cast<float>(height_m(from_top(at.x, at.y))));
+      }
+      field.add(tile);
+    }
+    for (const std::int64_t x : {1, 6}) {
+      const TileId id{.level = 2, .x = x, .y = y};
+      const int side = kSlopesGrid.tile_px + 2 * kBorder;
+      const std::vector<glm::vec2> slopes = field.slopes(id, kBorder);
+      double most_deg = 0.0;
+      for (int k = 0; k < 6 * side; ++k) {
+        const int row = north ? k / side - kBorder : kSlopesGrid.tile_px + kBorder - 1 - k / side;
+        const glm::dvec2 at = place(id, row, k % side - kBorder), p = from_top(at.x, at.y);
+        const glm::dvec2 rise = -2.0 / kHill_rad * height_m(p) * p;  // a radian, along both axes
+        const glm::dvec2 along(std::sin(at.y), std::cos(at.y)), across(std::cos(at.y), -std::sin(at.y));
+        const double east = glm::dot(rise, across) * at.x / (a_m * std::sin(at.x));
+        const double away = glm::dot(rise, along) / a_m;
+        const glm::vec2 slope = slopes[static_cast<std::size_t>((row + kBorder) * side + k % side)];
+        const double cosine = glm::dot(slope_normal(east, north ? -away : away), slope_normal(slope.x, slope.y));
+        most_deg = std::max(most_deg, std::acos(std::min(1.0, cosine)) / kSlopesRadian);
+      }
+      EXPECT_LE(most_deg, kMost_deg) << (north ? "north" : "south") << ", tile " << x;
+    }
+  }
 }
 
 TEST(HeightSlopes, OfLevelGroundAreZeroAndFiniteAtThePoles) {
