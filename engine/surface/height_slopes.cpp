@@ -21,6 +21,15 @@ double row_on_planet(double row_deg) {
   return is_beyond_pole(row_deg) ? std::copysign(180.0, row_deg) - row_deg : row_deg;
 }
 
+/// Columns between the heights of a slope along the parallel. Near a pole columns are so close that a height's rounding
+/// to a metre would be a cliff, so heights are at least half as far apart as along the meridian. An arc of half a
+/// radian still has its derivative within 0.2 %.
+std::int64_t columns_apart(double north_over_east, double pixel_rad) {
+  constexpr double kMostArc_rad = 0.5;
+  return std::max(std::int64_t{1},
+                  static_cast<std::int64_t>(std::min(0.5 * north_over_east, kMostArc_rad / pixel_rad)));
+}
+
 /// Place and weights of four values in a row, for a value between the middle two.
 struct SplinePlace {
   std::int64_t first = 0;
@@ -113,9 +122,18 @@ std::vector<glm::vec2> HeightField::slopes_within(const TileId& id, const PixelR
     const double east_m = (is_beyond_pole(row) ? -1.0 : 1.0) * ellipsoid_.a_m() * Angle::degrees(pixel_deg).rad() *
                           std::max(1e-6, std::cos(lat_rad(row)));
     const double* h = &heights_m[static_cast<std::size_t>((y + kReach_px) * width + kReach_px)];
-    for (std::int64_t x = 0; x < rect.width; ++x, ++h) {
-      slopes.emplace_back(derivative(h[-2], h[-1], h[1], h[2]) / east_m,
-                          derivative(h[2 * width], h[width], h[-width], h[-2 * width]) / north_m);
+    const std::int64_t stride = columns_apart(north_m / std::abs(east_m), Angle::degrees(pixel_deg).rad());
+    const auto height_m = [&](std::int64_t x) {
+      if (x >= -kReach_px && x < rect.width + kReach_px) return h[x];
+      const double turn_deg = is_beyond_pole(row) ? 180.0 : 0.0;
+      return beyond.height_at_row_m(row_on_planet(row),
+                                    bounds.west_deg + turn_deg + (static_cast<double>(rect.x0 + x) + 0.5) * pixel_deg);
+    };
+    for (std::int64_t x = 0; x < rect.width; ++x) {
+      const double east =
+          derivative(height_m(x - 2 * stride), height_m(x - stride), height_m(x + stride), height_m(x + 2 * stride)) /
+          (static_cast<double>(stride) * east_m);
+      slopes.emplace_back(east, derivative(h[x + 2 * width], h[x + width], h[x - width], h[x - 2 * width]) / north_m);
     }
   }
   return slopes;

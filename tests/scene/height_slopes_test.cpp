@@ -150,6 +150,34 @@ TEST(HeightSlopes, AreThoseOfTheNormalsAcrossThePoles) {
   }
 }
 
+// Heights in whole metres of a plain that rises by one metre in a hundred: no cliffs between columns that are metres
+// apart. Rounding by half a metre over half a pixel of the meridian is up to 0.0008 here.
+TEST(HeightSlopes, OfRoundedHeightsHaveNoCliffsBesideAPole) {
+  constexpr TileGrid kFine{.root_span_deg = 180.0, .tile_px = 256, .max_level = 5};
+  const double metres_a_rad = earth().ellipsoid.a_m();
+  const TileId id{.level = 5, .x = 3, .y = 0};
+  const TileBounds b = tile_bounds(kFine, id);
+  const double pixel_rad = (b.east_deg - b.west_deg) / kFine.tile_px * kSlopesRadian;
+  HeightField field(earth().ellipsoid, kFine);
+  HeightTile tile{.id = id, .side_px = kFine.tile_px, .heights_m = {}};
+  for (int k = 0; k < kFine.tile_px * kFine.tile_px; ++k) {
+    const double c = (k / kFine.tile_px + 0.5) * pixel_rad;
+    const double lon = b.west_deg * kSlopesRadian + (k % kFine.tile_px + 0.5) * pixel_rad;
+    tile.heights_m.push_back(static_cast<float>(std::round(0.01 * metres_a_rad * c * std::sin(lon))));
+  }
+  field.add(tile);
+  const std::vector<glm::vec2> slopes = field.slopes(id, 0);
+  constexpr int kReach =
+      96;  // columns whose heights are all in this tile, and rows where they are not next to the pole
+  for (int y = 32; y < kFine.tile_px; ++y) {
+    for (int x = kReach; x < kFine.tile_px - kReach; ++x) {
+      const double lon = b.west_deg * kSlopesRadian + (x + 0.5) * pixel_rad;
+      EXPECT_NEAR(slopes[static_cast<std::size_t>(y * kFine.tile_px + x)].x, 0.01 * std::cos(lon), 0.001)
+          << x << ", " << y;
+    }
+  }
+}
+
 TEST(HeightSlopes, OfLevelGroundAreZeroAndFiniteAtThePoles) {
   HeightField field(earth().ellipsoid, kSlopesGrid);
   HeightTile tile = slopes_waves({.level = 2, .x = 5, .y = 0});
