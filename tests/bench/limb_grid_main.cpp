@@ -15,6 +15,7 @@
 
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
+#include "streaming/sets/open_tile_set.h"
 #include "tests/gl/limb_rows.h"
 
 namespace {
@@ -128,6 +129,8 @@ int main(int argc, char** argv) {
   int smallest = 200, largest = 2048, every = 1;
   app.add_option("--smallest", smallest, "smallest size, pixels");
   app.add_option("--largest", largest, "largest size, pixels");
+  std::string tiles;
+  app.add_option("--tiles", tiles, "a tile set in place of the painted land, sea and floes");
   app.add_option("--every", every, "every n-th camera only")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
@@ -135,7 +138,13 @@ int main(int argc, char** argv) {
     if (!context) throw std::runtime_error(context.error().message);
     GlobeOptions options;
     options.sky = true;
-    auto globe = Globe::create(options, test::floes());
+    std::shared_ptr<TileSource> source = test::floes();
+    if (!tiles.empty()) {
+      auto opened = open_tile_set(tiles);
+      if (!opened) throw std::runtime_error(opened.error().message);
+      source = *std::move(opened);
+    }
+    auto globe = Globe::create(options, source);
     if (!globe) throw std::runtime_error(globe.error().message);
     fmt::print(
         "| size | sky | peak off, %: median, worst | change off, %: median, worst | outside the limits |\n"
