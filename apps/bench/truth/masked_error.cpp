@@ -26,7 +26,8 @@ Mask mask_of_latitudes(const TruthImage& truth, double from_deg, double to_deg) 
 bool is_inside(const Mask& mask, int x, int y) {
   const auto set = [&](int column, int row) {
     return column >= 0 && row >= 0 && column < mask.width && row < mask.height &&
-           mask.set[static_cast<std::size_t>(row * mask.width + column)] != 0;
+           mask.set[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
+                    static_cast<std::size_t>(column)] != 0;
   };
   return set(x, y) && set(x - 1, y) && set(x + 1, y) && set(x, y - 1) && set(x, y + 1);
 }
