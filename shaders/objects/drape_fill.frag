@@ -18,7 +18,7 @@ void main() {
       !is_inside(plane_ca, inside.z, ground)) {
     discard;
   }
-  float day = smoothstep(-0.35, 0.75, dot(normalize(eye_high_ecef.xyz + ground), sun_ecef.xyz));
+  float day = smoothstep(-0.35, 0.5, dot(normalize(eye_high_ecef.xyz + ground), sun_ecef.xyz));
   color_srgb = vec4(fill_color.rgb * mix(1.0, mix(0.4, 1.0, day), sun_ecef.w), fill_color.a);
   if (!in_air()) return;
   vec3 through, light;

@@ -10,7 +10,7 @@ flat out float pull;
 
 void main() {
   pull = 1.00005 - depth_bias;
-  float day = smoothstep(-0.35, 0.75, dot(normalize(position_high_ecef), sun_ecef.xyz));
+  float day = smoothstep(-0.35, 0.5, dot(normalize(position_high_ecef), sun_ecef.xyz));
   fill_color = vec4(color.rgb * mix(1.0, mix(0.4, 1.0, day), sun_ecef.w), color.a);
   if (in_air()) air_before(from_eye(position_high_ecef, position_low_ecef), air_through, air_light);
   gl_Position = color.a == 0.0 ? kNowhere : clip_of(view_of(position_high_ecef, position_low_ecef), pull);

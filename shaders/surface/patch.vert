@@ -72,12 +72,13 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
 }
 #endif
 
-// Soft light from the sun's side. The night side keeps a quarter.
+// Soft light from the Sun's side, full from 30 degrees on: imagery is pictured by such a Sun. The night side keeps a
+// quarter.
 float light_of(vec3 normal_ecef) {
 #if defined(NIGHT_LIGHTS)
   return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl turns this into day and night
 #endif
-  float day = smoothstep(-0.35, 0.75, dot(normal_ecef, sun_ecef.xyz));
+  float day = smoothstep(-0.35, 0.5, dot(normal_ecef, sun_ecef.xyz));
   return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
 }
 
