@@ -41,6 +41,9 @@ out vec3 air_light;
 #if defined(NEAR_GROUND)
 out vec3 air_tint;
 #endif
+#if defined(NIGHT_LIGHTS)
+out vec3 sun_tint;
+#endif
 
 void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   mat3 to_horizon = mat3(horizon_from_ecef);
@@ -52,6 +55,13 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   vec4 through = textureLod(ground_through, at, 0.0), light_sq = textureLod(ground_light, at, 0.0);
   vec3 tint = vec3(through.w, light_sq.w, 1.0 - through.w - light_sq.w);
   tint /= max(tint.r, max(tint.g, tint.b));
+  // Sunlight is red where the Sun is low. What shines by itself keeps its colour.
+#if defined(NIGHT_LIGHTS)
+  sun_tint = sqrt(tint);
+  tint = vec3(1.0);
+#elif defined(SPECIAL_LAYER)
+  if (layer_look.x < 0.0) tint = vec3(1.0);
+#endif
   air_through = through.rgb;
   air_light = light_sq.rgb;
 #if defined(RELIEF)

@@ -54,16 +54,25 @@ vec3 ground_normal() {
 #if defined(NIGHT_LIGHTS)
 layout(binding = 6) uniform samplerCube night_lights;
 
-// Day and night by the Sun's height, and city lights. Here `light` is the sine of the Sun's height.
-vec3 by_day_and_night(vec3 imagery_srgb, float alpha) {
+#if defined(AIR)
+in vec3 sun_tint;    // of sunlight on the ground, for stored colours
+#else
+const vec3 sun_tint = vec3(1.0);
+#endif
+
+// Day and night by the Sun's height. Here `light` is the sine of the Sun's height.
+vec3 by_sunlight(vec3 imagery_srgb) {
   if (sun_ecef.w == 0.0) return imagery_srgb;
+  return imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
+}
+
+vec3 city_lights() {
   // A cube map needs no arc tangent, and has no seam and no pole.
   vec3 normal = ground_normal();
   vec3 dx = dFdx(normal), dy = dFdy(normal);
-  vec3 color = imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
-  float night = 1.0 - smoothstep(-0.16, 0.02, light);
-  if (night > 0.0) color += textureGrad(night_lights, normal, dx, dy).r * night * alpha * vec3(1.0, 0.84, 0.54);
-  return color;
+  float night = sun_ecef.w == 0.0 ? 0.0 : 1.0 - smoothstep(-0.16, 0.02, light);
+  if (night == 0.0) return vec3(0.0);
+  return textureGrad(night_lights, normal, dx, dy).r * night * vec3(1.0, 0.84, 0.54);
 }
 #endif
 
@@ -98,7 +107,7 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
   vec3 shaded_srgb = imagery_srgb;
 #endif
 #if defined(NIGHT_LIGHTS)
-  return with_glint(by_day_and_night(shaded_srgb, alpha), imagery_srgb);
+  return with_glint(by_sunlight(shaded_srgb), imagery_srgb) * sun_tint + city_lights() * alpha;
 #else
   return with_glint(shaded_srgb * light, imagery_srgb);
 #endif

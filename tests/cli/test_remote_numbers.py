@@ -60,7 +60,11 @@ class Shown(RemoteNumbersTest):
             told = json.loads(self.assert_done("render", url, *look, "--json").stdout)
             cold = list(server.asked)
             self.assertEqual(cold[0], (0, 32767))
-            self.assertLessEqual(len(cold), 3 + told["tiles_asked"])
+            # The file's tiles have 128 pixels, four to one of the globe's. Requests for neighbours are merged if they come in
+            # time, which a busy machine may miss. No byte is asked for twice.
+            self.assertLessEqual(len(cold), 3 + 4 * told["tiles_asked"])
+            ends = sorted(cold)
+            self.assertTrue(all(a[1] < b[0] for a, b in zip(ends, ends[1:])), cold)
             truth = (self.folder / "out.png").read_bytes()
             self.assert_done("render", url, *look)
             self.assertEqual(len(server.asked), len(cold), "the second run asked the server")

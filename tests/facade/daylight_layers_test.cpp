@@ -216,6 +216,39 @@ TEST_F(DaylightLayers, TheTwilightIsWhereTheAlmanacsFormulasHaveIt) {
   EXPECT_GT(dusk, 2500);
 }
 
+TEST_F(DaylightLayers, WhatShinesByItselfKeepsItsColourInTheDusk) {
+  GlobeOptions options = evening();
+  options.sky = true;
+  const auto black = [](double, double) { return Rgba{0, 0, 0, 255}; };
+  const auto white = [](double, double) { return Rgba{255, 255, 255, 255}; };
+  const auto lamps = empty_globe(options);
+  ASSERT_TRUE(lamps->add_imagery(painted(black)));
+  ASSERT_TRUE(lamps->add_imagery(painted(white), {.daylight = Daylight::night}));
+  options.night_lights = {64, 32, std::vector<std::uint8_t>(64 * 32, 255)};
+  const auto cities = empty_globe(options);
+  ASSERT_TRUE(cities->add_imagery(painted(black)));
+  // Colour of city lights, as it is stored (shaders/surface/patch_common.glsl).
+  for (const auto& [globe, colour] : {std::pair{lamps.get(), glm::dvec3(1.0)}, {cities.get(), {1.0, 0.84, 0.54}}}) {
+    int judged = 0;
+    // From near and from far: the air has a program of its own near the ground. The Sun is 5 to 1 degrees down.
+    for (const double height_m : {2.0e4, 3.0e5}) {
+      for (const double lon_deg : {-3.5, -2.0, -0.5}) {
+        globe->set_camera(camera_at(30, lon_deg, height_m));
+        const Picture seen = settled(*globe);
+        for_ground(*globe, [&](int x, int y, const Geodetic&) {
+          const Color got = seen.at(x, y);
+          if (got[0] < 60) return;
+          ++judged;
+          // The air between adds the light of the dusk sky and takes 3 % of a colour; red sunlight took a fifth of green.
+          EXPECT_NEAR(got[1], colour.y * got[0], 6.0) << x << ' ' << y;
+          EXPECT_NEAR(got[2], colour.z * got[0], 12.0) << x << ' ' << y;
+        });
+      }
+    }
+    EXPECT_GT(judged, 2000);
+  }
+}
+
 TEST_F(DaylightLayers, OpacityAndATranslucentSurfaceGoWithThem) {
   const auto globe = empty_globe(evening());
   globe->set_camera(camera_at(45, 0, 9.0e6));
