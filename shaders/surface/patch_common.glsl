@@ -55,7 +55,7 @@ vec3 ground_normal() {
 layout(binding = 6) uniform samplerCube night_lights;
 
 #if defined(AIR)
-in vec3 sun_tint;    // of sunlight on the ground, for stored colours
+in vec3 sun_tint;    // colour of sunlight on the ground, a factor of stored colours
 #else
 const vec3 sun_tint = vec3(1.0);
 #endif
