@@ -61,6 +61,7 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
   patches_->set_air(air_of(pass));
   patches_->set_light(light_of(pass.input));
+  patches_->set_sun(pass.input.lit ? std::optional(pass.input.sun) : std::nullopt);
   patches_->set_plain_footprint(pass.input.lit ? lit_footprint_texels(pass.input) : kPlainFootprint_texels);
   for (const LayerFrame& layer : pass.input.layers) {
     const bool numbers = layer.gpu->numbers != nullptr;

@@ -41,7 +41,7 @@ out vec3 air_light;
 #if defined(NEAR_GROUND)
 out vec3 air_tint;
 #endif
-#if defined(NIGHT_LIGHTS)
+#if defined(DAY_AND_NIGHT)
 out vec3 sun_tint;
 #endif
 
@@ -56,7 +56,7 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   vec3 tint = vec3(through.w, light_sq.w, 1.0 - through.w - light_sq.w);
   tint /= max(tint.r, max(tint.g, tint.b));
   // Sunlight is red where the Sun is low. What shines by itself keeps its colour.
-#if defined(NIGHT_LIGHTS)
+#if defined(DAY_AND_NIGHT)
   sun_tint = sqrt(tint);
   tint = vec3(1.0);
 #elif defined(SPECIAL_LAYER)
@@ -85,7 +85,7 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
 // Soft light from the Sun's side, full from 30 degrees on: imagery is pictured by such a Sun. The night side keeps a
 // quarter.
 float light_of(vec3 normal_ecef) {
-#if defined(NIGHT_LIGHTS)
+#if defined(DAY_AND_NIGHT)
   return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl turns this into day and night
 #endif
   float day = smoothstep(-0.35, 0.5, dot(normal_ecef, sun_ecef.xyz));

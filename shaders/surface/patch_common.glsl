@@ -51,9 +51,7 @@ vec3 ground_normal() {
   return (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
 }
 
-#if defined(NIGHT_LIGHTS)
-layout(binding = 6) uniform samplerCube night_lights;
-
+#if defined(DAY_AND_NIGHT)
 #if defined(AIR)
 in vec3 sun_tint;    // colour of sunlight on the ground, a factor of stored colours
 #else
@@ -66,14 +64,19 @@ vec3 by_sunlight(vec3 imagery_srgb) {
   return imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
 }
 
+#if defined(CITY_LIGHTS)
+layout(binding = 6) uniform samplerCube night_lights;
+
 vec3 city_lights() {
   // A cube map needs no arc tangent, and has no seam and no pole.
   vec3 normal = ground_normal();
   vec3 dx = dFdx(normal), dy = dFdy(normal);
-  float night = sun_ecef.w == 0.0 ? 0.0 : 1.0 - smoothstep(-0.16, 0.02, light);
-  if (night == 0.0) return vec3(0.0);
+  float night = sun_ecef.w * (1.0 - smoothstep(-0.16, 0.02, light));
   return textureGrad(night_lights, normal, dx, dy).r * night * vec3(1.0, 0.84, 0.54);
 }
+#else
+vec3 city_lights() { return vec3(0.0); }
+#endif
 #endif
 
 #if defined(GLINT) && !defined(UPPER_LAYER)
@@ -90,11 +93,11 @@ float sea_share(vec3 imagery_srgb) {
 }
 
 // Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. White ground of a full Sun has the light 1.
+// Squares stand for light, as in through_air().
 vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
   // The share counts after the limit: a fiftieth of the sea under a low Sun would shine as brightly as all of it.
   float light = min(glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029, 1.5) * sea_share(imagery_srgb);
-  if (light < 1e-4) return color_srgb;
-  return pow(pow(color_srgb, vec3(2.2)) + light * vec3(1.0, 0.95, 0.85), vec3(1.0 / 2.2));
+  return sqrt(color_srgb * color_srgb + light * vec3(1.0, 0.95, 0.85));
 }
 #else
 #define with_glint(color_srgb, imagery_srgb) (color_srgb)
@@ -106,7 +109,7 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
 #else
   vec3 shaded_srgb = imagery_srgb;
 #endif
-#if defined(NIGHT_LIGHTS)
+#if defined(DAY_AND_NIGHT)
   return with_glint(by_sunlight(shaded_srgb), imagery_srgb) * sun_tint + city_lights() * alpha;
 #else
   return with_glint(shaded_srgb * light, imagery_srgb);

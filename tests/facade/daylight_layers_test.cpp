@@ -228,7 +228,9 @@ TEST_F(DaylightLayers, WhatShinesByItselfKeepsItsColourInTheDusk) {
   const auto cities = empty_globe(options);
   ASSERT_TRUE(cities->add_imagery(painted(black)));
   // Colour of city lights, as it is stored (shaders/surface/patch_common.glsl).
-  for (const auto& [globe, colour] : {std::pair{lamps.get(), glm::dvec3(1.0)}, {cities.get(), {1.0, 0.84, 0.54}}}) {
+  for (const auto& lit : {std::pair{lamps.get(), glm::dvec3(1.0)}, {cities.get(), {1.0, 0.84, 0.54}}}) {
+    Globe* const globe = lit.first;
+    const glm::dvec3 colour = lit.second;
     int judged = 0;
     // From near and from far: the air has a program of its own near the ground. The Sun is 5 to 1 degrees down.
     for (const double height_m : {2.0e4, 3.0e5}) {
@@ -239,7 +241,7 @@ TEST_F(DaylightLayers, WhatShinesByItselfKeepsItsColourInTheDusk) {
           const Color got = seen.at(x, y);
           if (got[0] < 60) return;
           ++judged;
-          // The air between adds the light of the dusk sky and takes 3 % of a colour; red sunlight took a fifth of green.
+          // The air between adds the light of dusk and takes 3 % of a colour. Red sunlight took a fifth of green.
           EXPECT_NEAR(got[1], colour.y * got[0], 6.0) << x << ' ' << y;
           EXPECT_NEAR(got[2], colour.z * got[0], 12.0) << x << ' ' << y;
         });
@@ -247,6 +249,32 @@ TEST_F(DaylightLayers, WhatShinesByItselfKeepsItsColourInTheDusk) {
     }
     EXPECT_GT(judged, 2000);
   }
+}
+
+// Each patch is drawn with city lights or without, by its place under the Sun.
+TEST_F(DaylightLayers, CityLightsFadeInWithTheSunInEachPatch) {
+  GlobeOptions options = evening();
+  options.sky = true;
+  options.night_lights = {64, 32, std::vector<std::uint8_t>(64 * 32, 255)};
+  const auto globe = empty_globe(options);
+  globe->set_sky(false);  // no air before the lights
+  ASSERT_TRUE(globe->add_imagery(painted([](double, double) { return Rgba{0, 0, 0, 255}; })));
+  std::vector<Camera> cameras = dusk_cameras();
+  for (const double lon_deg : {-60.0, -20.0, 20.0}) cameras.push_back(camera_at(10, lon_deg, 2.0e7));
+  int dusk = 0;
+  for (const Camera& camera : cameras) {
+    globe->set_camera(camera);
+    const Picture shown = settled(*globe);
+    for_ground(*globe, [&](int x, int y, const Geodetic& place) {
+      // As shaders/surface/patch_common.glsl has it: lights begin under a Sun of a degree, and are full at -9 degrees.
+      const double t = std::clamp((sun_sine(place, kEveningSun) + 0.16) / 0.18, 0.0, 1.0);
+      const double level = 255.0 * (1.0 - t * t * (3.0 - 2.0 * t));
+      // Half a pixel of the farthest view is half a degree of the Sun: 20 levels where lights fade fastest.
+      EXPECT_NEAR(shown.at(x, y)[0], level, 0.5 + (t > 0.0 && t < 1.0 ? 20.0 : 1.0)) << x << ' ' << y;
+      dusk += t > 0.0 && t < 1.0 ? 1 : 0;
+    });
+  }
+  EXPECT_GT(dusk, 2500);
 }
 
 TEST_F(DaylightLayers, OpacityAndATranslucentSurfaceGoWithThem) {

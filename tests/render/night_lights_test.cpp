@@ -1,4 +1,4 @@
-// A patch's programs with NIGHT_LIGHTS: white imagery by day and by night, with a city and without.
+// A patch's programs with CITY_LIGHTS: white imagery by day and by night, with a city and without.
 #include "render/surface/night_lights.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class NightLightsTest : public testing::Test {
   std::array<int, 3> color(std::initializer_list<std::string_view> files, double lat_deg, double lon_deg,
                            double sun_lon, bool lit = true) {
     const auto program = build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}}, {GL_FRAGMENT_SHADER, files}},
-                                       {"DEPTH_REVERSED", "NIGHT_LIGHTS"});
+                                       {"DEPTH_REVERSED", "DAY_AND_NIGHT", "CITY_LIGHTS"});
     if (!program) {
       ADD_FAILURE() << program.error().message;
       return {};

@@ -8,7 +8,7 @@
 
 namespace terrella {
 
-/// City lights as a cube map, for programs built with NIGHT_LIGHTS (shaders/surface/patch_common.glsl). It takes 2 MB
+/// City lights as a cube map, for programs built with CITY_LIGHTS (shaders/surface/patch_common.glsl). It takes 2 MB
 /// on the GPU for a map 2048 pixels wide. thread: main
 class NightLights {
  public:

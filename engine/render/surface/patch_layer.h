@@ -10,6 +10,8 @@ namespace terrella {
 struct PatchLayer {
   /// The programs that draw patches, in the order of drawing.
   enum Program { magnified, plain, seven_taps, oblique, polar_short, polar, polar_long, paper, kPrograms };
+  /// Each program with and without city lights: program, or program + kPrograms by night.
+  static constexpr int kVariants = 2 * kPrograms;
 
   const NumberColors* numbers = nullptr;  ///< null: a layer of pictures
   gl::Buffer draws, commands, cells;
@@ -17,7 +19,7 @@ struct PatchLayer {
   gl::Texture cells_texture;
   gl::Buffer slope_draws, slope_cells;  ///< made by SlopeTextures; only with relief
   gl::Texture slope_cells_texture;
-  int first_command[kPrograms + 1] = {};
+  int first_command[kVariants + 1] = {};
   long triangles = 0;
 };
 

@@ -33,6 +33,10 @@ constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
 constexpr double kBesidePole_texels = 3.0;
 // Three taps of a pixel suffice up to this length, and seven up to that.
 constexpr double kThreeTaps_texels = 2.0, kSevenTaps_texels = 7.0;
+// City lights shine under a Sun lower than this (city_lights() of patch_common.glsl begins at a sine of 0.02).
+constexpr double kLampsOn_rad = 0.021;
+// Geodetic normals differ by up to a/b times as much as the axes of a patch's cone: 1.11 on Saturn.
+constexpr double kNormalsOverCone = 1.2;
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
 
@@ -62,9 +66,9 @@ std::unique_ptr<PatchPass> PatchPass::create(const RenderOptions& options, bool 
 Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches) {
   ProgramSet& set = sets_[set_index(role, numbers)];
   for (const SelectedPatch& patch : patches) {
-    const PatchLayer::Program which = program_for(patch);
-    if (set.programs[which]) continue;
-    if (Status made = make_program(set.programs[which], which, role, numbers); !made) return made;
+    const int variant = variant_for(patch);
+    if (set.programs[variant]) continue;
+    if (Status made = make_program(set.programs[variant], variant, role, numbers); !made) return made;
   }
   if (role == LayerRole::base || flat_program_) return Done{};
   return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
@@ -76,13 +80,14 @@ Status PatchPass::prepare_depth() {
 }
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
-                        bool numbers) const {
+                        bool numbers, bool city_lights) const {
   const bool pictures = !numbers;
   return build_into(place,
                     {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
                      {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
-                     options_.night_lights ? "NIGHT_LIGHTS" : "DAY_LIGHT", options_.regolith ? "REGOLITH" : "NO_DUST",
+                     options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", city_lights ? "CITY_LIGHTS" : "NO_LAMPS",
+                     options_.regolith ? "REGOLITH" : "NO_DUST",
                      light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
                      light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
                      which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
@@ -90,7 +95,9 @@ Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_vi
                      kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
 }
 
-Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, LayerRole role, bool numbers) {
+Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, bool numbers) {
+  const int which = variant % kPrograms;
+  const bool city_lights = variant >= kPrograms;
   constexpr std::string_view kFiles[kPrograms] = {"patch_magnified.frag",  "patch_plain.frag",       "patch_long.frag",
                                                   "patch_oblique.frag",    "patch_polar_short.frag", "patch_polar.frag",
                                                   "patch_polar_long.frag", "patch_paper.frag"};
@@ -99,7 +106,7 @@ Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, La
     return build(
         place,
         {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
-        role, numbers);
+        role, numbers, city_lights);
   }
   if (!options_.functions) {  // coordinates are computed per fragment
     const Result<ShaderFunctions> chosen = choose_shader_functions();
@@ -109,7 +116,7 @@ Status PatchPass::make_program(gl::Program& place, PatchLayer::Program which, La
   return build(place,
                {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
                 "patch_exact_point.glsl", "patch_polar_taps.glsl", file},
-               role, numbers);
+               role, numbers, city_lights);
 }
 
 void PatchPass::set_relief(bool has_relief) {
@@ -175,29 +182,40 @@ PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
   return patch.footprint_texels <= most_of_seven() ? polar : polar_long;
 }
 
+int PatchPass::variant_for(const SelectedPatch& patch) const {
+  return program_for(patch) + (is_dark(patch.body()) ? kPrograms : 0);
+}
+
+bool PatchPass::is_dark(const PatchNode& node) const {
+  if (!options_.night_lights || !sun_) return false;
+  const double height_rad = std::asin(std::clamp(glm::dot(node.normal, *sun_), -1.0, 1.0));
+  const double half_rad = std::acos(std::clamp(node.cos_cone, -1.0, 1.0));
+  return height_rad - kNormalsOverCone * half_rad < kLampsOn_rad;
+}
+
 // The length is an estimate for the middle of a patch. Beside the limb, where lit pictures need all taps, pixels vary.
 double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, plain_footprint_texels_); }
 
 void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
                        const TileCoverage& coverage, std::uint64_t frame) const {
   const auto& [buffers, tree, own] = vertices;
-  std::vector<DrawCommand> by_program[kPrograms];
+  std::vector<DrawCommand> by_program[kVariants];
   layer.triangles = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
     const PatchIndices::Range range =
         buffers.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
     const int place = buffers.place_of(tree, own ? *patch.node : *patch.surface, frame);
-    by_program[program_for(patch)].push_back(
+    by_program[variant_for(patch)].push_back(
         {range.count, 1, range.first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
     layer.triangles += range.count / 3;
   }
   std::vector<DrawCommand> commands;
-  for (int p = 0; p < kPrograms; ++p) {
+  for (int p = 0; p < kVariants; ++p) {
     layer.first_command[p] = static_cast<int>(commands.size());
     commands.insert(commands.end(), by_program[p].begin(), by_program[p].end());
   }
-  layer.first_command[kPrograms] = static_cast<int>(commands.size());
+  layer.first_command[kVariants] = static_cast<int>(commands.size());
   if (!layer.draws) {
     layer.draws = gl::make_buffer();
     layer.commands = gl::make_buffer();
@@ -244,7 +262,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   glBindSampler(3, precise_.name());
   if (layer.numbers != nullptr) layer.numbers->bind();
   bind_vertices(layer, vertices);
-  for (int p = 0; p < kPrograms; ++p) {
+  for (int p = 0; p < kVariants; ++p) {
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
     const GLuint program = set.programs[p].name();
     assert(program != 0);
@@ -271,7 +289,7 @@ void PatchPass::draw_all(const gl::Program& program, const PatchLayer& layer, co
                          const DrawState& state, FrameCounts& counts) const {
   bind_vertices(layer, vertices);
   apply(state.with(program.name()));
-  draw_commands(layer.first_command[0], layer.first_command[kPrograms], counts);
+  draw_commands(layer.first_command[0], layer.first_command[kVariants], counts);
 }
 
 }  // namespace terrella

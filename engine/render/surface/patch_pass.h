@@ -40,7 +40,7 @@ struct RenderOptions {
   DepthMode depth = DepthMode::reversed;
   bool regolith = false;                          ///< lights the surface as dust without air (shaders/regolith.glsl)
   PatchLight light = {};                          ///< light of the first frame; `relief` follows from the heights
-  bool night_lights = false;                      ///< draws day and night on the surface; the caller binds NightLights
+  bool night_lights = false;                      ///< draws day, night and city lights; the caller binds NightLights
   std::optional<ShaderFunctions> functions = {};  ///< none: the driver's functions if they are accurate enough
 };
 
@@ -68,8 +68,11 @@ class PatchPass {
   void set_air(const AirTextures* air) { air_ = air; }
   /// Draws in this light from now on.
   void set_light(const PatchLight& light) { light_ = light; }
+  /// Draws city lights under this Sun from now on (unit vector, ECEF axes); none: no city lights.
+  void set_sun(const std::optional<glm::dvec3>& sun) { sun_ = sun; }
   /// Builds the programs that draw these patches of a layer of pictures or numbers in the present air and light, each
-  /// once; for upper layers also that of draw_flat(). Call after set_air(), set_light() and set_plain_footprint().
+  /// once; for upper layers also that of draw_flat(). Call after set_air(), set_light(),
+  /// set_sun() and set_plain_footprint().
   Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
   /// Makes the program of draw_depth(), once.
   Status prepare_depth();
@@ -98,7 +101,7 @@ class PatchPass {
                  FrameCounts& counts) const;
 
  private:
-  static constexpr int kPrograms = PatchLayer::kPrograms;
+  static constexpr int kPrograms = PatchLayer::kPrograms, kVariants = PatchLayer::kVariants;
 
   PatchPass(const RenderOptions& options, bool has_relief)
       : options_(options), has_relief_(has_relief), light_(options.light) {}
@@ -109,9 +112,9 @@ class PatchPass {
     const std::size_t layers = 2 * static_cast<std::size_t>(role) + (numbers ? 1 : 0);
     return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light_.index());
   }
-  Status make_program(gl::Program& place, PatchLayer::Program which, LayerRole role, bool numbers);
-  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
-               bool numbers) const;
+  Status make_program(gl::Program& place, int variant, LayerRole role, bool numbers);
+  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role, bool numbers,
+               bool city_lights = false) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
@@ -120,6 +123,9 @@ class PatchPass {
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
   [[nodiscard]] PatchLayer::Program polar_for(const SelectedPatch& patch) const;
+  [[nodiscard]] int variant_for(const SelectedPatch& patch) const;
+  /// True if city lights may shine on a part of the patch.
+  [[nodiscard]] bool is_dark(const PatchNode& node) const;
   /// Longest pixel, in texels, that seven taps suffice for.
   [[nodiscard]] double most_of_seven() const;
 
@@ -127,12 +133,13 @@ class PatchPass {
   bool has_relief_;
   /// The programs of a role, for pictures or numbers, by which() air, in a light; those that some patch has needed.
   struct ProgramSet {
-    gl::Program programs[kPrograms];
+    gl::Program programs[kVariants];
   };
   static constexpr std::size_t kRoles = 3, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
   const AirTextures* air_ = nullptr;
   PatchLight light_;
+  std::optional<glm::dvec3> sun_;
   double paper_band_ = 0.05;
   double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_program_, flat_program_;
