@@ -76,6 +76,7 @@ FrameSnapshot GlobeView::Impl::snapshot() {
   if (globe->heights) globe->relief()->refresh_bounds(stack.front()->tree());
   FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = globe->experiments.patch_shuffle};
   if (globe->has_night()) snapshot.sun = sun();
+  if (!globe->options.unlit) snapshot.light = sun();
   for (LayerView* layer : stack) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }

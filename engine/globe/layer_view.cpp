@@ -34,7 +34,8 @@ LayerSnapshot LayerView::snapshot() {
                       .texels_per_pixel = layer_.texels_per_pixel(),
                       .detail = detail_,
                       .max_tile_level = look.max_level,
-                      .daylight = look.daylight};
+                      .daylight = look.daylight,
+                      .height_m = look.height_m};
   if (layer_.stream()) layer.room = room_ = layer_.room_for(*this);
   if (look.min_level > layer_.grid().min_level) layer.least_level = look.min_level;
   return layer;

@@ -138,7 +138,11 @@ void main() {
   // less than 0.
   vec3 sun_enu = in_enu(normal, sun_ecef.xyz);
   shadow_of_layer = 0.5 * sun_ecef.w * smoothstep(0.0, 0.2, sun_enu.z);
-  vec2 towards_sun = -min(surface_look.x, 0.0) * sun_enu.xy / max(sun_enu.z, 0.15);
+  // The ray to the Sun meets the layer, on a sphere, after `way` radii. Under three degrees, where shadows are
+  // faint, they grow no longer (kLongestShadow of engine/surface/plan/tile_coverage.h).
+  float up = max(sun_enu.z, 0.05), height = -min(surface_look.x, 0.0);
+  float way = sqrt(up * up + height * (2.0 + height)) - up;
+  vec2 towards_sun = way / (1.0 + way * up) * sun_enu.xy;
   towards_sun.x /= max(length(normal.xy), 0.01);
   window_point += degrees(towards_sun) * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
 #endif

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sky/almanac.h"
 #include "tests/gl/gl_fixture.h"
@@ -162,6 +163,67 @@ TEST_F(SurfaceClouds, StandOverTheGroundWithTheirShadowAwayFromTheSun) {
   ASSERT_TRUE(shadow_px);
   // The ground is taken as a plane between both, and rims of half a texel are left out.
   EXPECT_LT(glm::distance(middle_px(seen, false), *shadow_px), 2.5) << "shadow";
+}
+
+/// Discs, six degrees apart; their rims are soft.
+double disc_field(double lon_deg, double lat_deg) {
+  const double x = lon_deg - 6.0 * std::round(lon_deg / 6.0), y = lat_deg - 6.0 * std::round(lat_deg / 6.0);
+  return std::clamp((2.0 - std::hypot(x, y)) / 0.5, 0.0, 1.0);
+}
+
+// Over small patches and tiles shadows reach over many of both. Rays from the ground to the Sun are the truth.
+TEST_F(SurfaceClouds, ThrowWholeShadowsOverPatchesAndTiles) {
+  constexpr double kHeight_m = 6.0e4;
+  GlobeOptions options;
+  options.time = noon();
+  options.body = *parse_body("sphere");
+  const double radius_m = options.body.ellipsoid.a_m();
+  const auto globe = make_globe(options, one_colour(kLightGrid, {200, 200, 200}));
+  const auto clouds =
+      std::make_shared<PaintedSource>(TileGrid{.tile_px = 64, .max_level = 6}, [](double lon, double lat) {
+        const auto level = static_cast<std::uint8_t>(std::lround(255.0 * disc_field(lon, lat)));
+        return Color{level, level, level};
+      });
+  const ImageLook look{.alpha = AlphaFrom::brightness, .height_m = kHeight_m};
+  const LayerId layer = *globe->add_imagery(clouds, look);
+  const glm::dvec3 sun = almanac_at(noon())->sun.xyz;
+  // The disc's crossing of a ray from the ground, by longitude and latitude.
+  const auto met = [&](const glm::dvec3& ground_m, const glm::dvec3& ray) {
+    const double along = glm::dot(ground_m, ray);
+    const double way_m = std::sqrt(along * along + kHeight_m * (2.0 * radius_m + kHeight_m)) - along;
+    const glm::dvec3 p = glm::normalize(ground_m + way_m * ray);
+    return disc_field(std::atan2(p.y, p.x) * 180.0 / std::numbers::pi, std::asin(p.z) * 180.0 / std::numbers::pi);
+  };
+  int shaded = 0, judged = 0;
+  double sum = 0.0;
+  for (const double away_deg : {30.0, 60.0, 75.0, 80.0}) {
+    globe->set_camera(over_the_sun(away_deg, 1.2e6, 40.0));
+    ASSERT_TRUE(globe->set_look(layer, look));
+    settle(*globe, kLightPicture);
+    const Picture seen = picture();
+    ASSERT_TRUE(globe->set_look(layer, {.shown = false}));
+    settle(*globe, kLightPicture);
+    const Picture bare = picture();
+    const glm::dvec3 eye_m = globe->view(kLightPicture).eye.xyz_m;
+    for (int y = 1; y < kLightPicture.height_px; y += 2) {
+      for (int x = 1; x < kLightPicture.width_px; x += 2) {
+        const auto place = globe->pick({x + 0.5, y + 0.5}, kLightPicture).place;
+        if (!place) continue;
+        const glm::dvec3 ground_m = radius_m * Ellipsoid::normal(place->lat, place->lon).xyz;
+        const double sine = glm::dot(ground_m, sun) / radius_m, t = std::clamp(sine / 0.2, 0.0, 1.0);
+        if (met(ground_m, glm::normalize(eye_m - ground_m)) > 0.0) continue;  // a cloud hides the ground
+        const double cloud = met(ground_m, sun), shade = 0.5 * t * t * (3.0 - 2.0 * t) * cloud;
+        const double off = std::abs(seen.at(x, y)[0] - (1.0 - shade) * bare.at(x, y)[0]);
+        // A rim of half a degree has 12 pixels and 90 levels: three pixels, of a texel and the plane map.
+        EXPECT_LT(off, 24.0) << away_deg << ": " << x << ' ' << y;
+        sum += off;
+        ++judged;
+        shaded += cloud > 0.9 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(shaded, 500);
+  EXPECT_LT(sum / judged, 0.5);
 }
 
 TEST_F(SurfaceClouds, LieOnTheGroundUnlitAndAtNoHeight) {

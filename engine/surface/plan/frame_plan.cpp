@@ -47,6 +47,12 @@ void leave_out_other_side(const LayerSnapshot& layer, const glm::dvec3& sun, std
   });
 }
 
+std::optional<ShadowCast> shadow_of(const FrameSnapshot& snapshot, std::size_t layer) {
+  const double height_m = snapshot.layers[layer].height_m;
+  if (layer == 0 || height_m <= 0.0 || !snapshot.light) return std::nullopt;
+  return ShadowCast{height_m, *snapshot.light};
+}
+
 void plan_tiles(const View& view, const FrameSnapshot& snapshot, const PatchSelectionOptions& options,
                 FramePlan& plan) {
   for (std::size_t k = 0; k < plan.layers.size(); ++k) {
@@ -61,7 +67,8 @@ void plan_tiles(const View& view, const FrameSnapshot& snapshot, const PatchSele
                       .texels_per_pixel = layer.texels_per_pixel * out.detail,
                       .out_of_bounds = k == 0 ? OutOfBounds::ancestor : OutOfBounds::nothing,
                       .has_relief = options.relief != nullptr,
-                      .columns_beside = k == 0 && options.columns_beside},
+                      .columns_beside = k == 0 && options.columns_beside,
+                      .shadow = shadow_of(snapshot, k)},
                      out.coverage);
   }
 }

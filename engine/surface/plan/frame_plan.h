@@ -21,6 +21,7 @@ struct LayerSnapshot {
   int least_level = std::numeric_limits<int>::min();  ///< patches whose view asks for coarser tiles are left out
   int max_tile_level = kMaxTileLevel;
   Daylight daylight = Daylight::both;  ///< side of the planet on which the layer shows
+  double height_m = 0.0;               ///< over the ground
 };
 
 /// All that a plan reads besides the view: the layers that the frame draws, the lowest first. The trees' bounds must be
@@ -28,6 +29,7 @@ struct LayerSnapshot {
 struct FrameSnapshot {
   std::vector<LayerSnapshot> layers;
   std::optional<glm::dvec3> sun;          ///< direction; none: there is no night
+  std::optional<glm::dvec3> light = {};   ///< direction that shadows are thrown from; none: there are none
   std::optional<unsigned> patch_shuffle;  ///< seed of an order in which the lowest layer's patches are drawn
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 
 #include "surface/plan/cell_view.h"
@@ -11,6 +12,9 @@
 
 namespace terrella {
 namespace {
+
+// Most cells that a shadow adds on a side of a window. Where tiles are so small, the layer is seen from under it soon.
+constexpr double kMostBeside = 16.0;
 
 class Coverer {
  public:
@@ -86,15 +90,15 @@ class Coverer {
   }
 
   void cover(const SelectedPatch& patch, const TileWindow& win, const Choice* choice) {
-    const int beside = columns_beside(patch, win);
+    const Margin beside = margin(patch, win);
     out_.draws.push_back(describe(*patch.node, win, beside, static_cast<std::uint32_t>(out_.cells.size())));
     const TileId last = last_tile(win.level);
     bool uncovered = false;
-    for (int y = 0; y < win.h; ++y) {
-      for (int x = -beside; x < win.w + beside; ++x) {
-        const bool inside = x >= 0 && x < win.w;
-        const Found found =
-            inside ? find(patch, tile_of(win, x, y, last), *choice++) : find_unseen(patch, tile_of(win, x, y, last));
+    for (int y = -beside.north; y < win.h + beside.south; ++y) {
+      for (int x = -beside.west; x < win.w + beside.east; ++x) {
+        const bool inside = x >= 0 && x < win.w && y >= 0 && y < win.h;
+        const Found found = inside ? find(patch, tile_of(win, x, y, last), *choice++)
+                                   : find_unseen(patch, tile_of(win, x, y, last), win.squeeze);
         uncovered = uncovered || found.uncovered;
         out_.cells.push_back(window_cell(found.slot, found.levels_up, found.levels_up + found.squeeze - win.squeeze));
       }
@@ -102,12 +106,39 @@ class Coverer {
     if (uncovered) ++out_.uncovered;
   }
 
-  // Columns added to a window on either side, up to half of the circle in all.
-  [[nodiscard]] int columns_beside(const SelectedPatch& patch, const TileWindow& win) const {
-    if (!input_.columns_beside || !patch.in_band) return 0;
+  /// Cells added to a window on its sides.
+  struct Margin {
+    int west = 0, east = 0, north = 0, south = 0;
+  };
+  [[nodiscard]] Margin margin(const SelectedPatch& patch, const TileWindow& win) const {
+    if (input_.shadow) return shadow_margin(*input_.shadow, *patch.node, win);
+    if (!input_.columns_beside || !patch.in_band) return {};
+    const int columns = std::min(win.w, spare_columns(win));
+    return {.west = columns, .east = columns};
+  }
+
+  // Columns that a window has room for on either side: half of the circle in all, and none in a part of the planet.
+  [[nodiscard]] int spare_columns(const TileWindow& win) const {
     const std::int64_t all = columns(grid_, win.level);
     if (static_cast<double>(all) * tile_span_deg(grid_, win.level) != 360.0) return 0;
-    return static_cast<int>(std::clamp<std::int64_t>(((all >> win.squeeze) - win.w) / 2, 0, win.w));
+    return static_cast<int>(std::max<std::int64_t>(((all >> win.squeeze) - win.w) / 2, 0));
+  }
+
+  // The shadow of a layer falls as far from it as the layer lies from the shadow, towards the Sun.
+  [[nodiscard]] Margin shadow_margin(const ShadowCast& shadow, const PatchNode& node, const TileWindow& win) const {
+    const double sine = glm::dot(node.normal, shadow.sun);
+    const double lowest = std::sin(std::asin(std::clamp(sine, -1.0, 1.0)) - std::acos(node.cos_cone));
+    const double up = std::max(lowest, kLongestShadow), height = shadow.height_m / input_.tree.ellipsoid().b_m();
+    const double reach_rad = std::sqrt(up * up + height * (2.0 + height)) - up;
+    const double cells = reach_rad * (180.0 / std::numbers::pi) / tile_span_deg(grid_, win.level);
+    const double narrow = std::max(std::sin(node.min_colatitude_rad), 0.01);
+    const auto most = [](double n, std::int64_t room) {
+      return static_cast<int>(
+          std::min({std::ceil(n), kMostBeside, static_cast<double>(std::max<std::int64_t>(room, 0))}));
+    };
+    const std::int64_t last_row = rows(grid_, win.level) - 1;
+    const int columns = most(std::ldexp(cells / narrow, -win.squeeze), spare_columns(win));
+    return {columns, columns, most(cells, win.y0), most(cells, last_row + 1 - win.y0 - win.h)};
   }
 
   [[nodiscard]] TileId last_tile(int level) {
@@ -133,16 +164,17 @@ class Coverer {
   };
 
   // A cell out of view takes a tile that is loaded; its own tile is neither requested nor counted.
-  Found find_unseen(const SelectedPatch& patch, const TileId& id) {
+  // Beside a window rows may be squeezed less than the window. A cell there takes a coarser tile, as wide as itself.
+  Found find_unseen(const SelectedPatch& patch, const TileId& id, int squeeze) {
     for (int up = 0;; ++up) {
       TileUse& use = out_.uses[memo_.find(coarser(id, up), patch.squeezed || up > 0)];
-      if (use.state == TileState::resident) return drawn(use, up);
+      if (use.state == TileState::resident && up + use.id.squeeze >= squeeze) return drawn(use, up);
       if (id.level - up <= grid_.min_level) return {up, use.id.squeeze, 0, false};
     }
   }
 
   Found find(const SelectedPatch& patch, const TileId& id, const Choice& choice) {
-    if (choice.use == kUnseen) return find_unseen(patch, id);
+    if (choice.use == kUnseen) return find_unseen(patch, id, 0);
     for (int up = 0; up < choice.spare; ++up) {
       const std::uint32_t use = memo_.find(coarser(id, up), patch.squeezed || up > 0);
       if (out_.uses[use].chosen) return find_seen(patch, id, up, use);
@@ -199,22 +231,21 @@ class Coverer {
     if (use.state == TileState::missing) ++out_.missing;
   }
 
-  [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, int beside,
+  [[nodiscard]] PatchDraw describe(const PatchNode& node, const TileWindow& win, const Margin& beside,
                                    std::uint32_t first) const {
-    const std::int64_t x0 = win.x0 - beside;
+    const std::int64_t x0 = win.x0 - beside.west, y0 = win.y0 - beside.north;
+    const auto width = static_cast<std::uint32_t>(win.w + beside.west + beside.east);
+    const auto height = static_cast<std::uint32_t>(win.h + beside.north + beside.south);
     const double row = node.row_center_deg;
     const TileXY center = tile_xy(grid_, win.level, row, node.lon_center_deg);
     const double per_deg = 1.0 / tile_span_deg(grid_, win.level);
     PatchDraw draw;
-    draw.center_and_scale =
-        glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(x0), center.y - static_cast<double>(win.y0),
-                  std::ldexp(per_deg, -win.squeeze), per_deg);
+    draw.center_and_scale = glm::vec4(std::ldexp(center.x, -win.squeeze) - static_cast<double>(x0),
+                                      center.y - static_cast<double>(y0), std::ldexp(per_deg, -win.squeeze), per_deg);
     draw.frame = glm::vec4(node.frame);
     draw.row = glm::vec4(row, static_cast<double>(grid_.max_level - win.level), 0.0, 0.0);
     const auto low = [](std::int64_t n) { return static_cast<std::uint32_t>(n & 0xFFFFFF); };
-    draw.window =
-        glm::uvec4(first, static_cast<std::uint32_t>(win.w + 2 * beside) | static_cast<std::uint32_t>(win.h) << 16U,
-                   low(x0), low(win.y0));
+    draw.window = glm::uvec4(first, width | height << 16U, low(x0), low(y0));
     return draw;
   }
 

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "surface/plan/tile_uses.h"
@@ -45,6 +47,14 @@ struct TileCoverage {
   bool operator==(const TileCoverage&) const = default;
 };
 
+/// A layer at a height, metres over the ground, throws a shadow under this Sun: unit vector, ECEF.
+struct ShadowCast {
+  double height_m = 0.0;
+  glm::dvec3 sun{0.0};
+};
+/// Sine of the Sun's height under which shadows grow no longer (shaders/surface/patch.vert).
+inline constexpr double kLongestShadow = 0.05;
+
 /// Fallback of a cell outside the bounds of the grid.
 enum class OutOfBounds { ancestor, nothing };
 
@@ -60,6 +70,9 @@ struct CoverInput {
   /// Windows of patches in a pole band get cells on both sides, of tiles that are loaded anyhow: at the limb their
   /// pixels reach far over the patch.
   bool columns_beside = false;
+  /// The layer's shadow on the ground; none: it has none. Windows get cells as far as it reaches, of tiles that are
+  /// loaded anyhow.
+  std::optional<ShadowCast> shadow = {};
 };
 
 /// Names a tile for every cell of every selected patch: the tile itself if it is resident, else its nearest resident
