@@ -144,6 +144,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
   draw_callers(pass, DrawStage::ground);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
+  draw_layers_over_ground(pass);
   if (opaque) draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
   draw_callers(pass, DrawStage::all);

@@ -209,7 +209,8 @@ class GlobeRenderer {
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
   void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
-  void draw_over_ground(const Pass& pass, const LayerFrame& layer, DrawState state) const;
+  void draw_at_height(const Pass& pass, const LayerFrame& layer, double height, const DrawState& state) const;
+  void draw_layers_over_ground(const Pass& pass) const;
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
 

@@ -108,6 +108,8 @@ SkyInput GlobeRenderer::sky_of(const Pass& pass) const {
 bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
   if (targets_->samples() > 0) return false;  // the caller's framebuffer gets whole samples
   if (pass.input.eyes || pass.input.corner_px != glm::ivec2(0) || *pass.input.on_draw) return false;
+  const auto is_over = [&](const LayerFrame& layer) { return is_over_ground(pass, layer); };
+  if (std::ranges::any_of(pass.upper(), is_over)) return false;
   if (!objects_) return true;
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));
 }

@@ -127,7 +127,11 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
   state.depth = kSameDepth;
   state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
   for (const LayerFrame& layer : pass.upper()) {
-    is_over_ground(pass, layer) ? draw_over_ground(pass, layer, state) : draw_upper(pass, layer, state);
+    if (is_over_ground(pass, layer)) {
+      draw_at_height(pass, layer, -layer.height_m / ellipsoid_.a_m(), state);  // its shadow
+    } else {
+      draw_upper(pass, layer, state);
+    }
   }
 }
 
@@ -136,19 +140,26 @@ bool GlobeRenderer::is_over_ground(const Pass& pass, const LayerFrame& layer) co
   return layer.height_m > 0.0 && pass.input.lit && ellipsoid_.to_geodetic(pass.eye.view.eye).height_m > layer.height_m;
 }
 
-// First the shadow, on the ground, then the layer itself where nothing is nearer. The layer writes no depth.
-void GlobeRenderer::draw_over_ground(const Pass& pass, const LayerFrame& layer, DrawState state) const {
+// `height` is FrameBlock::surface_look.x.
+void GlobeRenderer::draw_at_height(const Pass& pass, const LayerFrame& layer, double height,
+                                   const DrawState& state) const {
   if (layer.patches->empty()) return;
-  const auto draw_at = [&](double height) {
-    const auto value = static_cast<float>(height);
-    glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look), sizeof(float), &value);
-    draw_upper(pass, layer, state);
-  };
-  draw_at(-layer.height_m / ellipsoid_.a_m());
+  const auto value = static_cast<float>(height);
+  glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look), sizeof(float), &value);
+  draw_upper(pass, layer, state);
+}
+
+// After sky and limb, which lie behind such a layer beyond the limb. The layers write no depth.
+void GlobeRenderer::draw_layers_over_ground(const Pass& pass) const {
+  if (surface_look(pass) == SurfaceFromBelow::translucent) return;
+  DrawState state = picture_state(pass.eye);
   state.depth = depth(DepthTest::nearer_or_equal);
   state.depth->write = false;
-  if (state.stencil) state.stencil->write_mask = 0;  // beyond the limb air lies before the layer
-  draw_at(layer.height_m);
+  state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
+  if (night_lights_) night_lights_->bind();
+  for (const LayerFrame& layer : pass.upper()) {
+    if (is_over_ground(pass, layer)) draw_at_height(pass, layer, layer.height_m, state);
+  }
 }
 
 // First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the

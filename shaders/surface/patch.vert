@@ -19,6 +19,7 @@ const vec3 kFromNorthWest = vec3(-0.5, 0.5, 0.70710678);
 
 #if defined(SPECIAL_LAYER)
 out float shadow_of_layer;
+out float towards_eye;   // cosine between the normal and the eye
 #endif
 #if defined(GLINT)
 out vec3 glint;      // slope of the water that mirrors the Sun, east and north; light of a mirror as rough as the sea
@@ -64,11 +65,20 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
 #endif
   air_through = through.rgb;
   air_light = light_sq.rgb;
+  // Ground over the ellipsoid has less air before it, and so has a layer at a height. Exaggerated mountains have the air
+  // of their real heights.
 #if defined(RELIEF)
-  // Ground over the ellipsoid has less air before it. Exaggerated mountains have the air of their real heights.
-  vec3 to_ground = clamp(air_through, 1e-6, 1.0);
-  air_through = pow(to_ground, vec3(air_part(way, down, max(relief.x, 1.0))));
-  air_light = air_light_of(air_light, to_ground, air_through);
+  float exaggeration = max(relief.x, 1.0);
+#elif defined(SPECIAL_LAYER)
+  const float exaggeration = 1.0;
+  if (surface_look.x > 0.0)
+#endif
+#if defined(RELIEF) || defined(SPECIAL_LAYER)
+  {
+    vec3 to_ground = clamp(air_through, 1e-6, 1.0);
+    air_through = pow(to_ground, vec3(air_part(way, down, exaggeration)));
+    air_light = air_light_of(air_light, to_ground, air_through);
+  }
 #endif
 #if defined(NEAR_GROUND)
   // Behind the horizon the air goes on, so that a triangle that crosses the horizon has the air of its near side.
@@ -127,6 +137,7 @@ void main() {
   vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
 #if defined(SPECIAL_LAYER)
   position_from_eye += max(surface_look.x, 0.0) * normal;
+  towards_eye = -dot(normalize(position_from_eye), normal);
 #endif
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;

@@ -118,6 +118,7 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
 
 #if defined(SPECIAL_LAYER)
 in float shadow_of_layer;   // by day
+in float towards_eye;
 
 // Shown fraction of a layer by day or night. Civil twilight: the Sun's centre from 6 degrees under the horizon up to it
 // (engine/surface/daylight.h).
@@ -140,10 +141,14 @@ void finish(Imagery imagery_srgb) {
 #if defined(SPECIAL_LAYER)
   if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
   share *= part_shown();
-  if (surface_look.x < 0.0) {                    // the layer's shadow on the ground
-    color_srgb = vec4(0.0, 0.0, 0.0, alpha * share * shadow_of_layer);
+  if (surface_look.x < 0.0) {                    // the layer's shadow on the ground, behind the air
+    color_srgb = vec4(through_air(vec3(0.0), 1.0), 1.0) * (alpha * share * shadow_of_layer);
     WRITE_DEPTH(1.0);
     return;
+  }
+  if (surface_look.x > 0.0) {                    // the layer's own limb is as smooth as the ground's
+    float inside = towards_eye * abs(towards_eye);
+    share *= clamp(inside / max(fwidth(inside), 1e-9), 0.0, 1.0);
   }
   vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
 #else

@@ -226,6 +226,30 @@ TEST_F(SurfaceClouds, ThrowWholeShadowsOverPatchesAndTiles) {
   EXPECT_LT(sum / judged, 0.5);
 }
 
+// Clouds over the limb hide the sky behind them, and the ground's limb shows no line through them.
+TEST_F(SurfaceClouds, StandWhiteOverTheLimb) {
+  GlobeOptions options;
+  options.sky = true;
+  const auto globe = make_globe(options, one_colour(kLightGrid, {60, 90, 50}));
+  ASSERT_TRUE(
+      globe->add_imagery(one_colour(kLightGrid, {255, 255, 255}), {.alpha = AlphaFrom::brightness, .height_m = 1.2e4}));
+  globe->set_camera(camera_at(10, 10, 4.0e5, 0, -19.5, 4));
+  settle(*globe, kLightPicture);
+  const Picture seen = picture();
+  for (int x = 8; x < kLightPicture.width_px; x += 16) {
+    int y = 0;
+    while (y < kLightPicture.height_px && seen.at(x, y)[1] < 180) ++y;
+    ASSERT_GT(y, 20) << "no sky";
+    ASSERT_LT(y, 100) << "no clouds";
+    for (y += 2; y < kLightPicture.height_px; ++y) {  // without the pixel that is mixed with sky
+      const Color here = seen.at(x, y), over = seen.at(x, y - 1);
+      EXPECT_LT(std::max({here[0], here[1], here[2]}) - std::min({here[0], here[1], here[2]}), 40) << x << ' ' << y;
+      // The light changes by a level a pixel there, and dithering by one more.
+      EXPECT_NEAR(here[1], over[1], 3) << x << ' ' << y;
+    }
+  }
+}
+
 TEST_F(SurfaceClouds, LieOnTheGroundUnlitAndAtNoHeight) {
   const auto picture_of = [&](GlobeOptions options, double height_m) {
     const auto globe = make_globe(options, one_colour(kLightGrid, {120, 120, 120}));
