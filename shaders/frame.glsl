@@ -21,9 +21,16 @@ layout(std140, binding = 0) uniform Frame {
   // over slot_px; unused.
   vec4 relief;
   // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
-  // body of dust; longest pixel, texels, for which oblique patches take three taps; unused.
+  // body of dust; longest pixel, texels, for which oblique patches take three taps; 1 at a time, 0 if the Sun is only a
+  // lamp.
   vec4 surface_look;
 };
+
+// Level ground and lamps by the sine of the Sun's height. Both change at the end of civil twilight
+// (engine/surface/daylight.h): from there down the ground is dark and all lamps are lit.
+const float kTwilightSine = 0.10452846;
+float daylight(float sun_sine) { return smoothstep(-kTwilightSine, 0.3, sun_sine); }
+float lamplight(float sun_sine) { return 1.0 - smoothstep(-kTwilightSine, 0.0, sun_sine); }
 
 // Metres of air that count before a place near the ground: 1.2 times the eye's height does not
 // (GroundColors of engine/sky/air_colors.h).

@@ -14,7 +14,7 @@ inline constexpr double kTwilightSine = 0.10452846326765347;
 
 /// Visible part of a layer, [0, 1], by the sine of the Sun's height over the geodetic horizon. A day layer shows fully
 /// from 0° up and not at all from -6° down, and a night layer shows the rest. In between the part follows a cubic, as
-/// smoothstep() in shaders/surface/patch_common.glsl. thread: any
+/// lamplight() in shaders/frame.glsl. thread: any
 [[nodiscard]] double part_shown(Daylight side, double sun_sine);
 
 /// False if nothing of a layer shows on a patch. `sun` is a unit vector in ECEF axes. May be true for a patch beside

@@ -92,13 +92,14 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
 }
 #endif
 
-// Soft light from the Sun's side, full from 30 degrees on: imagery is pictured by such a Sun. The night side keeps a
-// quarter.
+// Soft light from the Sun's side; the night side keeps a quarter. Without a time the Sun is a lamp whose light is full
+// from 30 degrees on: imagery is pictured by such a Sun.
 float light_of(vec3 normal_ecef) {
 #if defined(DAY_AND_NIGHT)
   return dot(normal_ecef, sun_ecef.xyz);  // patch_common.glsl turns this into day and night
 #endif
-  float day = smoothstep(-0.35, 0.5, dot(normal_ecef, sun_ecef.xyz));
+  float sun_sine = dot(normal_ecef, sun_ecef.xyz);
+  float day = surface_look.w > 0.0 ? daylight(sun_sine) : smoothstep(-0.35, 0.5, sun_sine);
   return mix(1.0, mix(0.25, 1.0, day), sun_ecef.w);
 }
 

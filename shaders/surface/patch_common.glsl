@@ -61,7 +61,7 @@ const vec3 sun_tint = vec3(1.0);
 // Day and night by the Sun's height. Here `light` is the sine of the Sun's height.
 vec3 by_sunlight(vec3 imagery_srgb) {
   if (sun_ecef.w == 0.0) return imagery_srgb;
-  return imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), smoothstep(-0.14, 0.3, light));
+  return imagery_srgb * mix(vec3(0.06, 0.07, 0.11), vec3(1.0), daylight(light));
 }
 
 #if defined(CITY_LIGHTS)
@@ -71,7 +71,7 @@ vec3 city_lights() {
   // A cube map needs no arc tangent, and has no seam and no pole.
   vec3 normal = ground_normal();
   vec3 dx = dFdx(normal), dy = dFdy(normal);
-  float night = sun_ecef.w * (1.0 - smoothstep(-0.16, 0.02, light));
+  float night = sun_ecef.w * lamplight(light);
   return textureGrad(night_lights, normal, dx, dy).r * night * vec3(1.0, 0.84, 0.54);
 }
 #else
@@ -120,12 +120,11 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
 in float shadow_of_layer;   // by day
 in float towards_eye;
 
-// Shown fraction of a layer by day or night. Civil twilight: the Sun's centre from 6 degrees under the horizon up to it
-// (engine/surface/daylight.h).
+// Shown fraction of a layer by day or night.
 float part_shown() {
   if (layer_look.x == 0.0) return 1.0;
-  float day = smoothstep(-0.10452846, 0.0, dot(normalize(ground_normal()), sun_ecef.xyz));
-  return layer_look.x > 0.0 ? day : 1.0 - day;
+  float night = lamplight(dot(normalize(ground_normal()), sun_ecef.xyz));
+  return layer_look.x > 0.0 ? 1.0 - night : night;
 }
 #endif
 

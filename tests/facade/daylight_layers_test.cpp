@@ -216,6 +216,57 @@ TEST_F(DaylightLayers, TheTwilightIsWhereTheAlmanacsFormulasHaveIt) {
   EXPECT_GT(dusk, 2500);
 }
 
+// City lights, and a layer of lamps on a globe without city lights. The ground is measured without lamps, lamps on black
+// ground.
+TEST_F(DaylightLayers, LampsAreLitWhereTheGroundIsDarkAndOutUnderTheSun) {
+  const auto all = [](std::uint8_t grey) {
+    return painted([grey](double, double) { return Rgba{grey, grey, grey, 255}; });
+  };
+  for (const bool cities : {true, false}) {
+    GlobeOptions options = evening();
+    if (cities) {
+      options.sky = true;  // city lights need one, though not shown
+      options.night_lights = {64, 32, std::vector<std::uint8_t>(64 * 32, 0)};
+    }
+    const auto ground = empty_globe(options);
+    if (cities) options.night_lights = {64, 32, std::vector<std::uint8_t>(64 * 32, 255)};
+    const auto lamps = empty_globe(options);
+    ASSERT_TRUE(ground->add_imagery(all(255)) && lamps->add_imagery(all(0)));
+    if (cities) {
+      ground->set_sky(false);
+      lamps->set_sky(false);
+    } else {
+      ASSERT_TRUE(lamps->add_imagery(all(255), {.daylight = Daylight::night}));
+    }
+    const int dark = cities ? 15 : 64;  // red of white ground by night
+    int judged = 0;
+    for (const Camera& camera : dusk_cameras()) {
+      ground->set_camera(camera);
+      lamps->set_camera(camera);
+      const Picture day = settled(*ground), night = settled(*lamps);
+      for_ground(*ground, [&](int x, int y, const Geodetic& place) {
+        const double height_deg = sun_height_deg(place);
+        const int light = day.at(x, y)[0], lamp = night.at(x, y)[0];
+        SCOPED_TRACE(testing::Message() << height_deg << " degrees: " << light << ' ' << lamp);
+        if (height_deg < -6.0 - kBeside_deg) {
+          ++judged;
+          EXPECT_GE(lamp, 255 - kOneRounding);
+          EXPECT_LE(light, dark + kOneRounding);
+        } else if (height_deg > kBeside_deg) {
+          ++judged;
+          EXPECT_EQ(lamp, 0);
+          EXPECT_GT(light, dark + 20);
+        } else {  // in the twilight one gives way to the other
+          EXPECT_TRUE(lamp < 255 || light <= dark + kOneRounding);
+          EXPECT_LT(light, 128);
+        }
+        EXPECT_TRUE(height_deg < 18.0 || light == 255);
+      });
+    }
+    EXPECT_GT(judged, 5000);
+  }
+}
+
 TEST_F(DaylightLayers, WhatShinesByItselfKeepsItsColourInTheDusk) {
   GlobeOptions options = evening();
   options.sky = true;
@@ -266,11 +317,11 @@ TEST_F(DaylightLayers, CityLightsFadeInWithTheSunInEachPatch) {
     globe->set_camera(camera);
     const Picture shown = settled(*globe);
     for_ground(*globe, [&](int x, int y, const Geodetic& place) {
-      // As shaders/surface/patch_common.glsl has it: lights begin under a Sun of a degree, and are full at -9 degrees.
-      const double t = std::clamp((sun_sine(place, kEveningSun) + 0.16) / 0.18, 0.0, 1.0);
+      // Lights begin with civil twilight, and are full at its end.
+      const double t = std::clamp(sun_sine(place, kEveningSun) / std::sin(6.0 * kDegree) + 1.0, 0.0, 1.0);
       const double level = 255.0 * (1.0 - t * t * (3.0 - 2.0 * t));
-      // Half a pixel of the farthest view is half a degree of the Sun: 20 levels where lights fade fastest.
-      EXPECT_NEAR(shown.at(x, y)[0], level, 0.5 + (t > 0.0 && t < 1.0 ? 20.0 : 1.0)) << x << ' ' << y;
+      // Half a pixel of the farthest view is half a degree of the Sun: 32 levels where lights fade fastest.
+      EXPECT_NEAR(shown.at(x, y)[0], level, 0.5 + (t > 0.0 && t < 1.0 ? 32.0 : 1.0)) << x << ' ' << y;
       dusk += t > 0.0 && t < 1.0 ? 1 : 0;
     });
   }

@@ -206,9 +206,9 @@ glm::dvec3 AirTruth::ground_tint(const glm::dvec3& place_m, const glm::dvec3& su
   return {stored(part.r), stored(part.g), stored(part.b)};
 }
 
-// The globe's look: a quarter of the light by night.
+// The globe's look: a quarter of the light by night, which begins at the end of civil twilight.
 glm::dvec3 AirTruth::ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const {
-  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-0.35, 0.5, sun_cosine(place_m, sun)));
+  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-std::sin(glm::radians(6.0)), 0.3, sun_cosine(place_m, sun)));
   return light * ground_tint(place_m, sun);
 }
 

@@ -33,8 +33,8 @@ constexpr double kBesidePole_rad = 0.05 * std::numbers::pi;
 constexpr double kBesidePole_texels = 3.0;
 // Three taps of a pixel suffice up to this length, and seven up to that.
 constexpr double kThreeTaps_texels = 2.0, kSevenTaps_texels = 7.0;
-// City lights shine under a Sun lower than this (city_lights() of patch_common.glsl begins at a sine of 0.02).
-constexpr double kLampsOn_rad = 0.021;
+// City lights shine under a Sun lower than this (lamplight() of shaders/frame.glsl begins at 0).
+constexpr double kLampsOn_rad = 0.001;
 // Geodetic normals differ by up to a/b times as much as the axes of a patch's cone: 1.11 on Saturn.
 constexpr double kNormalsOverCone = 1.2;
 /// #defines of LayerRole.
