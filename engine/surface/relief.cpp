@@ -93,11 +93,14 @@ bool Relief::changed_since(const TileId& id, std::uint64_t since) const {
   if (since < changes_forgotten_) return true;
   const Change tile = change_of(ancestor(id, std::max(0, id.level - grid().max_level)));
   const double half_deg = 0.5 * (tile.east - tile.west), middle_deg = 0.5 * (tile.west + tile.east);
+  // Slopes beside a pole take heights from beyond it, and from columns more than a tile away: see columns_apart() in
+  // height_slopes.cpp.
+  const bool at_pole = std::max(tile.north, -tile.south) > 90.0 - Angle::radians(1.0 / grid().tile_px).deg();
   return std::any_of(changes_.begin() + static_cast<std::ptrdiff_t>(since - changes_forgotten_), changes_.end(),
                      [&](const Change& change) {
                        const double apart_deg = wrapped_deg(0.5 * (change.west + change.east) - middle_deg);
                        return tile.north >= change.south && tile.south <= change.north &&
-                              std::abs(apart_deg) <= half_deg + 0.5 * (change.east - change.west);
+                              (at_pole || std::abs(apart_deg) <= half_deg + 0.5 * (change.east - change.west));
                      });
 }
 

@@ -12,7 +12,11 @@ layout(location = 8) in vec2 height_offset_deg;  // as offset_deg, in the rows o
 layout(location = 9) in vec4 slope_center_and_scale;
 layout(location = 10) in uvec4 patch_slope_window;
 out vec2 slope_point;
+#if defined(AT_POLE)
+flat out vec2 slope_column;  // column of the patch's centre; columns per degree
+#else
 out vec3 light_enu;  // direction of the light on relief: east, north, up
+#endif
 flat out uvec4 slope_window;
 const vec3 kFromNorthWest = vec3(-0.5, 0.5, 0.70710678);
 #endif
@@ -170,7 +174,11 @@ void main() {
   glint = sea_glint(normal, -normalize(position_from_eye));
 #endif
 #if defined(RELIEF)
+#if defined(AT_POLE)
+  slope_column = slope_center_and_scale.xz;
+#else
   light_enu = relief.y > 0.0 ? kFromNorthWest : in_enu(normal, sun_ecef.xyz);
+#endif
   slope_point = slope_center_and_scale.xy + height_offset_deg * vec2(slope_center_and_scale.z, -slope_center_and_scale.w);
   slope_window = patch_slope_window;
 #endif

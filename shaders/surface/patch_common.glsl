@@ -51,6 +51,12 @@ vec3 ground_normal() {
   return (vec3(frame.xy * frame.z, frame.w) + row_direction) * vec3(1.0, 1.0, 1.0 / texels.w);
 }
 
+// Longitude from the patch's centre. Row directions have the longitudes of their normals.
+float east_of_center_deg() {
+  vec2 d = row_direction.xy;
+  return degrees(atan(frame.x * d.y - frame.y * d.x, frame.z + frame.x * d.x + frame.y * d.y));
+}
+
 #if defined(DAY_AND_NIGHT)
 #if defined(AIR)
 in vec3 sun_tint;    // colour of sunlight on the ground, a factor of stored colours

@@ -216,8 +216,8 @@ TEST_F(DaylightLayers, TheTwilightIsWhereTheAlmanacsFormulasHaveIt) {
   EXPECT_GT(dusk, 2500);
 }
 
-// City lights, and a layer of lamps on a globe without city lights. The ground is measured without lamps, lamps on black
-// ground.
+// City lights, and a layer of lamps on a globe without city lights. The ground is measured without lamps, lamps on
+// black ground.
 TEST_F(DaylightLayers, LampsAreLitWhereTheGroundIsDarkAndOutUnderTheSun) {
   const auto all = [](std::uint8_t grey) {
     return painted([grey](double, double) { return Rgba{grey, grey, grey, 255}; });

@@ -9,6 +9,7 @@
 
 #include "geo/body.h"
 #include "surface/height_field.h"
+#include "surface/relief.h"
 
 namespace terrella {
 namespace {
@@ -175,6 +176,19 @@ TEST(HeightSlopes, OfRoundedHeightsHaveNoCliffsBesideAPole) {
       EXPECT_NEAR(slopes[static_cast<std::size_t>(y * kFine.tile_px + x)].x, 0.01 * std::cos(lon), 0.001)
           << x << ", " << y;
     }
+  }
+}
+
+TEST(HeightSlopes, BesideAPoleAreOutOfDateWhenHeightsBeyondItChange) {
+  const TileId own{.level = 2, .x = 1, .y = 0}, beyond{.level = 2, .x = 5, .y = 0};
+  for (const bool beside : {true, false}) {
+    Relief relief(earth().ellipsoid, kSlopesGrid, 1.0, std::size_t{1} << 30U);
+    relief.add(slopes_waves(own));
+    const std::vector<glm::vec2> before = relief.field().slopes(own, 1);
+    const std::uint64_t since = relief.changes_seen();
+    relief.add(slopes_waves(beside ? beyond : TileId{.level = 2, .x = 5, .y = 2}));
+    EXPECT_EQ(relief.field().slopes(own, 1) != before, beside);
+    EXPECT_EQ(relief.changed_since(own, since), beside);
   }
 }
 

@@ -80,14 +80,14 @@ Status PatchPass::prepare_depth() {
 }
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
-                        bool numbers, bool city_lights) const {
+                        bool numbers, bool city_lights, bool at_pole) const {
   const bool pictures = !numbers;
   return build_into(place,
                     {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
                      {GL_FRAGMENT_SHADER, fragment}},
                     {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
-                     options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", city_lights ? "CITY_LIGHTS" : "NO_LAMPS",
-                     options_.regolith ? "REGOLITH" : "NO_DUST",
+                     options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", at_pole ? "AT_POLE" : "OFF_POLE",
+                     city_lights ? "CITY_LIGHTS" : "NO_LAMPS", options_.regolith ? "REGOLITH" : "NO_DUST",
                      light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
                      light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
                      which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
@@ -116,7 +116,7 @@ Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, 
   return build(place,
                {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
                 "patch_exact_point.glsl", "patch_polar_taps.glsl", file},
-               role, numbers, city_lights);
+               role, numbers, city_lights, true);
 }
 
 void PatchPass::set_relief(bool has_relief) {

@@ -114,7 +114,7 @@ class PatchPass {
   }
   Status make_program(gl::Program& place, int variant, LayerRole role, bool numbers);
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role, bool numbers,
-               bool city_lights = false) const;
+               bool city_lights = false, bool at_pole = false) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
