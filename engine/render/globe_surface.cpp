@@ -248,9 +248,9 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
                              slopes_->slot_share(), 0.0);
   }
   constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
-  block.surface_look = glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight,
-                                 pass.input.lit ? lit_footprint_texels(pass.input) : kShortPixel_texels,
-                                 pass.input.timed ? 1.0F : 0.0F);
+  block.surface_look =
+      glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight,
+                pass.input.lit ? lit_footprint_texels(pass.input) : kShortPixel_texels, pass.input.timed ? 1.0F : 0.0F);
   describe_layer(pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }

@@ -26,7 +26,7 @@ out float shadow_of_layer;
 out float towards_eye;   // cosine between the normal and the eye
 #endif
 #if defined(GLINT)
-out vec3 glint;      // slope of the water that mirrors the Sun, east and north; light of a mirror as rough as the sea
+out vec4 glint;      // slope of the water that mirrors the Sun, ECEF; light of a mirror as rough as the sea
 #endif
 
 invariant gl_Position;
@@ -124,12 +124,12 @@ vec3 in_enu(vec3 normal, vec3 v) {
 #if defined(GLINT)
 // C. Cox, W. Munk, "Measurement of the roughness of the sea surface", 1954, without the share of the slopes, which is
 // the fragment's; the mirror's light by Schlick's formula for water.
-vec3 sea_glint(vec3 normal, vec3 eye) {
-  vec3 half_way = normalize(eye + sun_ecef.xyz), middle = in_enu(normal, half_way);
-  float up = max(middle.z, 0.05), seen = max(dot(eye, normal), 0.05);
+vec4 sea_glint(vec3 normal, vec3 eye) {
+  vec3 half_way = normalize(eye + sun_ecef.xyz);
+  float middle = dot(normal, half_way), up = max(middle, 0.05), seen = max(dot(eye, normal), 0.05);
   float mirror = 0.02 + 0.98 * pow(1.0 - max(dot(eye, half_way), 0.0), 5.0);
   float day = smoothstep(0.0, 0.1, dot(normal, sun_ecef.xyz));
-  return vec3(middle.xy / up, day * mirror / (4.0 * seen * pow(up, 4.0)));
+  return vec4((half_way - middle * normal) / up, day * mirror / (4.0 * seen * pow(up, 4.0)));
 }
 #endif
 

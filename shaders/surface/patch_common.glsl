@@ -86,7 +86,7 @@ vec3 city_lights() { return vec3(0.0); }
 #endif
 
 #if defined(GLINT) && !defined(UPPER_LAYER)
-in vec3 glint;
+in vec4 glint;
 
 // The sea is where the imagery is clearly more blue than red, by a factor of 1.2 to 1.7, and no less than green, by 0.85
 // to 1.05. A steep change of the colour is a coast: it takes a pixel at least, or its edge would be jagged.
@@ -102,7 +102,7 @@ float sea_share(vec3 imagery_srgb) {
 // Squares stand for light, as in through_air().
 vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
   // The share counts after the limit: a fiftieth of the sea under a low Sun would shine as brightly as all of it.
-  float light = min(glint.z * exp(-dot(glint.xy, glint.xy) / 0.029) / 0.029, 1.5) * sea_share(imagery_srgb);
+  float light = min(glint.w * exp(-dot(glint.xyz, glint.xyz) / 0.029) / 0.029, 1.5) * sea_share(imagery_srgb);
   return sqrt(color_srgb * color_srgb + light * vec3(1.0, 0.95, 0.85));
 }
 #else

@@ -208,7 +208,8 @@ glm::dvec3 AirTruth::ground_tint(const glm::dvec3& place_m, const glm::dvec3& su
 
 // The globe's look: a quarter of the light by night, which begins at the end of civil twilight.
 glm::dvec3 AirTruth::ground_light(const glm::dvec3& place_m, const glm::dvec3& sun) const {
-  const double light = glm::mix(0.25, 1.0, glm::smoothstep(-std::sin(glm::radians(6.0)), 0.3, sun_cosine(place_m, sun)));
+  const double light =
+      glm::mix(0.25, 1.0, glm::smoothstep(-std::sin(glm::radians(6.0)), 0.3, sun_cosine(place_m, sun)));
   return light * ground_tint(place_m, sun);
 }
 

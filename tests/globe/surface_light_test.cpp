@@ -118,6 +118,20 @@ TEST_F(SurfaceLight, TheSeaMirrorsTheSunWhereAMirrorWouldAndLandDoesNot) {
   EXPECT_EQ(brightening({225, 235, 245}).first, 0) << "ice glints";
 }
 
+TEST_F(SurfaceLight, TheSeaMirrorsNoSunAtAPoleFarFromTheMirror) {
+  GlobeOptions options;
+  options.time = *parse_utc("2026-06-21T14:00Z");
+  options.sky = true;
+  for (const double lat_deg : {78.0, 84.0}) {
+    const Picture sea = of(options, {10, 30, 80}, camera_at(lat_deg, -20, 1.5e6, 0, -60, 30));
+    for (int y = 60; y < kLightPicture.height_px; ++y) {
+      for (int x = 2; x < kLightPicture.width_px; ++x) {
+        EXPECT_NEAR(sea.at(x, y)[0], sea.at(x - 2, y)[0], 6) << lat_deg << ": " << x << ' ' << y;
+      }
+    }
+  }
+}
+
 class SurfaceClouds : public SurfaceLight {
  protected:
   static constexpr double kCloud_m = 2.0e5;  // high, so that their parallax is many pixels
