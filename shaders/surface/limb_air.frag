@@ -81,25 +81,38 @@ vec3 color_at(ivec2 off) {
   return texelFetch(frame_srgb, clamp(ivec2(gl_FragCoord.xy) + off, part_px.xy, part_px.zw), 0).rgb;
 }
 
+// Square of the ground's colour without air, of the pixel at a distance inside the limb.
+vec3 ground_at(ivec2 off, float inside_px, Air air) {
+  vec3 color = color_at(off), thin = vec3(1.0), thin_light = vec3(0.0);
+#if defined(AIR)
+  ground_air(air, inside_px, thin, thin_light);
+#endif
+  return clamp((color * color - thin_light) / max(thin, 0.02), 0.0, 2.0);
+}
+
 // Square of the ground's colour without air, next to the limb. A pixel there spans many degrees away from the limb and
 // few along it. So pixels beside it along the limb show the same ground, and those count most that lie as near to the
-// limb as the part of the pixel that shows ground.
+// limb as the part of the pixel that shows ground. They see more ground than this part. Without air, what the pixel
+// further inside sees is taken from their sum, so that ice thinner than a pixel keeps its light.
 vec3 ground_near(ivec2 step, float apart, Air air) {
   ivec2 aside = step.x != 0 ? ivec2(0, rows_apart) : ivec2(1, 0);
   float wanted_px = max(max(kInside_px, 0.25 - 0.5 * outside_px), -outside_px);
+  float part = clamp(0.5 - outside_px, 0.1, 1.0);
   vec4 sum = vec4(0.0);
   for (int k = -kAside; k <= kAside; ++k) {
     float there_px = outside_px + dot(vec2(k * aside), outward);
     int inwards = int(ceil(max(0.0, there_px + kInside_px) / apart));
     float inside_px = float(inwards) * apart - there_px, off = inside_px - wanted_px;
-    vec3 color = color_at(k * aside - inwards * step), thin = vec3(1.0), thin_light = vec3(0.0);
-#if defined(AIR)
-    ground_air(air, inside_px, thin, thin_light);
+    ivec2 there = k * aside - inwards * step;
+    vec3 ground = ground_at(there, inside_px, air);
+#if !defined(AIR)
+    float more = max(0.5 + min(inside_px, 0.5) - part, 0.0);
+    ground += (ground - min(ground, ground_at(there - step, inside_px + apart, air))) * min(more / part, 2.0);
 #endif
     float weight = 1.0 / (0.01 + off * off + 0.01 * float(k * k));
-    sum += vec4(clamp((color * color - thin_light) / max(thin, 0.02), 0.0, 2.0), 1.0) * weight * weight;
+    sum += vec4(ground, 1.0) * weight * weight;
   }
-  return sum.rgb / sum.w;
+  return min(sum.rgb / sum.w, vec3(1.0));
 }
 
 // Integral of clamp(x, 0, 1).

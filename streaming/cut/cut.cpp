@@ -81,6 +81,7 @@ struct Job {
             .nodata = nodata_of(input),
             .coding = {.format = info.format,
                        .quality = options.quality,
+                       .finest = plan.grid.max_level,
                        .heights = input.numbers.has_value(),
                        .floats = input.numbers && input.numbers->floats,
                        .png_outline = has_png_outline(options, input),

@@ -207,6 +207,20 @@ TEST(PyramidTest, TransparentPicturesBecomePngsByThemselves) {
   }
 }
 
+/// The colour of coarse JPEG tiles is as sharp as their light: blue and grey stripes, each a pixel wide on level 0.
+TEST(PyramidTest, CoarseJpegTilesKeepTheColourOfEachPixel) {
+  constexpr double kQuality90_levels = 6.0;  // colour of half the size is off by 50
+  const ScratchFolder folder;
+  write_png(folder / "in.png",
+            painted(128, 64, [](int x, int, int c) { return c == 2 && x / 4 % 2 == 0 ? 200 : 100; }));
+  ASSERT_TRUE(cut({.images = {folder / "in.png"}, .output = folder / "out", .tile_px = 16, .quality = 90}));
+  const auto tiles = open_tile_set(folder / "out");
+  ASSERT_TRUE(tiles);
+  const Image coarsest = read_level(**tiles, 0);
+  for (int x = 0; x < coarsest.width_px; ++x)
+    EXPECT_NEAR(pixel_at(coarsest, x, 4)[2], x % 2 == 0 ? 200 : 100, kQuality90_levels) << x;
+}
+
 /// A smooth picture goes on smoothly over ±180° even if the columns no longer lie on the finest level's.
 TEST(PyramidTest, OddWidthsAtEveryLevelLeaveNoSeam) {
   constexpr double kSmooth =

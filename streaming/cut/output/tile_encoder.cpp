@@ -81,12 +81,14 @@ Result<std::vector<std::byte>> TileEncoder::encode(const Strip& strip, std::int6
 Result<std::vector<std::byte>> TileEncoder::encode_jpeg_tile(const Strip& strip, std::int64_t index) {
   if (!jpeg_) return Error{"JPEG: out of memory"};
   const int side = strip.tile_px;
-  buffer_.resize(tjBufSize(side, side, TJSAMP_420));
+  // A picture itself often has colour of half its size. Means of its pixels have all of it.
+  const int sampling = strip.level < coding_.finest ? TJSAMP_444 : TJSAMP_420;
+  buffer_.resize(tjBufSize(side, side, sampling));
   unsigned char* bytes = buffer_.data();
   unsigned long size = buffer_.size();
   const int failed =
       tjCompress2(jpeg_.get(), strip.tile(index), side, static_cast<int>(strip.stride_bytes()), side, TJPF_RGBX, &bytes,
-                  &size, TJSAMP_420, coding_.quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
+                  &size, sampling, coding_.quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
   if (failed != 0) return Error{fmt::format("JPEG: {}", tjGetErrorStr2(jpeg_.get()))};
   const auto* first = reinterpret_cast<const std::byte*>(bytes);
   return std::vector<std::byte>(first, first + size);

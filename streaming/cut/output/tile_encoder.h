@@ -16,14 +16,15 @@ namespace terrella {
 struct TileCoding {
   ImageFormat format = ImageFormat::jpeg;
   int quality = 85;
+  int finest = 0;                    ///< finest level; coarser JPEG tiles keep the colour of each pixel (4:4:4)
   bool heights = false;              ///< 16-bit gray PNG
   bool floats = false;               ///< TIFF of 32-bit floats, from PixelKind::number
   bool png_outline = false;          ///< a tile with transparent pixels becomes PNG instead of JPEG
   std::optional<float> nodata = {};  ///< with `floats`: written for NaN; none: NaN is written
 };
 
-/// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0, accurate DCT, default Huffman tables. PNG and WebP:
-/// like encode_png() and encode_webp(). thread: one at a time
+/// Encodes tiles from strips and reuses its codec. JPEG: 4:2:0 on the finest level, accurate DCT, default Huffman
+/// tables. PNG and WebP: like encode_png() and encode_webp(). thread: one at a time
 class TileEncoder {
  public:
   explicit TileEncoder(const TileCoding& coding);
