@@ -147,16 +147,20 @@ Status find_imagery(const SceneOptions& options) {
   return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 
+std::string name_of(const SceneOptions& options) {
+  return options.tile_set.empty() ? "the included Earth" : options.tile_set.redacted();
+}
+
 /// Fails if the tiles are of another body than the globe.
 Status check_body(const SceneOptions& options, const TileSetInfo& info) {
   if (!options.body || info.body.empty()) return Done{};
   const auto said = parse_body(info.body);
   if (said && !are_two_bodies(*said, *options.body)) return Done{};
   const std::string radius = said ? fmt::format(" (radius {:.0f} m)", said->ellipsoid.a_m()) : std::string();
-  return Error{
-      fmt::format("{}: its tiles are of the body {}{}, and the globe is {} (radius {:.0f} m); say which it is "
-                  "with --body, or leave this tile set out",
-                  options.tile_set.redacted(), info.body, radius, options.body->name, options.body->ellipsoid.a_m())};
+  return Error{fmt::format("{}: its tiles are of the body {}{}, and the globe is {} (radius {:.0f} m); {}",
+                           name_of(options), info.body, radius, options.body->name, options.body->ellipsoid.a_m(),
+                           options.tile_set.empty() ? "name a tile set of that body"
+                                                    : "say which it is with --body, or leave this tile set out")};
 }
 
 Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
@@ -166,10 +170,10 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
   if (Status same = check_body(options, info); !same) return same.error();
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
   if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
-    return Error{options.tile_set.redacted() +
-                 (mercator ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
-                           : ": it is not in Web Mercator by what it says of itself, as --projection "
-                             "says; leave that out")};
+    return Error{name_of(options) + (mercator
+                                         ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                                         : ": it is not in Web Mercator by what it says of itself, as --projection "
+                                           "says; leave that out")};
   }
   if (mercator) return tiles;
   info.grid.projection = options.projection.value_or(info.grid.projection);

@@ -128,8 +128,9 @@ vec4 sea_glint(vec3 normal, vec3 eye) {
   vec3 half_way = normalize(eye + sun_ecef.xyz);
   float middle = dot(normal, half_way), up = max(middle, 0.05), seen = max(dot(eye, normal), 0.05);
   float mirror = 0.02 + 0.98 * pow(1.0 - max(dot(eye, half_way), 0.0), 5.0);
-  float day = smoothstep(0.0, 0.1, dot(normal, sun_ecef.xyz));
-  return vec4((half_way - middle * normal) / up, day * mirror / (4.0 * seen * pow(up, 4.0)));
+  // The Sun's own light, without that of the sky: the air overhead has an optical depth of a quarter.
+  float sunlight = exp(0.25 - 0.25 / max(dot(normal, sun_ecef.xyz), 0.02));
+  return vec4((half_way - middle * normal) / up, sunlight * mirror / (4.0 * seen * pow(up, 4.0)));
 }
 #endif
 

@@ -99,10 +99,13 @@ float sea_share(vec3 imagery_srgb) {
 }
 
 // Slopes of the sea in a wind of 5 m/s are normal with a variance of 0.029. White ground of a full Sun has the light 1.
-// Squares stand for light, as in through_air().
+// Squares stand for light, as in through_air(). Under a low Sun the sea shines many times as brightly as white ground:
+// it comes near kBrightest slowly, for a mere limit would make one even patch of it, with an edge.
+const float kBrightest = 1.5;
 vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
   // The share counts after the limit: a fiftieth of the sea under a low Sun would shine as brightly as all of it.
-  float light = min(glint.w * exp(-dot(glint.xyz, glint.xyz) / 0.029) / 0.029, 1.5) * sea_share(imagery_srgb);
+  float mirrored = glint.w * exp(-dot(glint.xyz, glint.xyz) / 0.029) / 0.029;
+  float light = mirrored / (1.0 + mirrored / kBrightest) * sea_share(imagery_srgb);
   return sqrt(color_srgb * color_srgb + light * vec3(1.0, 0.95, 0.85));
 }
 #else

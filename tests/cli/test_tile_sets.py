@@ -132,6 +132,7 @@ class Bodies(ProgramTest):
         self.assert_done(*render, "moon.gpkg")
         self.assert_done(*render, "moon.gpkg", "--body", "1737000,0")  # under 1 % is the same body
         self.assert_fails(FAILED, *render, "moon.gpkg", "--body", "mars", says=["moon.gpkg", "moon (", "mars (", "--body"])
+        self.assert_fails(FAILED, *render, "--body", "mars", says=["the included Earth: ", "mars (", "name a tile set"])
         self.assert_fails(FAILED, *render, "--overlay", "moon.gpkg", says=["moon.gpkg", "moon (", "earth ("])
 
 

@@ -118,6 +118,38 @@ TEST_F(SurfaceLight, TheSeaMirrorsTheSunWhereAMirrorWouldAndLandDoesNot) {
   EXPECT_EQ(brightening({225, 235, 245}).first, 0) << "ice glints";
 }
 
+// Sunrise over the sea. The glint is many times as bright as white ground there. A mere limit made one even patch of it
+// with an upright edge on each side; a bell is 0.39 times as wide at nine tenths of its height as at half.
+TEST_F(SurfaceLight, AGlintUnderALowSunHasNoEdge) {
+  constexpr double kWide = 0.6;
+  GlobeOptions options;
+  options.sky = true;
+  options.time = *parse_utc("2026-06-21T23:10Z");
+  const auto globe = make_globe(options, one_colour(kLightGrid, {10, 30, 80}));
+  globe->set_camera(camera_at(10.0, 100.0, 4.0e5, 60, -20));
+  settle(*globe, kLightPicture);
+  const Picture with = picture();
+  SurfaceLook dull;
+  dull.glint = false;
+  globe->set_surface(dull);
+  draw(*globe, kLightPicture);
+  const Picture without = picture();
+  const auto more = [&](int x, int y) { return with.at(x, y)[0] - without.at(x, y)[0]; };
+  int rows = 0;
+  for (int y = 0; y < kLightPicture.height_px; ++y) {
+    int most = 0, high = 0, half = 0;
+    for (int x = 0; x < kLightPicture.width_px; ++x) most = std::max(most, more(x, y));
+    if (most < 60) continue;
+    for (int x = 0; x < kLightPicture.width_px; ++x) {
+      high += more(x, y) > 0.9 * most ? 1 : 0;
+      half += more(x, y) > 0.5 * most ? 1 : 0;
+    }
+    EXPECT_LT(high, kWide * half) << "row " << y << " of " << most;
+    ++rows;
+  }
+  EXPECT_GT(rows, 5) << "no glint";
+}
+
 TEST_F(SurfaceLight, TheSeaMirrorsNoSunAtAPoleFarFromTheMirror) {
   GlobeOptions options;
   options.time = *parse_utc("2026-06-21T14:00Z");
