@@ -206,6 +206,7 @@ class GlobeRenderer {
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
   void draw_surface(const Pass& pass) const;
   void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
+  void draw_air_before_glass(const Pass& pass, DrawState state) const;
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
   void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;

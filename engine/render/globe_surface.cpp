@@ -105,7 +105,8 @@ void GlobeRenderer::draw_surface(const Pass& pass) const {
   if (look != SurfaceFromBelow::opaque) {
     DrawState depth_only = state;
     depth_only.color = {false, false, false, false};
-    patches_->draw_depth(*pass.base().gpu, vertices_of(pass.base(), pass.base()), depth_only, pass.counts);
+    patches_->draw_whole(PatchPass::Whole::depth, *pass.base().gpu, vertices_of(pass.base(), pass.base()), depth_only,
+                         pass.counts);
     state.depth = kSameDepth;
   }
   if (night_lights_) night_lights_->bind();
@@ -117,6 +118,19 @@ void GlobeRenderer::draw_surface(const Pass& pass) const {
     state.stencil = stencil(pass.eye, {.set = kSurfaceBit});
   }
   draw_layers(pass, look, state);
+  if (look != SurfaceFromBelow::opaque && air_ != nullptr) draw_air_before_glass(pass, state);
+}
+
+// Blending took a part of the air's light with the surface's. It comes back: the air lies before the surface, and the
+// limb's pixels have all of it.
+void GlobeRenderer::draw_air_before_glass(const Pass& pass, DrawState state) const {
+  state.blend = {.from_rgb = GL_CONSTANT_ALPHA,
+                 .to_rgb = GL_ONE,
+                 .from_alpha = GL_ZERO,
+                 .to_alpha = GL_ONE,
+                 .constant_alpha = static_cast<float>(1.0 - pass.input.surface.alpha)};
+  patches_->draw_whole(PatchPass::Whole::air, *pass.base().gpu, vertices_of(pass.base(), pass.base()), state,
+                       pass.counts);
 }
 
 void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const {
@@ -166,7 +180,8 @@ void GlobeRenderer::draw_layers_over_ground(const Pass& pass) const {
 // alpha of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
 void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
   const auto flat = [&] {
-    patches_->draw_flat(*pass.base().gpu, vertices_of(pass.base(), pass.base()), state, pass.counts);
+    patches_->draw_whole(PatchPass::Whole::black, *pass.base().gpu, vertices_of(pass.base(), pass.base()), state,
+                         pass.counts);
   };
   state.blend = surface_blend(pass.input.surface);
   state.blend->from_rgb = GL_ZERO;

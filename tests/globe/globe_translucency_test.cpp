@@ -55,6 +55,36 @@ TEST_F(GlobeTranslucency, OverTheInnerSphereTheSurfaceHasItsAlphaOfItself) {
   }
 }
 
+// Air lies before the surface, so it is as bright before glass as before stone. Black ground shows the air alone. With
+// half of the air's light there was a bright ring around a dim globe, with a jagged edge.
+TEST_F(GlobeTranslucency, TheAirIsNotTranslucent) {
+  constexpr int kDither = 3;  // half a level in each of two passes, and two roundings
+  for (const int layers : {1, 2}) {
+    GlobeOptions options;
+    options.sky = true;
+    const auto globe = make_globe(options, one_colour(kTranslucentGrid, {0, 0, 0}));
+    if (layers == 2) {
+      ASSERT_TRUE(globe->add_imagery(one_colour(kTranslucentGrid, {0, 0, 0}), {.opacity = 0.5}));
+    }
+    for (const double height_m : {3.0e5, 1.5e7}) {
+      globe->set_camera(camera_at(10, 20, height_m, 0, height_m < 1.0e6 ? -20 : -90));
+      globe->set_surface({});
+      settle(*globe, kPicture);
+      const Picture opaque = picture();
+      globe->set_surface({.alpha = 0.4});
+      settle(*globe, kPicture);
+      const Picture glass = picture();
+      int most = 0, brightest = 0;
+      for (std::size_t k = 0; k < glass.rgba.size(); ++k) {
+        most = std::max(most, std::abs(int{glass.rgba[k]} - int{opaque.rgba[k]}));
+        if (k % 4 == 2) brightest = std::max(brightest, int{opaque.rgba[k]});
+      }
+      EXPECT_LE(most, kDither) << layers << " layers, " << height_m << " m";
+      EXPECT_GT(brightest, 100) << "no air";
+    }
+  }
+}
+
 TEST_F(GlobeTranslucency, TheFarSideNeverShowsThroughTheNearOne) {
   // Without an inner sphere the far side's faces look away and are culled: the same picture.
   for (const bool inner_sphere : {true, false}) {

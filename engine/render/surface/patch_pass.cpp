@@ -74,9 +74,20 @@ Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<Select
   return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
 }
 
+const gl::Program& PatchPass::whole_program(Whole what) const {
+  if (what == Whole::air) return sets_[set_index(LayerRole::base, false)].air;
+  return what == Whole::depth ? depth_program_ : flat_program_;
+}
+
 Status PatchPass::prepare_depth() {
-  if (depth_program_) return Done{};
-  return build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
+  return depth_program_ ? Status(Done{})
+                        : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
+}
+
+Status PatchPass::prepare_air() {
+  gl::Program& program = sets_[set_index(LayerRole::base, false)].air;
+  return program ? Status(Done{})
+                 : build(program, {"frame.glsl", "air.glsl", "patch_air.frag"}, LayerRole::base, false);
 }
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
@@ -275,20 +286,11 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   counts.triangles += layer.triangles;
 }
 
-void PatchPass::draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+void PatchPass::draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                            FrameCounts& counts) const {
-  draw_all(depth_program_, layer, vertices, state, counts);
-}
-
-void PatchPass::draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
-                          FrameCounts& counts) const {
-  draw_all(flat_program_, layer, vertices, state, counts);
-}
-
-void PatchPass::draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
-                         const DrawState& state, FrameCounts& counts) const {
+  if (what == Whole::air) air_->bind_ground();
   bind_vertices(layer, vertices);
-  apply(state.with(program.name()));
+  apply(state.with(whole_program(what).name()));
   draw_commands(layer.first_command[0], layer.first_command[kVariants], counts);
 }
 

@@ -71,11 +71,13 @@ class PatchPass {
   /// Draws city lights under this Sun from now on (unit vector, ECEF axes); none: no city lights.
   void set_sun(const std::optional<glm::dvec3>& sun) { sun_ = sun; }
   /// Builds the programs that draw these patches of a layer of pictures or numbers in the present air and light, each
-  /// once; for upper layers also that of draw_flat(). Call after set_air(), set_light(),
+  /// once; for upper layers also that of Whole::black. Call after set_air(), set_light(),
   /// set_sun() and set_plain_footprint().
   Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
-  /// Makes the program of draw_depth(), once.
+  /// Makes the program of Whole::depth, once.
   Status prepare_depth();
+  /// Makes the program of Whole::air for the present air and light, once.
+  Status prepare_air();
 
   /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
   void set_paper_band(double band) { paper_band_ = band; }
@@ -93,12 +95,11 @@ class PatchPass {
   /// Draws a layer, program by program. Needs prepare().
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
             const DrawState& state, FrameCounts& counts) const;
-  /// Draws depth only, in one call. The depth values are the same bits as those of draw(). Needs prepare_depth().
-  void draw_depth(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
+  /// Depth only, with the same bits as those of draw(); or with that depth opaque black, or the light of the air.
+  enum class Whole { depth, black, air };
+  /// Draws the whole surface in one call. Needs prepare_depth(), prepare() of an upper layer, or prepare_air().
+  void draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                   FrameCounts& counts) const;
-  /// Draws opaque black with the same depth, in one call. Needs prepare() of an upper layer.
-  void draw_flat(const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
-                 FrameCounts& counts) const;
 
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms, kVariants = PatchLayer::kVariants;
@@ -118,8 +119,7 @@ class PatchPass {
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
-  void draw_all(const gl::Program& program, const PatchLayer& layer, const PatchBuffers& vertices,
-                const DrawState& state, FrameCounts& counts) const;
+  [[nodiscard]] const gl::Program& whole_program(Whole what) const;
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
   [[nodiscard]] PatchLayer::Program polar_for(const SelectedPatch& patch) const;
@@ -134,6 +134,7 @@ class PatchPass {
   /// The programs of a role, for pictures or numbers, by which() air, in a light; those that some patch has needed.
   struct ProgramSet {
     gl::Program programs[kVariants];
+    gl::Program air;
   };
   static constexpr std::size_t kRoles = 3, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
