@@ -208,6 +208,7 @@ class GlobeRenderer {
   void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
   void draw_air_before_glass(const Pass& pass, DrawState state) const;
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
+  void draw_whole(const Pass& pass, PatchPass::Whole what, const DrawState& state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
   void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
   void draw_at_height(const Pass& pass, const LayerFrame& layer, double height, const DrawState& state) const;

@@ -105,8 +105,7 @@ void GlobeRenderer::draw_surface(const Pass& pass) const {
   if (look != SurfaceFromBelow::opaque) {
     DrawState depth_only = state;
     depth_only.color = {false, false, false, false};
-    patches_->draw_whole(PatchPass::Whole::depth, *pass.base().gpu, vertices_of(pass.base(), pass.base()), depth_only,
-                         pass.counts);
+    draw_whole(pass, PatchPass::Whole::depth, depth_only);
     state.depth = kSameDepth;
   }
   if (night_lights_) night_lights_->bind();
@@ -129,8 +128,12 @@ void GlobeRenderer::draw_air_before_glass(const Pass& pass, DrawState state) con
                  .from_alpha = GL_ZERO,
                  .to_alpha = GL_ONE,
                  .constant_alpha = static_cast<float>(1.0 - pass.input.surface.alpha)};
-  patches_->draw_whole(PatchPass::Whole::air, *pass.base().gpu, vertices_of(pass.base(), pass.base()), state,
-                       pass.counts);
+  draw_whole(pass, PatchPass::Whole::air, state);
+}
+
+void GlobeRenderer::draw_whole(const Pass& pass, PatchPass::Whole what, const DrawState& state) const {
+  const LayerFrame& base = pass.base();
+  patches_->draw_whole(what, *base.gpu, vertices_of(base, base), state, pass.counts);
 }
 
 void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const {
@@ -179,21 +182,17 @@ void GlobeRenderer::draw_layers_over_ground(const Pass& pass) const {
 // First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
 // alpha of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
 void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
-  const auto flat = [&] {
-    patches_->draw_whole(PatchPass::Whole::black, *pass.base().gpu, vertices_of(pass.base(), pass.base()), state,
-                         pass.counts);
-  };
   state.blend = surface_blend(pass.input.surface);
   state.blend->from_rgb = GL_ZERO;
   state.blend->from_alpha = GL_CONSTANT_ALPHA;
   state.blend->to_alpha = GL_ZERO;
-  flat();
+  draw_whole(pass, PatchPass::Whole::black, state);
   state.blend = {GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA};
   for (auto layer = pass.upper().rbegin(); layer != pass.upper().rend(); ++layer) draw_upper(pass, *layer, state);
   draw_base(pass, state);
   state.blend.reset();
   state.color = {false, false, false, true};
-  flat();
+  draw_whole(pass, PatchPass::Whole::black, state);
 }
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {

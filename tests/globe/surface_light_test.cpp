@@ -32,6 +32,24 @@ class SurfaceLight : public GlTest {
     settle(*globe, kLightPicture);
     return picture();
   }
+  /// The light that the glint adds to the red of each pixel, rows from the top; and the camera's view.
+  struct Glint {
+    std::vector<int> more;
+    View view;
+    [[nodiscard]] int at(int x, int y) const { return more[static_cast<std::size_t>(y * kLightPicture.width_px + x)]; }
+  };
+  Glint glint(const GlobeOptions& options, const Color& color, const Camera& camera) {
+    const auto globe = make_globe(options, one_colour(kLightGrid, color));
+    globe->set_camera(camera);
+    settle(*globe, kLightPicture);
+    const Picture with = picture();
+    globe->set_surface({.glint = false});
+    draw(*globe, kLightPicture);
+    const Picture without = picture();
+    Glint seen{{}, globe->view(kLightPicture)};
+    for (std::size_t k = 0; k < with.rgba.size(); k += 4) seen.more.push_back(with.rgba[k] - without.rgba[k]);
+    return seen;
+  }
 };
 
 /// Mean level of a ring around the picture's middle, radii in shares of the disc's.
@@ -85,28 +103,19 @@ TEST_F(SurfaceLight, TheSeaMirrorsTheSunWhereAMirrorWouldAndLandDoesNot) {
   options.sky = true;
   const Camera camera = over_the_sun(40.0, 2.0e7, 40.0);
   const auto brightening = [&](const Color& color) {
-    const auto globe = make_globe(options, one_colour(kLightGrid, color));
-    globe->set_camera(camera);
-    settle(*globe, kLightPicture);
-    const Picture with = picture();
-    SurfaceLook dull;
-    dull.glint = false;
-    globe->set_surface(dull);
-    draw(*globe, kLightPicture);
-    const Picture without = picture();
-    const View view = globe->view(kLightPicture);
+    const Glint seen = glint(options, color, camera);
     // The glint is brightest where the normal halves the angle between Sun and eye.
     const glm::dvec3 sun = almanac_at(noon())->sun.xyz;
     int most = 0;
     double tilt_deg = 180.0;
     for (int k = 0; k < kLightPicture.width_px * kLightPicture.height_px; ++k) {
       const int x = k % kLightPicture.width_px, y = k / kLightPicture.width_px;
-      const int more = with.at(x, y)[0] - without.at(x, y)[0];
-      const auto place = pick(view, earth().ellipsoid, {x + 0.5, y + 0.5});
+      const int more = seen.at(x, y);
+      const auto place = pick(seen.view, earth().ellipsoid, {x + 0.5, y + 0.5});
       if (more <= most || !place) continue;
       most = more;
       const glm::dvec3 normal = Ellipsoid::normal(place->lat, place->lon).xyz;
-      const glm::dvec3 eye = glm::normalize(view.eye.xyz_m - earth().ellipsoid.position({normal}).xyz_m);
+      const glm::dvec3 eye = glm::normalize(seen.view.eye.xyz_m - earth().ellipsoid.position({normal}).xyz_m);
       tilt_deg = std::acos(std::min(1.0, glm::dot(glm::normalize(eye + sun), normal))) * 57.29578;
     }
     return std::pair(most, tilt_deg);
@@ -125,24 +134,15 @@ TEST_F(SurfaceLight, AGlintUnderALowSunHasNoEdge) {
   GlobeOptions options;
   options.sky = true;
   options.time = *parse_utc("2026-06-21T23:10Z");
-  const auto globe = make_globe(options, one_colour(kLightGrid, {10, 30, 80}));
-  globe->set_camera(camera_at(10.0, 100.0, 4.0e5, 60, -20));
-  settle(*globe, kLightPicture);
-  const Picture with = picture();
-  SurfaceLook dull;
-  dull.glint = false;
-  globe->set_surface(dull);
-  draw(*globe, kLightPicture);
-  const Picture without = picture();
-  const auto more = [&](int x, int y) { return with.at(x, y)[0] - without.at(x, y)[0]; };
+  const Glint seen = glint(options, {10, 30, 80}, camera_at(10.0, 100.0, 4.0e5, 60, -20));
   int rows = 0;
   for (int y = 0; y < kLightPicture.height_px; ++y) {
     int most = 0, high = 0, half = 0;
-    for (int x = 0; x < kLightPicture.width_px; ++x) most = std::max(most, more(x, y));
+    for (int x = 0; x < kLightPicture.width_px; ++x) most = std::max(most, seen.at(x, y));
     if (most < 60) continue;
     for (int x = 0; x < kLightPicture.width_px; ++x) {
-      high += more(x, y) > 0.9 * most ? 1 : 0;
-      half += more(x, y) > 0.5 * most ? 1 : 0;
+      high += seen.at(x, y) > 0.9 * most ? 1 : 0;
+      half += seen.at(x, y) > 0.5 * most ? 1 : 0;
     }
     EXPECT_LT(high, kWide * half) << "row " << y << " of " << most;
     ++rows;

@@ -80,14 +80,14 @@ const gl::Program& PatchPass::whole_program(Whole what) const {
 }
 
 Status PatchPass::prepare_depth() {
-  return depth_program_ ? Status(Done{})
-                        : build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
+  if (depth_program_) return Done{};
+  return build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
 }
 
 Status PatchPass::prepare_air() {
   gl::Program& program = sets_[set_index(LayerRole::base, false)].air;
-  return program ? Status(Done{})
-                 : build(program, {"frame.glsl", "air.glsl", "patch_air.frag"}, LayerRole::base, false);
+  if (program) return Done{};
+  return build(program, {"frame.glsl", "air.glsl", "patch_air.frag"}, LayerRole::base, false);
 }
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
