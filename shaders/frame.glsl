@@ -14,8 +14,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 layer_look;
   // Offsets from the eye, metres, into the axes of the horizon in scaled space (engine/render/sky/air_textures.h); the
   // last column has the square of the polar over the equatorial radius, one over the distance of the horizon, and
-  // the eye's radius and height, metres. The last row has the place of the forward axis in the picture, pixels, and
-  // the slope of a pixel.
+  // the eye's radius and height, metres. The last row is unused.
   mat4 horizon_from_ecef;
   // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
   // over slot_px; unused.
@@ -24,6 +23,14 @@ layout(std140, binding = 0) uniform Frame {
   // body of dust; longest pixel, texels, for which oblique patches take three taps; 1 at a time, 0 if the Sun is only a
   // lamp.
   vec4 surface_look;
+  vec4 axis_px;              // place of the forward axis in the picture, pixels; slope of a pixel; unused
+  // The raised limb of PatchPass::set_limb(): its height, metres; square of the cosine towards the eye up to which it is
+  // raised; unused.
+  vec4 limb;
+  // The square of the cosine by the place in the picture (LimbSquare of engine/surface/limb.h): a place, pixels, and the
+  // slope there; the bend, and the square at that place.
+  vec4 limb_at_px;
+  vec4 limb_bend;
 };
 
 // Level ground and lamps by the sine of the Sun's height. Both change at the end of civil twilight

@@ -68,8 +68,8 @@ Status GlobeRenderer::prepare(const Pass& pass) {
   }
   if (Status s = prepare_layers(pass); !s) return s;
   if (surface_look(pass) != SurfaceFromBelow::opaque) {
-    if (Status s = patches_->prepare_depth(); !s) return s;
-    if (Status s = air_of(pass) != nullptr ? patches_->prepare_air() : Done{}; !s) return s;
+    if (Status s = patches_->prepare_whole(PatchPass::Whole::depth); !s) return s;
+    if (Status s = air_of(pass) != nullptr ? patches_->prepare_whole(PatchPass::Whole::air) : Done{}; !s) return s;
   }
   if (has_inner_sphere(pass)) {
     if (Status s = make_once(inner_sphere_, options_.depth); !s) return s;

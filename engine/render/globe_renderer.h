@@ -203,6 +203,7 @@ class GlobeRenderer {
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
   void upload_frame(const LayerFrame& layer) const;
+  void describe_limb(const Pass& pass, FrameBlock& block) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
   void draw_surface(const Pass& pass) const;
   void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
@@ -210,7 +211,8 @@ class GlobeRenderer {
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
   void draw_whole(const Pass& pass, PatchPass::Whole what, const DrawState& state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
-  void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
+  void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state,
+                  PatchPass::Limb limb = PatchPass::Limb::raised) const;
   void draw_at_height(const Pass& pass, const LayerFrame& layer, double height, const DrawState& state) const;
   void draw_layers_over_ground(const Pass& pass) const;
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
@@ -227,7 +229,7 @@ class GlobeRenderer {
   [[nodiscard]] bool mountains_on_limb(const Pass& pass) const;
   [[nodiscard]] SkyInput sky_of(const Pass& pass) const;
   [[nodiscard]] bool limb_comes_last(const Pass& pass) const;
-  [[nodiscard]] static LimbLook limb_look(const Pass& pass, const AirTextures* air);
+  [[nodiscard]] LimbLook limb_look(const Pass& pass, const AirTextures* air) const;
   [[nodiscard]] double near_m(const Pass& pass) const;
 
   RenderOptions options_;

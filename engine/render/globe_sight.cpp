@@ -114,9 +114,11 @@ bool GlobeRenderer::limb_comes_last(const Pass& pass) const {
   return !(under_ground(pass) || objects_->has(ObjectPart::above_ground) || objects_->has(ObjectPart::underground));
 }
 
-// From within the air, the air beside the limb is many pixels thick.
-LimbLook GlobeRenderer::limb_look(const Pass& pass, const AirTextures* air) {
+// From within the air, the air beside the limb is many pixels thick. Samples cover the limb's pixels by parts.
+LimbLook GlobeRenderer::limb_look(const Pass& pass, const AirTextures* air) const {
   if (!pass.input.lit) return LimbLook::imagery;
+  const bool has_limb = !mountains_on_limb(pass) && !under_ground(pass) && !pass.input.naive_translucency;
+  if (air == nullptr && has_limb && targets_->samples() == 0) return LimbLook::whole;
   return air != nullptr && air->sky().outside ? LimbLook::in_air : LimbLook::lit;
 }
 

@@ -6,6 +6,7 @@
 
 #include "render/frame_camera.h"
 #include "render/gl/stencil_bits.h"
+#include "surface/limb.h"
 
 // The image layers of the surface. The base layer is drawn with depth; upper layers are blended over equal depth.
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
@@ -18,6 +19,8 @@ namespace {
 // of a frame less, and 12 has up to a fifth more. A picture of the imagery alone keeps to the plain footprint, which
 // measurements compare.
 constexpr double kFootprintInAir_texels = 8.0, kFootprintWithoutAir_texels = 5.0;
+// A raised limb reaches the middle of each pixel that it covers in part.
+constexpr double kRaised_px = 0.75;
 // Three taps reach over this many texels.
 constexpr double kShortPixel_texels = 2.0;
 
@@ -61,6 +64,9 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
   patches_->set_air(air_of(pass));
   patches_->set_light(light_of(pass.input));
+  const bool in_view = limb_->fit(pass.input.view, ellipsoid_);
+  const bool whole_limb = in_view && limb_look(pass, air_of(pass)) == LimbLook::whole;
+  patches_->set_limb(whole_limb ? std::optional(LimbRing(pass.input.view, ellipsoid_)) : std::nullopt);
   patches_->set_sun(pass.input.lit ? std::optional(pass.input.sun) : std::nullopt);
   patches_->set_plain_footprint(pass.input.lit ? lit_footprint_texels(pass.input) : kPlainFootprint_texels);
   for (const LayerFrame& layer : pass.input.layers) {
@@ -163,7 +169,7 @@ void GlobeRenderer::draw_at_height(const Pass& pass, const LayerFrame& layer, do
   if (layer.patches->empty()) return;
   const auto value = static_cast<float>(height);
   glNamedBufferSubData(layer.gpu->frame_block.name(), offsetof(FrameBlock, surface_look), sizeof(float), &value);
-  draw_upper(pass, layer, state);
+  draw_upper(pass, layer, state, height > 0.0 ? PatchPass::Limb::flat : PatchPass::Limb::raised);
 }
 
 // After sky and limb, which lie behind such a layer beyond the limb. The layers write no depth.
@@ -201,11 +207,13 @@ void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   patches_->draw(*base.gpu, vertices_of(base, base), *base.tiles, LayerRole::base, state, pass.counts);
 }
 
-void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state) const {
+void GlobeRenderer::draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state,
+                               PatchPass::Limb limb) const {
   if (layer.patches->empty()) return;
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, layer.gpu->frame_block.name());
   if (light_of(pass.input).relief) slopes_->bind(*layer.gpu);
-  patches_->draw(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, pass.role_of(layer), state, pass.counts);
+  patches_->draw(*layer.gpu, vertices_of(layer, pass.base()), *layer.tiles, pass.role_of(layer), state, pass.counts,
+                 limb);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
 }
 
@@ -216,6 +224,16 @@ BlendState GlobeRenderer::surface_blend(const SurfaceLook& look) {
           .from_alpha = GL_ZERO,
           .to_alpha = GL_ONE,
           .constant_alpha = static_cast<float>(look.alpha)};
+}
+
+// Sets the uniforms of a limb whose pixels show their own ground.
+void GlobeRenderer::describe_limb(const Pass& pass, FrameBlock& block) const {
+  const std::optional<LimbSquare> limb = limb_square(pass.eye.view, ellipsoid_);
+  if (!limb) return;
+  const double pixel = glm::length(limb->slope);
+  block.limb = glm::vec4(0.5 * kRaised_px * pixel * ellipsoid_.a_m(), kLimb_px * pixel, 0.0, 0.0);
+  block.limb_at_px = glm::vec4(limb->at_px.x + pass.eye.left_px, limb->at_px.y, limb->slope);
+  block.limb_bend = glm::vec4(limb->bend, limb->there);
 }
 
 // Sets the uniforms that depend on a layer.
@@ -251,12 +269,11 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
     block.horizon_from_ecef = glm::mat4(glm::mat3(air_->horizon_from_ecef() * e.a_m()));
     const double r = air_->eye_radius(), horizon_m = e.a_m() * std::sqrt((r - 1.0) * (r + 1.0));
     block.horizon_from_ecef[3] = glm::vec4(e.one_minus_e2(), 1.0 / horizon_m, r * e.a_m(), (r - 1.0) * e.a_m());
-    const double focal_px = view.pixels_per_radian();
-    block.horizon_from_ecef[0].w =
-        static_cast<float>(pass.eye.left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px);
-    block.horizon_from_ecef[1].w = static_cast<float>(0.5 * view.viewport.height_px);
-    block.horizon_from_ecef[2].w = static_cast<float>(1.0 / focal_px);
   }
+  const double focal_px = view.pixels_per_radian(), left_px = pass.eye.left_px;
+  block.axis_px = glm::vec4(left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px,
+                            0.5 * view.viewport.height_px, 1.0 / focal_px, 0.0);
+  if (limb_look(pass, air_) == LimbLook::whole) describe_limb(pass, block);
   if (light_of(pass.input).relief) {
     block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
                              slopes_->slot_share(), 0.0);

@@ -156,4 +156,63 @@ std::vector<LimbVertex> limb_ribbon(const View& view, const Ellipsoid& ellipsoid
   return strip;
 }
 
+double LimbSquare::times_length_sq(glm::dvec2 px) const {
+  const glm::dvec2 d = px - at_px;
+  return there + glm::dot(slope, d) + bend.x * d.x * d.x + bend.y * d.x * d.y + bend.z * d.y * d.y;
+}
+
+// With the eye e and a ray r in scaled space, the square of the cosine is ((e r)² - (e² - 1) r²) / r².
+std::optional<LimbSquare> limb_square(const View& view, const Ellipsoid& ellipsoid) {
+  const glm::dvec3 axes_m = semi_axes_m(ellipsoid), eye = view.eye.xyz_m / axes_m, scale = ellipsoid.a_m() / axes_m;
+  const double length = glm::length(eye), limb_sq = (length - 1.0) * (length + 1.0);
+  if (!(length > 1.0)) return std::nullopt;
+  const double pixel = 1.0 / view.pixels_per_radian();
+  const glm::dvec3 x = scale * view.right * pixel, y = scale * view.up * pixel;
+  const glm::dvec3 ahead = scale * (view.forward + view.shear_x * view.right);
+  const auto product = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::dot(eye, a) * glm::dot(eye, b) - limb_sq * glm::dot(a, b);
+  };
+  LimbSquare square{.at_px = 0.5 * glm::dvec2(view.viewport.width_px, view.viewport.height_px),
+                    .there = product(ahead, ahead),
+                    .slope = 2.0 * glm::dvec2(product(ahead, x), product(ahead, y)),
+                    .bend = {product(x, x), 2.0 * product(x, y), product(y, y)}};
+  // Near a place on the limb floats are accurate: the next one up or down the slope from the picture's middle.
+  const double steep = glm::length(square.slope);
+  if (steep == 0.0) return square;
+  const glm::dvec2 way = square.slope / steep;
+  const double bend = square.bend.x * way.x * way.x + square.bend.y * way.x * way.y + square.bend.z * way.y * way.y;
+  const double root_sq = steep * steep - 4.0 * bend * square.there;
+  if (root_sq <= 0.0) return square;
+  const glm::dvec2 to_limb = way * (-2.0 * square.there / (steep + std::sqrt(root_sq)));
+  const glm::dvec3 there = ahead + to_limb.x * x + to_limb.y * y;
+  square.at_px += to_limb;
+  square.there = product(there, there);
+  square.slope = 2.0 * glm::dvec2(product(there, x), product(there, y));
+  return square;
+}
+
+LimbRing::LimbRing(const View& view, const Ellipsoid& ellipsoid) {
+  const glm::dvec3 eye = view.eye.xyz_m / semi_axes_m(ellipsoid);
+  const double length = glm::length(eye);
+  if (!(length > 1.0)) return;
+  towards_eye_ = eye / length;
+  const double limb_rad = std::acos(1.0 / length), pixel = 2.0 * std::tan(limb_rad) / view.pixels_per_radian();
+  const double reach_rad = std::sqrt(kLimb_px * pixel) + view.eye_spread_m / ellipsoid.b_m();
+  const auto at = [](double angle_rad) { return glm::dvec2(std::cos(angle_rad), std::sin(angle_rad)); };
+  begin_ = at(std::max(0.0, limb_rad - reach_rad));
+  end_ = at(limb_rad + reach_rad);
+}
+
+bool LimbRing::meets(const glm::dvec3& axis, double cos_half_angle, double sin_half_angle) const {
+  const double from_eye = glm::dot(axis, towards_eye_);
+  const bool holds_begin = begin_.y * cos_half_angle < begin_.x * sin_half_angle;
+  return from_eye > end_.x * cos_half_angle - end_.y * sin_half_angle &&
+         (holds_begin || from_eye < begin_.x * cos_half_angle + begin_.y * sin_half_angle);
+}
+
+bool LimbRing::holds(const glm::vec3& point) const {
+  const float from_eye = glm::dot(point, glm::vec3(towards_eye_));
+  return from_eye < static_cast<float>(begin_.x) && from_eye > static_cast<float>(end_.x);
+}
+
 }  // namespace terrella

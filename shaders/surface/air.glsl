@@ -19,7 +19,7 @@ vec3 through_air(vec3 lit_srgb, float alpha) {
 #if defined(NEAR_GROUND)
   // The air grows with the distance, from none at the eye. Vertices of a large triangle around the eye give it per
   // metre, and the fragment knows its distance.
-  vec2 slope = (gl_FragCoord.xy - vec2(horizon_from_ecef[0].w, horizon_from_ecef[1].w)) * horizon_from_ecef[2].w;
+  vec2 slope = (gl_FragCoord.xy - axis_px.xy) * axis_px.z;
   float metres = air_metres(sqrt(1.0 + dot(slope, slope)) / gl_FragCoord.w);
   vec3 through = max(vec3(0.0), 1.0 - air_through * metres) * air_tint;
   return sqrt(lit_srgb * lit_srgb * through + air_light * (metres * alpha * alpha)) + dither();

@@ -1,13 +1,5 @@
 // Antialiases the limb. A pixel on the limb mixes the colours just inside and just outside the limb, by the area of the
 // pixel on each side.
-layout(binding = 0) uniform sampler2D frame_srgb;
-// 2: the rows between belong to the other eye; 0: frame_srgb contains the limb.
-layout(location = 0) uniform int rows_apart;
-layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
-in vec2 outward;
-in float outside_px;
-layout(location = 0) out vec4 color_srgb;
-
 // The pixels this far away are on one side of the limb.
 #if defined(FROM_SAMPLES)
 const float kAside_px = 1.5;

@@ -1,25 +1,17 @@
 // Antialiases the limb of a globe with light, and with AIR in air. A pixel on the limb has three parts: the ground's
 // colour, the air beside the limb, and what shines through that air. The air may be thinner than a pixel, so its light
 // is summed over the part of the pixel outside the limb (SkyColors of engine/sky/air_colors.h).
-layout(binding = 0) uniform sampler2D frame_srgb;
 #if defined(AIR)
 layout(binding = 2) uniform sampler2D limb_light;    // sums outwards from the limb, by azimuth and distance
 layout(binding = 3) uniform sampler2D limb_through;
 layout(binding = 7) uniform sampler2D ground_through;  // GroundColors
 layout(binding = 8) uniform sampler2D ground_light;
 #endif
-// 2: the rows between belong to the other eye; 0: frame_srgb contains the limb.
-layout(location = 0) uniform int rows_apart;
-layout(location = 1) uniform ivec4 part_px;    // first and last column and row of this eye's picture
 #if defined(AIR)
 layout(location = 2) uniform mat3 horizon_from_px;   // axes: x towards the Sun's azimuth, z up
 // Distance of the limb, the height that a pixel of the tables covers, both in radii; steps of the tables in a pixel.
 layout(location = 3) uniform vec3 limb;
 #endif
-in vec2 outward;
-in float outside_px;
-layout(location = 0) out vec4 color_srgb;
-
 const int kSlices = 2;                         // the pixel's square as strips along the limb
 const float kSlice = 0.57735;                  // Gauss: twice the distance of a strip from the middle, in their range
 const int kAside = 3;                          // pixels to each side along the limb that show a pixel's ground
@@ -69,18 +61,6 @@ void ground_air(Air air, float inside_px, out vec3 through, out vec3 light) {
 
 #endif
 
-// The pixel that many steps outwards along a row or a column; `apart` is the distance of a step from the limb.
-float step_px(out ivec2 step) {
-  bool along_row = abs(outward.x) >= abs(outward.y) || rows_apart > 1;
-  if (along_row && outward.x == 0.0) along_row = false;
-  step = along_row ? ivec2(int(sign(outward.x)), 0) : ivec2(0, rows_apart * int(sign(outward.y)));
-  return dot(vec2(step), outward);
-}
-
-vec3 color_at(ivec2 off) {
-  return texelFetch(frame_srgb, clamp(ivec2(gl_FragCoord.xy) + off, part_px.xy, part_px.zw), 0).rgb;
-}
-
 // Square of the ground's colour without air, of the pixel at a distance inside the limb.
 vec3 ground_at(ivec2 off, float inside_px, Air air) {
   vec3 color = color_at(off), thin = vec3(1.0), thin_light = vec3(0.0);
@@ -113,19 +93,6 @@ vec3 ground_near(ivec2 step, float apart, Air air) {
     sum += vec4(ground, 1.0) * weight * weight;
   }
   return min(sum.rgb / sum.w, vec3(1.0));
-}
-
-// Integral of clamp(x, 0, 1).
-float ramp_sum(float x) {
-  float within = clamp(x, 0.0, 1.0);
-  return 0.5 * within * within + max(x - 1.0, 0.0);
-}
-
-// Part of a pixel's square inside the limb: the mean of the parts of its strips along the limb, `width` wide, whose
-// middles lie evenly in the range around the pixel's.
-float covered_part(float distance_px, float width, float range) {
-  float middle = 0.5 - distance_px / width, half_range = 0.5 * range / width;
-  return (ramp_sum(middle + half_range) - ramp_sum(middle - half_range)) / (2.0 * half_range);
 }
 
 void main() {

@@ -23,6 +23,8 @@ const vec3 kFromNorthWest = vec3(-0.5, 0.5, 0.70710678);
 
 #if defined(SPECIAL_LAYER)
 out float shadow_of_layer;
+#endif
+#if defined(SPECIAL_LAYER) || defined(AT_LIMB)
 out float towards_eye;   // cosine between the normal and the eye
 #endif
 #if defined(GLINT)
@@ -134,6 +136,15 @@ vec4 sea_glint(vec3 normal, vec3 eye) {
 }
 #endif
 
+#if defined(AT_LIMB)
+// Height of the ground at the limb, metres (frame.glsl). All triangles of the limb lie clearly before those of the whole
+// patches, so that depth tells them apart: layers over the ground have each pixel once.
+float raised_m(float cosine) {
+  float part = max(0.0, 1.0 - cosine * cosine / limb.y);
+  return max(part * part, 0.05) * limb.x;
+}
+#endif
+
 void main() {
   // The high parts are subtracted first. Near the eye their difference is exact (Sterbenz), so the shared vertices of
   // two patches are equal.
@@ -143,7 +154,12 @@ void main() {
   vec3 normal = normalize(vec3(m.xy, m.z / texels.w));
 #if defined(SPECIAL_LAYER)
   position_from_eye += max(surface_look.x, 0.0) * normal;
+#endif
+#if defined(SPECIAL_LAYER) || defined(AT_LIMB)
   towards_eye = -dot(normalize(position_from_eye), normal);
+#endif
+#if defined(AT_LIMB)
+  position_from_eye += raised_m(towards_eye) * normal;
 #endif
   precise vec3 position_view = mat3(view_from_ecef) * position_from_eye;
   float w = -position_view.z;

@@ -4,6 +4,9 @@ layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows
 in vec2 window_point;
 in vec3 row_direction;
 in float light;
+#if defined(SPECIAL_LAYER) || defined(AT_LIMB)
+in float towards_eye;
+#endif
 flat in uvec4 window;            // first cell; width | height << 16; column and row of that cell, low bits
 flat in vec4 center_and_scale;
 flat in vec4 frame;
@@ -127,7 +130,6 @@ vec3 lit(vec3 imagery_srgb, float alpha) {
 
 #if defined(SPECIAL_LAYER)
 in float shadow_of_layer;   // by day
-in float towards_eye;
 
 // Shown fraction of a layer by day or night.
 float part_shown() {

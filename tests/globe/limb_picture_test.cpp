@@ -92,6 +92,52 @@ TEST_F(LimbPictures, KeepTheLightOfIceThinnerThanAPixel) {
     EXPECT_TRUE(limb.peak_agrees()) << limb.drawn.peak << ", truth " << limb.truth.peak;
 }
 
+// Floes along a strip of the limb, from 26,000 km. A pixel on the limb shows the ground of its own part inside the
+// limb, not that of pixels beside it. The ground is 20 to 245 levels bright.
+TEST_F(LimbPictures, ShowInEachPixelItsOwnGround) {
+  constexpr Viewport kStrip{306, 86}, kLarge{kTimes * kStrip.width_px, kTimes * kStrip.height_px};
+  globe_->set_sky(false);
+  globe_->set_camera(camera_at(40.5, 118.0, 29763514.4, 134, -80.506531, 1.98995698));
+  const Levels truth = drawn(kLarge, kTimes), seen = drawn(kStrip, 1);
+  double squares = 0.0;
+  int pixels = 0;
+  for (int x = 0; x < kStrip.width_px; ++x) {
+    int y = 0;
+    while (y < kStrip.height_px && truth.at(x, y, 2) < 4.0) ++y;
+    for (int k = 0; k < 2 && y + k < kStrip.height_px; ++k, ++pixels) {
+      const double off = seen.at(x, y + k, 0) - truth.at(x, y + k, 0);
+      squares += off * off;
+    }
+  }
+  ASSERT_GT(pixels, 500);
+  const double rms = std::sqrt(squares / pixels);
+  RecordProperty("rms", std::to_string(rms));
+  EXPECT_LT(rms, 6.0);
+}
+
+// A layer of one colour, over ground of one colour: each pixel of the globe has the layer once, also where the limb's
+// triangles overlap those of whole patches.
+TEST_F(LimbPictures, HaveALayerOnce) {
+  constexpr Viewport kPicture{300, 300};
+  for (const double alpha : {1.0, 0.5}) {
+    globe_.reset();
+    GlobeOptions options;
+    options.surface.alpha = alpha;
+    options.surface.inner_sphere_below_m = 1.0e5;
+    const TileGrid grid{.tile_px = 64, .max_level = 2};
+    globe_ = make_globe(options, one_colour(grid, {200, 200, 200}));
+    globe_->set_camera(camera_at(20.0, 10.0, 1.5e7));
+    settle(*globe_, kPicture);
+    const Picture bare = picture();
+    ASSERT_TRUE(globe_->add_imagery(one_colour(grid, {0, 0, 0}), {.opacity = 0.5}));
+    settle(*globe_, kPicture);
+    const Picture covered = picture();
+    for (int y = 0; y < kPicture.height_px; ++y)
+      for (int x = 0; x < kPicture.width_px; ++x)
+        ASSERT_NEAR(covered.at(x, y)[0], 0.5 * bare.at(x, y)[0], 2.0) << x << ", " << y << ", alpha " << alpha;
+  }
+}
+
 // Pixels at the limb are many times as long as wide, and their texels must still be about as narrow as they are.
 TEST_F(LimbPictures, IsNotBlurred) { check(camera_at(58.5, 32.0, 48329000, 256, -90, 15.9), 192, false, 0.87); }
 

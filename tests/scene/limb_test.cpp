@@ -191,6 +191,64 @@ TEST(Limb, HasNoGapAtItsBends) {
   EXPECT_GE(bends, 48);
 }
 
+/// The point of the unit sphere in scaled space that a pixel's ray meets, or is nearest to.
+glm::dvec3 met(const View& view, const Ellipsoid& body, glm::dvec2 px) {
+  const glm::dvec3 axes(body.a_m(), body.a_m(), body.b_m());
+  const glm::dvec3 eye = view.eye.xyz_m / axes, ray = glm::normalize(pixel_ray(view, px).xyz / axes);
+  const double half = std::sqrt(std::max(0.0, inside(view, body, px)));
+  return glm::normalize(eye - (glm::dot(eye, ray) + half) * ray);
+}
+
+TEST(Limb, ItsSquareIsThatOfTheCosineBetweenRayAndNormal) {
+  Draw draw(33);
+  for (const Body& body : selection_bodies()) {
+    const Ellipsoid& e = body.ellipsoid;
+    for (int k = 0; k < 60; ++k) {
+      const View view = make_view(camera_at_limb(draw, e.a_m()), e, {1024, 768});
+      const std::optional<LimbSquare> square = limb_square(view, e);
+      ASSERT_TRUE(square);
+      for (int n = 0; n < 20; ++n) {
+        const glm::dvec2 px(draw.between(0.0, 1024.0), draw.between(0.0, 768.0));
+        const glm::dvec3 ray = pixel_ray(view, px).xyz / glm::dot(pixel_ray(view, px).xyz, view.forward);
+        const glm::dvec3 scaled = ray * glm::dvec3(1.0, 1.0, e.a_m() / e.b_m());
+        EXPECT_NEAR(square->times_length_sq({px.x, 768.0 - px.y}), inside(view, e, px) * glm::dot(scaled, scaled),
+                    1e-9);
+      }
+    }
+  }
+}
+
+// The square of the cosine grows by twice the limb's distance, in radii, times a pixel's slope. Near the ground a ring
+// as wide as what is in view holds more.
+TEST(Limb, ItsRingHoldsTheGroundUpToItsPixelsInside) {
+  Draw draw(34);
+  std::size_t held = 0, left = 0;
+  for (const Body& body : selection_bodies()) {
+    const Ellipsoid& e = body.ellipsoid;
+    for (int k = 0; k < 20; ++k) {
+      const View view = make_view(camera_at_limb(draw, e.a_m()), e, {1024, 768});
+      const LimbRing ring(view, e);
+      const double eye = glm::length(view.eye.xyz_m / glm::dvec3(e.a_m(), e.a_m(), e.b_m()));
+      const double most = terrella::kLimb_px * 2.0 * std::sqrt(eye * eye - 1.0) / view.pixels_per_radian();
+      for (int n = 0; n < 400; ++n) {
+        const glm::dvec2 px(draw.between(0.0, 1024.0), draw.between(0.0, 768.0));
+        const double square = inside(view, e, px);
+        const glm::dvec3 there = met(view, e, px);
+        if (square > 0.0 && square < 0.9 * most) {
+          EXPECT_TRUE(ring.holds(glm::vec3(there)));
+          EXPECT_TRUE(ring.meets(there, 1.0, 0.0));
+          ++held;
+        } else if (square > 1.2 * most && std::sqrt(most) < 0.1 * std::acos(1.0 / eye)) {
+          EXPECT_FALSE(ring.holds(glm::vec3(there)));
+          ++left;
+        }
+      }
+    }
+  }
+  EXPECT_GT(held, 20U);
+  EXPECT_GT(left, 1000U);
+}
+
 TEST(Limb, LiesOnTheLimbThroughTheLongestLens) {
   Draw draw(32);
   for (const double fov : {0.01, 0.1, 1.0}) {

@@ -18,7 +18,11 @@ struct FrameBlock {
   glm::mat4 horizon_from_ecef;
   glm::vec4 relief;
   glm::vec4 surface_look;
+  glm::vec4 axis_px;
+  glm::vec4 limb;
+  glm::vec4 limb_at_px;
+  glm::vec4 limb_bend;
 };
-static_assert(sizeof(FrameBlock) == 64 + 9 * 16 + 64);
+static_assert(sizeof(FrameBlock) == 64 + 13 * 16 + 64);
 
 }  // namespace terrella

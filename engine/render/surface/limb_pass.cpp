@@ -44,8 +44,9 @@ LimbPass::LimbPass() : vertex_array_(gl::make_vertex_array()), vertices_(gl::mak
 Status LimbPass::prepare(LimbLook look, bool from_samples) {
   gl::Program& program = programs_[from_samples ? 1 : 0][static_cast<std::size_t>(look)];
   if (program) return Done{};
-  const std::string_view fragment = look == LimbLook::imagery ? "limb.frag" : "limb_air.frag";
-  return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {fragment}}},
+  constexpr std::string_view kFiles[] = {"limb.frag", "limb_air.frag", "limb_whole.frag", "limb_air.frag"};
+  const std::string_view fragment = kFiles[static_cast<std::size_t>(look)];
+  return build_into(program, {{GL_VERTEX_SHADER, {"limb.vert"}}, {GL_FRAGMENT_SHADER, {"limb_pixel.glsl", fragment}}},
                     {look == LimbLook::in_air ? "AIR" : "NO_AIR", from_samples ? "FROM_SAMPLES" : "FROM_CENTRES"});
 }
 

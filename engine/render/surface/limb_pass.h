@@ -22,6 +22,7 @@ struct LimbPicture {
 enum class LimbLook {
   imagery,  ///< imagery alone: shaders/surface/limb.frag
   lit,      ///< light: shaders/surface/limb_air.frag
+  whole,    ///< light, and each pixel's own ground: shaders/surface/limb_whole.frag
   in_air    ///< light, and air that may be thinner than a pixel: the same with AIR
 };
 
@@ -39,7 +40,7 @@ class LimbPass {
   void draw(const View& view, const LimbPicture& picture, LimbLook look, const AirTextures* air, DrawState state) const;
 
  private:
-  gl::Program programs_[2][3];  ///< by LimbPicture::from_samples and LimbLook
+  gl::Program programs_[2][4];  ///< by LimbPicture::from_samples and LimbLook
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
   GLsizei count_ = 0;

@@ -1,5 +1,6 @@
 #include "render/surface/patch_buffers.h"
 
+#include "geo/scaled_space.h"
 #include "surface/slope_window.h"
 
 namespace terrella {
@@ -30,6 +31,7 @@ void PatchBuffers::grow() {
   };
   enlarge(vertices_, sizeof(PatchVertex));
   if (heights_) enlarge(height_offsets_, sizeof(glm::vec2));
+  points_.resize(static_cast<std::size_t>(capacity) * static_cast<std::size_t>(vertices_per_patch_));
   capacity_ = capacity;
 }
 
@@ -49,6 +51,10 @@ void PatchBuffers::fill(const PatchTree& tree, const PatchNode& node, int place)
   const std::vector<PatchVertex> vertices = patch_vertices(tree, node);
   const auto bytes = static_cast<GLsizeiptr>(vertices.size() * sizeof(PatchVertex));
   glNamedBufferSubData(vertices_.name(), place * bytes, bytes, vertices.data());
+  const glm::dvec3 axes_m = semi_axes_m(tree.ellipsoid());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    points_[static_cast<std::size_t>(place) * vertices.size() + k] = glm::dvec3(vertices[k].position_high_m) / axes_m;
+  }
   if (!heights_) return;
   const std::vector<glm::vec2> offsets = height_offsets_deg(*heights_, tree, node);
   const auto offset_bytes = static_cast<GLsizeiptr>(offsets.size() * sizeof(glm::vec2));

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <list>
 #include <optional>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "render/gl/gl_handle.h"
 #include "surface/patch_mesh.h"
@@ -24,6 +26,11 @@ class PatchBuffers {
   /// buffer grows if these frames need more. All trees of the views are alike.
   [[nodiscard]] int place_of(const PatchTree& tree, const PatchNode& node, std::uint64_t frame);
 
+  /// The vertices of a place in scaled space, where the ellipsoid is the unit sphere.
+  [[nodiscard]] std::span<const glm::vec3> points(int place) const {
+    return {points_.data() + static_cast<std::size_t>(place * vertices_per_patch_),
+            static_cast<std::size_t>(vertices_per_patch_)};
+  }
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
   [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
@@ -53,6 +60,7 @@ class PatchBuffers {
   int vertices_per_patch_;
   PatchIndices indices_;
   gl::Buffer vertices_, height_offsets_;
+  std::vector<glm::vec3> points_;
   gl::Buffer index_buffer_;
   int capacity_ = 0;
   int used_ = 0;

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
+#include <span>
 
-#include "render/gl/shader_library.h"
 #include "render/gl/vertex_attribute.h"
 #include "render/surface/slope_textures.h"
 
@@ -37,9 +37,6 @@ constexpr double kThreeTaps_texels = 2.0, kSevenTaps_texels = 7.0;
 constexpr double kLampsOn_rad = 0.001;
 // Geodetic normals differ by up to a/b times as much as the axes of a patch's cone: 1.11 on Saturn.
 constexpr double kNormalsOverCone = 1.2;
-/// #defines of LayerRole.
-constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
-
 gl::Sampler sampler(GLenum minify, GLenum wrap) {
   gl::Sampler s = gl::make_sampler();
   glSamplerParameteri(s.name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
@@ -61,73 +58,6 @@ std::unique_ptr<PatchPass> PatchPass::create(const RenderOptions& options, bool 
   pass->set_up_vertex_array();
   pass->set_up_samplers();
   return pass;
-}
-
-Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches) {
-  ProgramSet& set = sets_[set_index(role, numbers)];
-  for (const SelectedPatch& patch : patches) {
-    const int variant = variant_for(patch);
-    if (set.programs[variant]) continue;
-    if (Status made = make_program(set.programs[variant], variant, role, numbers); !made) return made;
-  }
-  if (role == LayerRole::base || flat_program_) return Done{};
-  return build(flat_program_, {"frame.glsl", "patch_flat.frag"}, LayerRole::base, false);
-}
-
-const gl::Program& PatchPass::whole_program(Whole what) const {
-  if (what == Whole::air) return sets_[set_index(LayerRole::base, false)].air;
-  return what == Whole::depth ? depth_program_ : flat_program_;
-}
-
-Status PatchPass::prepare_depth() {
-  if (depth_program_) return Done{};
-  return build(depth_program_, {"frame.glsl", "patch_depth.frag"}, LayerRole::base, false);
-}
-
-Status PatchPass::prepare_air() {
-  gl::Program& program = sets_[set_index(LayerRole::base, false)].air;
-  if (program) return Done{};
-  return build(program, {"frame.glsl", "air.glsl", "patch_air.frag"}, LayerRole::base, false);
-}
-
-Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
-                        bool numbers, bool city_lights, bool at_pole) const {
-  const bool pictures = !numbers;
-  return build_into(place,
-                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
-                     {GL_FRAGMENT_SHADER, fragment}},
-                    {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
-                     options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", at_pole ? "AT_POLE" : "OFF_POLE",
-                     city_lights ? "CITY_LIGHTS" : "NO_LAMPS", options_.regolith ? "REGOLITH" : "NO_DUST",
-                     light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
-                     light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
-                     which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
-                     functions_define(options_.functions.value_or(ShaderFunctions::driver)),
-                     kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
-}
-
-Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, bool numbers) {
-  const int which = variant % kPrograms;
-  const bool city_lights = variant >= kPrograms;
-  constexpr std::string_view kFiles[kPrograms] = {"patch_magnified.frag",  "patch_plain.frag",       "patch_long.frag",
-                                                  "patch_oblique.frag",    "patch_polar_short.frag", "patch_polar.frag",
-                                                  "patch_polar_long.frag", "patch_paper.frag"};
-  const std::string_view file = kFiles[which];
-  if (which < PatchLayer::polar_short) {
-    return build(
-        place,
-        {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
-        role, numbers, city_lights);
-  }
-  if (!options_.functions) {  // coordinates are computed per fragment
-    const Result<ShaderFunctions> chosen = choose_shader_functions();
-    if (!chosen) return chosen.error();
-    options_.functions = *chosen;
-  }
-  return build(place,
-               {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
-                "patch_exact_point.glsl", "patch_polar_taps.glsl", file},
-               role, numbers, city_lights, true);
 }
 
 void PatchPass::set_relief(bool has_relief) {
@@ -194,7 +124,17 @@ PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
 }
 
 int PatchPass::variant_for(const SelectedPatch& patch) const {
-  return program_for(patch) + (is_dark(patch.body()) ? kPrograms : 0);
+  return 2 * program_for(patch) + (is_dark(patch.body()) ? 1 : 0);
+}
+
+int PatchPass::limb_variant_for(const SelectedPatch& patch) const {
+  const bool polar = patch.in_band || options_.texturing == Texturing::exact;
+  return 2 * (polar ? PatchLayer::polar_limb : PatchLayer::limb) + (is_dark(patch.body()) ? 1 : 0);
+}
+
+bool PatchPass::is_on_limb(const SelectedPatch& patch) const {
+  const PatchNode& body = patch.body();
+  return limb_ && limb_->meets(body.cone_axis, body.cos_cone, body.sin_cone);
 }
 
 bool PatchPass::is_dark(const PatchNode& node) const {
@@ -211,6 +151,7 @@ void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::v
                        const TileCoverage& coverage, std::uint64_t frame) const {
   const auto& [buffers, tree, own] = vertices;
   std::vector<DrawCommand> by_program[kVariants];
+  std::vector<std::uint16_t> limb_indices;
   layer.triangles = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
@@ -220,6 +161,20 @@ void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::v
     by_program[variant_for(patch)].push_back(
         {range.count, 1, range.first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
     layer.triangles += range.count / 3;
+    if (!is_on_limb(patch)) continue;
+    const auto first = static_cast<GLuint>(limb_indices.size());
+    const std::span<const glm::vec3> points = buffers.points(place);
+    for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
+      const std::uint16_t* corner = buffers.indices().indices.data() + i;
+      if (!limb_->holds(points[corner[0]]) && !limb_->holds(points[corner[1]]) && !limb_->holds(points[corner[2]]))
+        continue;
+      limb_indices.insert(limb_indices.end(), corner, corner + 3);
+    }
+    const auto count = static_cast<GLuint>(limb_indices.size()) - first;
+    if (count == 0) continue;
+    by_program[limb_variant_for(patch)].push_back(
+        {count, 1, first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
+    layer.triangles += count / 3;
   }
   std::vector<DrawCommand> commands;
   for (int p = 0; p < kVariants; ++p) {
@@ -231,9 +186,11 @@ void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::v
     layer.draws = gl::make_buffer();
     layer.commands = gl::make_buffer();
     layer.cells = gl::make_buffer();
+    layer.limb_indices = gl::make_buffer();
     layer.cells_texture = gl::make_texture(GL_TEXTURE_BUFFER);
   }
   stream(layer.commands, commands);
+  stream(layer.limb_indices, limb_indices);
   stream(layer.draws, coverage.draws);
   stream(layer.cells, coverage.cells);
   glTextureBuffer(layer.cells_texture.name(), GL_R32UI, layer.cells.name());
@@ -262,7 +219,7 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 }
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
-                     const DrawState& state, FrameCounts& counts) const {
+                     const DrawState& state, FrameCounts& counts, Limb limb) const {
   const ProgramSet& set = sets_[set_index(role, layer.numbers != nullptr)];
   if (air_ != nullptr) air_->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
@@ -273,8 +230,13 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   glBindSampler(3, precise_.name());
   if (layer.numbers != nullptr) layer.numbers->bind();
   bind_vertices(layer, vertices);
-  for (int p = 0; p < kVariants; ++p) {
+  // The limb comes first: it lies before the ground that whole patches have there.
+  for (int k = 0; k < kVariants; ++k) {
+    const int p = (k + PatchLayer::kWholeVariants) % kVariants;
     if (layer.first_command[p] == layer.first_command[p + 1]) continue;
+    const bool whole = p < PatchLayer::kWholeVariants;
+    if (!whole && limb == Limb::flat) continue;
+    glVertexArrayElementBuffer(vertex_array_.name(), whole ? vertices.index_buffer() : layer.limb_indices.name());
     const GLuint program = set.programs[p].name();
     assert(program != 0);
     if (layer.numbers != nullptr) {
@@ -287,11 +249,16 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
 }
 
 void PatchPass::draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
-                           FrameCounts& counts) const {
+                           FrameCounts& counts) {
   if (what == Whole::air) air_->bind_ground();
   bind_vertices(layer, vertices);
-  apply(state.with(whole_program(what).name()));
-  draw_commands(layer.first_command[0], layer.first_command[kVariants], counts);
+  const int* first = layer.first_command;
+  apply(state.with(whole_program(what, false).name()));
+  draw_commands(first[0], first[PatchLayer::kWholeVariants], counts);
+  if (first[PatchLayer::kWholeVariants] == first[kVariants]) return;
+  glVertexArrayElementBuffer(vertex_array_.name(), layer.limb_indices.name());
+  apply(state.with(whole_program(what, true).name()));
+  draw_commands(first[PatchLayer::kWholeVariants], first[kVariants], counts);
 }
 
 }  // namespace terrella

@@ -16,6 +16,7 @@
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/tile_textures.h"
+#include "surface/limb.h"
 #include "surface/plan/patch_selection.h"
 #include "surface/plan/tile_coverage.h"
 #include "view/render_modes.h"
@@ -70,15 +71,13 @@ class PatchPass {
   void set_light(const PatchLight& light) { light_ = light; }
   /// Draws city lights under this Sun from now on (unit vector, ECEF axes); none: no city lights.
   void set_sun(const std::optional<glm::dvec3>& sun) { sun_ = sun; }
+  /// Raises the ground in this ring from now on, so that each pixel on the limb shows its own (FrameBlock::limb); none:
+  /// raises nothing.
+  void set_limb(const std::optional<LimbRing>& ring) { limb_ = ring; }
   /// Builds the programs that draw these patches of a layer of pictures or numbers in the present air and light, each
   /// once; for upper layers also that of Whole::black. Call after set_air(), set_light(),
-  /// set_sun() and set_plain_footprint().
+  /// set_sun(), set_limb() and set_plain_footprint().
   Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
-  /// Makes the program of Whole::depth, once.
-  Status prepare_depth();
-  /// Makes the program of Whole::air for the present air and light, once.
-  Status prepare_air();
-
   /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
   void set_paper_band(double band) { paper_band_ = band; }
   /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
@@ -92,14 +91,18 @@ class PatchPass {
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch.
   void upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
+  /// The limb of a layer that lies on the ground is raised with the ground (set_limb()).
+  enum class Limb { raised, flat };
   /// Draws a layer, program by program. Needs prepare().
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
-            const DrawState& state, FrameCounts& counts) const;
+            const DrawState& state, FrameCounts& counts, Limb limb = Limb::raised) const;
   /// Depth only, with the same bits as those of draw(); or with that depth opaque black, or the light of the air.
   enum class Whole { depth, black, air };
-  /// Draws the whole surface in one call. Needs prepare_depth(), prepare() of an upper layer, or prepare_air().
+  /// Makes the programs of draw_whole() for the present air and light, once. prepare() does so for `black`.
+  Status prepare_whole(Whole what);
+  /// Draws the whole surface. Needs prepare_whole().
   void draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
-                  FrameCounts& counts) const;
+                  FrameCounts& counts);
 
  private:
   static constexpr int kPrograms = PatchLayer::kPrograms, kVariants = PatchLayer::kVariants;
@@ -114,21 +117,28 @@ class PatchPass {
     return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light_.index());
   }
   Status make_program(gl::Program& place, int variant, LayerRole role, bool numbers);
+  /// Features of a program that not all patches of a layer need.
+  struct Extras {
+    bool city_lights = false, pole = false, limb = false;
+  };
   Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role, bool numbers,
-               bool city_lights = false, bool at_pole = false) const;
+               const Extras& extras) const;
   void set_up_vertex_array();
   void set_up_samplers();
   void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
-  [[nodiscard]] const gl::Program& whole_program(Whole what) const;
+  [[nodiscard]] gl::Program& whole_program(Whole what, bool limb);
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
   [[nodiscard]] PatchLayer::Program polar_for(const SelectedPatch& patch) const;
   [[nodiscard]] int variant_for(const SelectedPatch& patch) const;
+  [[nodiscard]] int limb_variant_for(const SelectedPatch& patch) const;
+  [[nodiscard]] bool is_on_limb(const SelectedPatch& patch) const;
   /// True if city lights may shine on a part of the patch.
   [[nodiscard]] bool is_dark(const PatchNode& node) const;
   /// Longest pixel, in texels, that seven taps suffice for.
   [[nodiscard]] double most_of_seven() const;
 
+  std::optional<LimbRing> limb_;
   RenderOptions options_;
   bool has_relief_;
   /// The programs of a role, for pictures or numbers, by which() air, in a light; those that some patch has needed.
@@ -143,7 +153,7 @@ class PatchPass {
   std::optional<glm::dvec3> sun_;
   double paper_band_ = 0.05;
   double plain_footprint_texels_ = kPlainFootprint_texels;
-  gl::Program depth_program_, flat_program_;
+  gl::Program depth_programs_[2], flat_programs_[2];  ///< for whole patches, and for the limb
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;
 };
