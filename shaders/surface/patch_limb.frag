@@ -7,7 +7,7 @@ struct LimbPixel {
   vec2 slope;                    // its change along the pixel's sides
   vec2 steps;                    // change of towards_eye, as interpolated, along the sides
 };
-const Lattice kAtLimb = Lattice(12, 1.0 / 12.0, 5.0 / 12.0);
+const Lattice kAtLimb = Lattice(16, 1.0 / 16.0, 7.0 / 16.0);
 
 // `steps`: change of towards_eye across the pixel.
 LimbPixel limb_pixel(vec2 steps) {
@@ -65,7 +65,7 @@ void main() {
   for (int i = 0; i < kAtLimb.n; ++i) {
     vec3 at = inside_limb(pixel, place(kAtLimb, i));
     vec2 p = ground_point(on_ground(pixel, at.xy));
-    sum += at.z * precise_tap(cell_at(p), p);
+    sum += at.z * tap(cell_at(p), p);
     shares += at.z;
   }
   finish(seen(sum / shares));
