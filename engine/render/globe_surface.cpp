@@ -64,8 +64,7 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
   patches_->set_air(air_of(pass));
   patches_->set_light(light_of(pass.input));
-  const bool in_view = limb_->fit(pass.input.view, ellipsoid_);
-  const bool whole_limb = in_view && limb_look(pass, air_of(pass)) == LimbLook::whole;
+  const bool whole_limb = limb_look(pass, air_of(pass)) == LimbLook::whole && limb_->fit(pass.input.view, ellipsoid_);
   patches_->set_limb(whole_limb ? std::optional(LimbRing(pass.input.view, ellipsoid_)) : std::nullopt);
   patches_->set_sun(pass.input.lit ? std::optional(pass.input.sun) : std::nullopt);
   patches_->set_plain_footprint(pass.input.lit ? lit_footprint_texels(pass.input) : kPlainFootprint_texels);

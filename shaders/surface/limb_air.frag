@@ -6,8 +6,6 @@ layout(binding = 2) uniform sampler2D limb_light;    // sums outwards from the l
 layout(binding = 3) uniform sampler2D limb_through;
 layout(binding = 7) uniform sampler2D ground_through;  // GroundColors
 layout(binding = 8) uniform sampler2D ground_light;
-#endif
-#if defined(AIR)
 layout(location = 2) uniform mat3 horizon_from_px;   // axes: x towards the Sun's azimuth, z up
 // Distance of the limb, the height that a pixel of the tables covers, both in radii; steps of the tables in a pixel.
 layout(location = 3) uniform vec3 limb;

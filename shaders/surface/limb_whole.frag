@@ -1,4 +1,4 @@
-// Antialiases the limb of a globe with light and without air, whose pixels have their own ground (PatchLight::limb): the
+// Antialiases the limb of a globe with light and without air, whose pixels have their own ground (PatchPass::set_limb()): the
 // ground covers a part of the pixel, before what lies beyond the limb.
 const float kClear_px = 1.0;                   // the raised ground ends here
 

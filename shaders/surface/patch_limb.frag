@@ -1,5 +1,6 @@
 // The ground of a pixel on the limb, or next to it: triangles that PatchPass chooses and patch.vert raises. The part of the
 // pixel inside the limb is integrated, by places in the picture whose ground is known. AT_POLE: coordinates are exact.
+
 // A pixel at the limb. Places on the ground change evenly with the cosine towards the eye, and the square of the cosine
 // changes evenly with the distance from the limb in the picture.
 struct LimbPixel {
@@ -37,22 +38,9 @@ vec2 on_ground(LimbPixel pixel, vec2 at) {
 }
 
 #if defined(AT_POLE)
-// The window point of a direction from the patch's centre.
-vec2 exact_point(vec3 direction) {
-  float c = frame.z, s = frame.w;
-  vec3 d = in_meridian(direction);
-  float x = c + d.y, y = d.x, z = s + d.z, r = LENGTH(vec2(x, y)), r_minus_c = (d.y * (x + c) + y * y) / (r + c);
-  float lat = ATAN(d.z * c - r_minus_c * s, z * s + r * c), row_offset = lat;
-  if (paper.z > 0.5) {
-    vec2 half_angle = SIN_COS(0.5 * lat);
-    row_offset = 3.141592653589793 * (c * half_angle.y - s * half_angle.x) * half_angle.x;
-  }
-  return center_and_scale.xy + vec2(ATAN(y, x), -row_offset) * center_and_scale.zw * kDegrees;
-}
-
 vec2 ground_point(vec2 at) {
   vec3 direction = row_direction + at.x * dFdx(row_direction) + at.y * dFdy(row_direction);
-  return in_window(exact_point(direction), vec2(window_size()));
+  return in_window(exact_point(direction).p, vec2(window_size()));
 }
 #else
 vec2 ground_point(vec2 at) { return window_point + at.x * dFdx(window_point) + at.y * dFdy(window_point); }
