@@ -96,7 +96,7 @@ Result<EncodedTile, TileFailure> SheetTiles::make(const TileId& id, const std::v
   std::vector<EncodedTile> tiles;
   for (auto sheet = sheets.rbegin(); sheet != sheets.rend(); ++sheet) {
     const auto source = open(*sheet);
-    if (!source) return TileFailure{MissingKind::broken, source.error().message};
+    if (!source) return TileFailure{MissingKind::failed, source.error().message};
     auto tile = source->tiles->read(id);
     if (!tile && tile.error().kind != MissingKind::blank && tile.error().kind != MissingKind::absent) return tile;
     if (tile) tiles.push_back(*std::move(tile));
@@ -121,10 +121,12 @@ Result<double, TileFailure> SheetTiles::value_at(const Geodetic& place, const El
                                                  const std::vector<int>& sheets) {
   for (auto sheet = sheets.rbegin(); sheet != sheets.rend(); ++sheet) {
     const auto opened = open(*sheet);
-    if (!opened) return TileFailure{MissingKind::broken, opened.error().message};
+    if (!opened) return TileFailure{MissingKind::failed, opened.error().message};
     const MosaicSheet& from = index_.sheets[static_cast<std::size_t>(*sheet)];
     const double row_deg = row_latitude_deg(grid_, figure, Ellipsoid::normal(place.lat, place.lon));
-    const CrsPoint at = opened->planner->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
+    const auto pixel = opened->planner->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
+    if (!pixel) return pixel.error();
+    const CrsPoint at = *pixel;
     if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
     const CrsPoint point = from.to_crs.at(at.x, at.y);
     for (auto part = from.parts.rbegin(); part != from.parts.rend(); ++part) {

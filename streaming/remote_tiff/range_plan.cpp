@@ -35,7 +35,9 @@ Result<SpanList> spans_of_tiles(RemoteTiff& raster, const WarpFigure& figure, co
   for (auto run = feed->next(); run; run = feed->next()) {
     for (std::int64_t y = run->first_y; y <= run->last_y; ++y) {
       if (!go_on()) return Error{"stopped before the tiles were found"};
-      for (const WarpPiece& piece : (*planner)->plan({.level = run->level, .x = run->x, .y = y}).pieces) {
+      const auto plan = (*planner)->plan({.level = run->level, .x = run->x, .y = y});
+      if (!plan) return Error{plan.error().why};
+      for (const WarpPiece& piece : plan->pieces) {
         const int stored = levels[static_cast<std::size_t>(piece.id.level)].stored;
         blocks.insert({.level = stored, .x = piece.id.x, .y = piece.id.y});
       }

@@ -27,7 +27,9 @@ class WarpSource : public TileSource, public RemoteTiles {
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
     if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
-    WarpJob job(blocks_, planner_->plan(id));
+    auto plan = planner_->plan(id);
+    if (!plan) return plan.error();
+    WarpJob job(blocks_, *std::move(plan));
     job.advance();
     if (!job.missing().empty()) return TileFailure{MissingKind::remote, {}};
     return job.result(info_.numbers.has_value());
@@ -35,14 +37,16 @@ class WarpSource : public TileSource, public RemoteTiles {
 
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
     const double row_deg = row_latitude_deg(info_.grid, figure, Ellipsoid::normal(place.lat, place.lon));
-    const CrsPoint pixel = planner_->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
-    return blocks_->value_at(pixel);
+    const auto pixel = planner_->pixel_at({.lon_deg = place.lon.deg(), .row_deg = row_deg});
+    return pixel ? blocks_->value_at(*pixel) : pixel.error();
   }
 
   [[nodiscard]] RemoteTiles* remote() override { return desk_ ? this : nullptr; }
 
   void fetch(const TileId& id, double priority, Done done) override {
-    desk_->fetch(id, WarpJob(blocks_, planner_->plan(id)), priority, std::move(done));
+    auto plan = planner_->plan(id);
+    if (!plan) return done(plan.error());
+    desk_->fetch(id, WarpJob(blocks_, *std::move(plan)), priority, std::move(done));
   }
   void set_priority(const TileId& id, double priority) override { desk_->set_priority(id, priority); }
   void cancel(const TileId& id) override { desk_->cancel(id); }
@@ -71,7 +75,7 @@ Result<std::shared_ptr<TilePlanner>> TilePlanner::open(const RasterInfo& raster,
   return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews, detail));
 }
 
-std::optional<GroundMap> TilePlanner::take_map() {
+Result<GroundMap, TileFailure> TilePlanner::take_map() {
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -81,7 +85,8 @@ std::optional<GroundMap> TilePlanner::take_map() {
     }
   }
   auto opened = GroundMap::open(raster_, figure_);
-  return opened ? std::optional(*std::move(opened)) : std::nullopt;
+  if (!opened) return TileFailure{MissingKind::failed, opened.error().message};
+  return *std::move(opened);
 }
 
 void TilePlanner::put_back(GroundMap map) {
@@ -89,19 +94,18 @@ void TilePlanner::put_back(GroundMap map) {
   idle_.push_back(std::move(map));
 }
 
-WarpPlan TilePlanner::plan(const TileId& id) {
-  std::optional<GroundMap> map = take_map();
-  if (!map)
-    return {.tile_px = frame_.grid.tile_px, .rows = frame_.grid.tile_px, .pieces = {}, .lines = {}, .chunks = {}};
+Result<WarpPlan, TileFailure> TilePlanner::plan(const TileId& id) {
+  auto map = take_map();
+  if (!map) return map.error();
   WarpPlan plan = plan_tile(*map, frame_, id);
   put_back(*std::move(map));
   return plan;
 }
 
-CrsPoint TilePlanner::pixel_at(const RowPlace& place) {
+Result<CrsPoint, TileFailure> TilePlanner::pixel_at(const RowPlace& place) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::optional<GroundMap> map = take_map();
-  if (!map) return {kNone, kNone};
+  auto map = take_map();
+  if (!map) return map.error();
   CrsPoint pixel{kNone, kNone};
   map->pixels(std::span(&place, 1), std::span(&pixel, 1));
   // The turn runs along the rows of every raster that has one and is stored north up.

@@ -18,13 +18,15 @@ class TilePlanner {
                                                                  const TileGrid& grid, Overviews overviews,
                                                                  Detail detail = Detail::usual);
   [[nodiscard]] const WarpFrame& frame() const { return frame_; }
-  [[nodiscard]] WarpPlan plan(const TileId& id);
-  /// The pixel of the raster's finest level under a place; infinite if there is none (GroundMap::pixels()).
-  [[nodiscard]] CrsPoint pixel_at(const RowPlace& place);
+  /// Fails if no map can be opened for a further thread: too many open files, not enough memory.
+  [[nodiscard]] Result<WarpPlan, TileFailure> plan(const TileId& id);
+  /// The pixel of the raster's finest level under a place; infinite if there is none (GroundMap::pixels()). Fails as
+  /// plan() does.
+  [[nodiscard]] Result<CrsPoint, TileFailure> pixel_at(const RowPlace& place);
 
  private:
-  /// Lends a map of its own to a caller; none if no other can be made.
-  [[nodiscard]] std::optional<GroundMap> take_map();
+  /// Lends a map of its own to a caller.
+  [[nodiscard]] Result<GroundMap, TileFailure> take_map();
   void put_back(GroundMap map);
   TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
               Overviews overviews, Detail detail);

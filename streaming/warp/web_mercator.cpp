@@ -68,7 +68,9 @@ Result<std::set<TileId>> stored_tiles_of(const TileGrid& mercator, std::span<con
   if (!planner) return planner.error();
   std::set<TileId> stored;
   for (const TileId& id : geodetic) {
-    for (const WarpPiece& piece : (*planner)->plan(id).pieces) {
+    const auto plan = (*planner)->plan(id);
+    if (!plan) return Error{plan.error().why};
+    for (const WarpPiece& piece : plan->pieces) {
       const TileId tile{.level = piece.id.level + mercator.min_level, .x = piece.id.x, .y = piece.id.y};
       if (exists(mercator, tile)) stored.insert(tile);
     }

@@ -81,7 +81,7 @@ void plan(benchmark::State& state) {
 void make_tile(benchmark::State& state) {
   const Subject from = subject(state.range(0));
   const auto planner = *TilePlanner::open(from.raster, {.ellipsoid = earth().ellipsoid}, from.grid, Overviews::stored);
-  const WarpPlan planned = planner->plan(tile_of(from, state.range(0), static_cast<double>(state.range(1))));
+  const WarpPlan planned = *planner->plan(tile_of(from, state.range(0), static_cast<double>(state.range(1))));
   const WarpLevel& level = planner->frame().levels[static_cast<std::size_t>(planned.level)];
   const auto block_at = [](const TileId&) -> Result<std::shared_ptr<const Block>, TileFailure> {
     return rough_block();
