@@ -94,7 +94,6 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
   PreloadSource planned{
       .set = {}, .cache_info = range_cache_info(), .key = opened->tiff.file->cache_key(), .make_origin = {}};
   planned.set.url = source;
-  planned.set.any_bytes = true;
   planned.set.info.grid = *grid;
   planned.set.info.body = opened->body;
   const FileAddress address = opened->tiff.file->address();

@@ -54,6 +54,7 @@ enum class HttpOutcome {
   refused,       ///< a retry cannot help: 401, 403 and other 4xx, redirect loops, bad certificates, forbidden schemes,
                  ///< bodies over the limit, ranges that the server ignores, a file that changed (412)
   failed,        ///< all attempts failed for now: time-outs, resets, 5xx, 429
+  broken,        ///< never from HttpFetcher: who checks the body says that it does not decode, even when asked again
 };
 
 struct HttpReply {

@@ -13,9 +13,7 @@ constexpr std::size_t kMaxKeptBytes = 64UL << 20;
 
 TileFailure broken_archive(const char* why) { return {MissingKind::broken, why}; }
 
-std::size_t leaf_bytes(const Result<std::shared_ptr<const PmtilesDirectory>>& leaf) {
-  return leaf ? (*leaf)->size() * sizeof(PmtilesEntry) : 0;
-}
+std::size_t leaf_bytes(const PmtilesDirectory& leaf) { return leaf.size() * sizeof(PmtilesEntry); }
 
 /// Place in the file of bytes in a section; none if they reach beyond it.
 std::optional<ByteRange> in_section(const PmtilesEntry& entry, const ByteRange& section) {
@@ -44,8 +42,7 @@ Result<PmtilesIndex::Step, TileFailure> PmtilesIndex::next(std::uint64_t tile) {
     const auto kept = leaves_.find(*range);
     if (kept == leaves_.end()) return Step{.is_tile = false, .range = *range};
     kept->second.last_use = ++uses_;
-    if (!kept->second.leaf) return broken_archive(kept->second.leaf.error().message.c_str());
-    directory = *kept->second.leaf;
+    directory = kept->second.leaf;
   }
 }
 
@@ -70,19 +67,21 @@ Result<PmtilesDirectory> PmtilesIndex::read_directory(std::span<const std::byte>
   return parse_pmtiles_directory(*unpacked);
 }
 
-void PmtilesIndex::learn(const ByteRange& directory, std::span<const std::byte> bytes) {
+Status PmtilesIndex::learn(const ByteRange& directory, std::span<const std::byte> bytes) {
   auto parsed = read_directory(bytes);
-  Leaf leaf = parsed ? Leaf(std::make_shared<const PmtilesDirectory>(*std::move(parsed))) : Leaf(parsed.error());
+  if (!parsed) return parsed.error();
+  const auto leaf = std::make_shared<const PmtilesDirectory>(*std::move(parsed));
   const std::lock_guard lock(mutex_);
-  const std::size_t bytes_kept = leaf_bytes(leaf);
-  if (leaves_.try_emplace(directory, KeptLeaf{std::move(leaf), ++uses_}).second) kept_bytes_ += bytes_kept;
+  const std::size_t bytes_kept = leaf_bytes(*leaf);
+  if (leaves_.try_emplace(directory, KeptLeaf{leaf, ++uses_}).second) kept_bytes_ += bytes_kept;
   make_room();
+  return Done{};
 }
 
 void PmtilesIndex::make_room() {
   while (kept_bytes_ > kMaxKeptBytes && leaves_.size() > 1) {
     const auto oldest = std::ranges::min_element(leaves_, {}, [](const auto& entry) { return entry.second.last_use; });
-    kept_bytes_ -= leaf_bytes(oldest->second.leaf);
+    kept_bytes_ -= leaf_bytes(*oldest->second.leaf);
     leaves_.erase(oldest);
   }
 }

@@ -34,8 +34,8 @@ class PmtilesIndex {
   /// Fails if the archive has no such tile (absent) or is damaged on the way to the tile (broken).
   [[nodiscard]] Result<Step, TileFailure> next(const TileId& id);
   [[nodiscard]] Result<Step, TileFailure> next(std::uint64_t tile);
-  /// Takes the bytes of a leaf directory that next() named. Damaged bytes break the tiles below it, with the reason.
-  void learn(const ByteRange& directory, std::span<const std::byte> bytes);
+  /// Takes the bytes of a leaf directory that next() named. Keeps nothing of damaged bytes and says what is wrong.
+  [[nodiscard]] Status learn(const ByteRange& directory, std::span<const std::byte> bytes);
   /// Number of the first tile in the archive.
   [[nodiscard]] std::uint64_t first_tile() const { return root_->front().tile; }
   [[nodiscard]] const PmtilesDirectory& root() const { return *root_; }
@@ -47,7 +47,7 @@ class PmtilesIndex {
   [[nodiscard]] Result<std::vector<std::byte>> unpack_tile(std::vector<std::byte> bytes) const;
 
  private:
-  using Leaf = Result<std::shared_ptr<const PmtilesDirectory>>;
+  using Leaf = std::shared_ptr<const PmtilesDirectory>;
   struct KeptLeaf {
     Leaf leaf;
     std::uint64_t last_use = 0;

@@ -54,7 +54,7 @@ Result<std::vector<std::byte>> read_first_tile(const ReadBytes& read, PmtilesInd
     const auto bytes = read_whole(read, step->range);
     if (!bytes) return bytes.error();
     if (step->is_tile) return index.unpack_tile(*bytes);
-    index.learn(step->range, *bytes);
+    if (Status learned = index.learn(step->range, *bytes); !learned) return learned.error();
   }
   return Error{"its leaf directories are nested too deep"};
 }

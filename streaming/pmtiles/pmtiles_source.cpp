@@ -67,7 +67,9 @@ class PmtilesSource : public TileSource, public TileLister {
       if (!bytes) return TileFailure{MissingKind::failed, bytes.error().message};
       if (bytes->size() < step->range.length) return TileFailure{MissingKind::broken, "the file ends too early"};
       if (!step->is_tile) {
-        set_.index->learn(step->range, *bytes);
+        if (Status learned = set_.index->learn(step->range, *bytes); !learned) {
+          return TileFailure{MissingKind::broken, learned.error().message};
+        }
         continue;
       }
       auto tile = set_.index->unpack_tile(*std::move(bytes));

@@ -7,17 +7,20 @@
 #include <vector>
 
 #include "streaming/preload/tile_origin.h"
+#include "streaming/remote/reply_rules.h"
 
 namespace terrella {
 namespace {
 
-HttpReply answer_of(Result<EncodedTile, TileFailure>&& tile, std::uint64_t number) {
+HttpReply answer_to(const TileQuestion& question, TileSource& source) {
+  auto tile = source.read(question.id);
   HttpReply reply;
-  reply.id = number;
+  reply.id = question.number;
   reply.outcome = HttpOutcome::content;
   reply.attempts = 1;
   if (tile) {
     reply.body = std::move(tile->bytes);
+    check_body(source.info(), question.id, reply);
     return reply;
   }
   reply.why = tile.error().why;
@@ -28,7 +31,7 @@ HttpReply answer_of(Result<EncodedTile, TileFailure>&& tile, std::uint64_t numbe
     case MissingKind::blank:  // content of no bytes
       break;
     case MissingKind::broken:
-      reply.outcome = HttpOutcome::refused;
+      reply.outcome = HttpOutcome::broken;
       break;
     case MissingKind::failed:
     case MissingKind::remote:
@@ -74,7 +77,7 @@ class DiskOrigin : public TileOrigin {
       ++counts_.in_flight;
       ++counts_.requests;
       lock.unlock();
-      HttpReply reply = answer_of(source_->read(question.id), question.number);
+      HttpReply reply = answer_to(question, *source_);
       const std::size_t bytes = reply.body.size();
       answers_.push(std::move(reply));
       lock.lock();

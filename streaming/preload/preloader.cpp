@@ -8,7 +8,6 @@
 
 #include "streaming/preload/store_tally.h"
 #include "streaming/preload/wanted_tiles.h"
-#include "streaming/remote/reply_rules.h"
 
 namespace terrella {
 namespace {
@@ -118,7 +117,6 @@ class Run {
       const auto asked = asked_.find(reply.id);
       if (asked == asked_.end()) continue;
       const Asked about = asked->second;
-      apply_reply_rules(options_.set, reply);
       asked_.erase(asked);
       failures_in_a_row_ = reply.outcome == HttpOutcome::failed ? failures_in_a_row_ + 1 : 0;
       settle(about, std::move(reply));
@@ -139,6 +137,8 @@ class Run {
         return note_missing(asked, MissingKind::absent, std::move(reply));
       case HttpOutcome::refused:
         return note_missing(asked.id, PreloadMissing::refused, reply.why);
+      case HttpOutcome::broken:
+        return note_missing(asked.id, PreloadMissing::broken, reply.why);
       case HttpOutcome::failed:
         if (second_ || failed_.size() >= options_.most_second_tries)
           return note_missing(asked.id, PreloadMissing::failed, reply.why);
@@ -151,10 +151,6 @@ class Run {
     if (reply.no_store)
       return note_missing(id, PreloadMissing::refused, "the server forbids storing it (Cache-Control: no-store)");
     if (reply.body.empty()) return note_missing(asked, MissingKind::blank, std::move(reply));
-    const Status good = options_.set.any_bytes ? Status(Done{}) : check_answer(options_.set.info, id, reply.body);
-    if (!good) {
-      return note_missing(id, PreloadMissing::broken, good.error().message);
-    }
     const std::size_t bytes = reply.body.size();
     CacheRecord record = record_of(std::move(reply), options_.tile_life);
     record.pinned = true;

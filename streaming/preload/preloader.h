@@ -17,7 +17,7 @@ namespace terrella {
 
 /// Reason why a requested tile is missing in the cache afterwards.
 enum class PreloadMissing {
-  broken,   ///< the answer is no picture of the set's size, or a truncated picture
+  broken,   ///< the answer is no picture of the set's size, or does not decode
   refused,  ///< the server refuses: 401, 403, endless redirects, too large, not to be stored
   failed,   ///< no answer in both rounds of attempts
   no_room,  ///< the cache is full of tiles that may not be evicted

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "streaming/http/reply_queue.h"
-#include "streaming/remote/reply_rules.h"
 #include "streaming/remote/tile_fetcher.h"
 #include "tiles/late_workers.h"
 
@@ -22,8 +21,6 @@ using std::chrono::seconds;
 
 constexpr seconds kTileLife{7 * 24 * 3600};
 constexpr seconds kMissingLife{24 * 3600};
-// Broken tiles are requested again soon, because the server probably sent them by mistake.
-constexpr seconds kBrokenLife{3600};
 // Threads that check replies, store them in the cache and answer requests. If one waits for a disk, the other goes on.
 constexpr int kAnswerers = 2;
 
@@ -155,7 +152,6 @@ class RemoteDesk : public RemoteTiles {
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
-    apply_reply_rules(set_, reply);
     switch (reply.outcome) {
       case HttpOutcome::content:
         return content(id, std::move(reply));
@@ -169,20 +165,17 @@ class RemoteDesk : public RemoteTiles {
         return missing(id, MissingKind::absent, std::move(reply), missing_life());
       case HttpOutcome::refused:
       case HttpOutcome::failed:
+      case HttpOutcome::broken:  // the next run asks again: the server may be well by then
         // An old tile is better than none (stale-if-error, RFC 5861).
         if (auto record = cached(id)) return tile_of(*std::move(record));
         break;
     }
-    return TileFailure{MissingKind::failed, std::move(reply.why)};
+    const bool broken = reply.outcome == HttpOutcome::broken;
+    return TileFailure{broken ? MissingKind::broken : MissingKind::failed, std::move(reply.why)};
   }
 
   Encoded content(const TileId& id, HttpReply&& reply) {
     if (reply.body.empty()) return missing(id, MissingKind::blank, std::move(reply), missing_life());
-    if (const Status good = check_answer(set_.info, id, reply.body); !good) {
-      reply.why = good.error().message;
-      reply.expires_unix_s.reset();
-      return missing(id, MissingKind::broken, std::move(reply), kBrokenLife);
-    }
     EncodedTile tile{reply.body};
     if (cache_ != nullptr && !reply.no_store) cache_->store(id, record_of(std::move(reply), tile_life()));
     return tile;

@@ -13,8 +13,8 @@ namespace terrella {
 /// Tiles behind a network, with the cache before them (engine/DESIGN.md, 8 to 11). Ways of a tile:
 ///   cached and fresh: read() returns the tile, or the reason why it is missing, without a request;
 ///   cached and expired: fetch() asks with its validators; unchanged (304) or unreachable, the cached tile serves;
-///   not cached: fetch() asks, and the answer is stored: a tile, or an absent, blank or broken one, each with a life of
-///   its own; failures for now are not stored.
+///   not cached: fetch() asks, and the answer is stored: a tile that decodes, or an absent or blank one, each with a
+///   life of its own; failures for now and broken tiles are not stored.
 /// Without a cache (nullptr) everything is fetched. A cache that cannot be read counts as empty for that tile: the
 /// network still serves. The cache may be slow: two threads of the source call it, never the network thread. The
 /// destructor waits for these threads, never for a server. An answer may release the last owner of the source.

@@ -44,8 +44,7 @@ struct RemoteTileSet {
   std::optional<std::chrono::seconds> tile_life{};  ///< for replies without an expiry; none: 7 days
   std::optional<std::chrono::seconds> missing_life{};  ///< none: 1 day
   std::optional<TileFile> file{};                      ///< set: the tiles are ranges of the file at `url`
-  bool any_bytes = false;     ///< the tiles are parts of a file in its own coding, which only its reader can check
-  std::string refuse_bulk{};  ///< reason why `preload` is forbidden; empty: allowed
+  std::string refuse_bulk{};                           ///< reason why `preload` is forbidden; empty: allowed
   std::vector<int> missing_statuses{};  ///< HTTP statuses that also mean "no tile here", besides 204, 404 and 410
   bool exception_is_missing = false;    ///< an exception of the server as XML means "no tile here"
   std::optional<std::chrono::seconds> timeout{};  ///< longest time of one request; none: the program's

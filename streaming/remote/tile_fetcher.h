@@ -14,9 +14,10 @@
 
 namespace terrella {
 
-/// Requests the tiles of a set. A tile with its own address is one request. A tile within one file (PMTiles) is a range
-/// of the file; the directories that lead to the tile are requested first, each once, whatever number of tiles waits
-/// for it. Replies go to a queue that outlives the fetcher. thread: any
+/// Requests the tiles of a set and checks that they decode (check_body()). A tile or directory that does not decode is
+/// requested once more. A tile with its own address is one request. A tile within one file (PMTiles) is a range of the
+/// file; the directories that lead to the tile are requested first, each once, whatever number of tiles waits for it.
+/// Replies go to a queue that outlives the fetcher, after apply_reply_rules(). thread: any
 class TileFetcher {
  public:
   TileFetcher(const RemoteTileSet& set, const HttpOptions& options, ReplyQueue& replies);
@@ -31,35 +32,41 @@ class TileFetcher {
   [[nodiscard]] HttpCounts counts() const { return fetcher_.counts(); }
 
  private:
-  /// A tile that waits for a directory.
-  struct Waiting {
+  /// A tile without a reply.
+  struct Asked {
     TileId id;
     HttpRequest request;
     int reads = 0;
+    bool again = false;  ///< it came once and did not decode
   };
   /// A directory that is requested, and the tiles that wait for it.
   struct Directory {
     ByteRange range;
     std::vector<std::uint64_t> tiles;
+    bool again = false;  ///< it came once and was damaged
   };
 
-  void proceed(std::uint64_t number, Waiting waiting);
-  void wait_for(const ByteRange& range, std::uint64_t number, Waiting waiting);
+  void start_checking();
+  void proceed(std::uint64_t number);
+  void wait_for(const ByteRange& range, std::uint64_t number);
+  void request_directory(Directory directory);
   void answer(HttpReply&& reply);
-  void learn(Directory directory, HttpReply&& reply);
-  void give(std::uint64_t number, HttpOutcome outcome, std::string why);
+  void answer_tile(HttpReply&& reply);
+  void answer_directory(const HttpReply& reply);
+  void give(HttpReply&& reply);
+  void give(std::uint64_t number, HttpOutcome outcome, const std::string& why);
   void check_version(HttpReply& reply) const;
   void unpack(HttpReply& reply) const;
 
   const RemoteTileSet set_;
   ReplyQueue& replies_;
   std::mutex mutex_;  ///< guards the members below
-  std::unordered_map<std::uint64_t, Waiting> waiting_;
+  std::unordered_map<std::uint64_t, Asked> asked_;
   std::map<std::uint64_t, Directory> directories_;  ///< by the number of the request
   std::uint64_t last_directory_;
-  ReplyQueue raw_;  ///< replies of a set within one file, before they are unpacked
+  ReplyQueue raw_;  ///< replies that are not checked yet
   HttpFetcher fetcher_;
-  std::jthread thread_;  ///< last: uses the rest
+  std::vector<std::jthread> checkers_;  ///< last: use the rest
 };
 
 }  // namespace terrella

@@ -8,10 +8,12 @@ import time
 
 
 class RangeServer(http.server.BaseHTTPRequestHandler):
-    """`fault`: see do_GET(); "later FAULT" begins after the first request. `asked`: first and last byte of each request."""
+    """`fault`: see do_GET(); "later FAULT" begins after the first request. `asked`: first and last byte of each request.
+    `spoil`: what is sent, of the number of the request from 1, the first byte and the right body."""
 
     protocol_version = "HTTP/1.1"
     data, fault, count, asked, latency_s, tag = b"", "", 0, [], 0.0, '"one"'
+    spoil = staticmethod(lambda nth, first, body: body)
 
     def log_message(self, *_):
         pass
@@ -40,7 +42,7 @@ class RangeServer(http.server.BaseHTTPRequestHandler):
         body = self.data[first:last + 1]
         told = {"shifted": f"bytes {first + 1}-{first + len(body)}/{size}", "shorter": f"bytes {first}-{first + 9}/{size}",
                 "nonsense": "bytes a-b/c", "none": ""}.get(fault, f"bytes {first}-{first + len(body) - 1}/{size}")
-        self.answer(206, body, {"ETag": tag, **({"Content-Range": told} if told else {})})
+        self.answer(206, self.spoil(cls.count, first, body), {"ETag": tag, **({"Content-Range": told} if told else {})})
 
     def answer(self, status, body, headers=()):
         self.send_response(status)
@@ -58,8 +60,9 @@ class QuietServer(http.server.ThreadingHTTPServer):
 
 
 @contextlib.contextmanager
-def range_server(data, fault="", name="a.pmtiles", latency_s=0.0):
-    handler = type("Handler", (RangeServer,), {"data": data, "fault": fault, "count": 0, "asked": [], "latency_s": latency_s})
+def range_server(data, fault="", name="a.pmtiles", latency_s=0.0, spoil=RangeServer.spoil):
+    handler = type("Handler", (RangeServer,), {"data": data, "fault": fault, "count": 0, "asked": [], "latency_s": latency_s,
+                                               "spoil": staticmethod(spoil)})
     server = QuietServer(("127.0.0.1", 0), handler)
     thread = threading.Thread(target=server.serve_forever, daemon=True)
     thread.start()

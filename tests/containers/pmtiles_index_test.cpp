@@ -34,18 +34,23 @@ TEST(PmtilesIndexTest, NamesTheBytesToReadNext) {
   ASSERT_TRUE(leaf);
   EXPECT_FALSE(leaf->is_tile);
   EXPECT_EQ(leaf->range, (ByteRange{1020, 5}));
-  index.learn(leaf->range, leaf_of_tile_9());
+  ASSERT_TRUE(index.learn(leaf->range, leaf_of_tile_9()));
   const auto found = index.next(10);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->range, (ByteRange{5010, 50}));
   EXPECT_EQ(index.next(11).error().kind, MissingKind::absent);
 }
 
-TEST(PmtilesIndexTest, ADamagedLeafBreaksItsTiles) {
+TEST(PmtilesIndexTest, NothingIsKeptOfADamagedLeaf) {
   PmtilesIndex index(header(), {{.tile = 9, .offset = 20, .length = 5, .run = 0}});
-  index.learn({1020, 5}, {});
-  EXPECT_EQ(index.next(9).error().kind, MissingKind::broken);
-  EXPECT_NE(index.next(9).error().why.find("damaged"), std::string::npos);
+  const Status learned = index.learn({1020, 5}, {});
+  ASSERT_FALSE(learned);
+  EXPECT_NE(learned.error().message.find("damaged"), std::string::npos);
+  const auto again = index.next(9);
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->is_tile);
+  ASSERT_TRUE(index.learn(again->range, leaf_of_tile_9()));
+  EXPECT_TRUE(index.next(9)->is_tile);
 }
 
 TEST(PmtilesIndexTest, NothingBeyondItsSectionIsRead) {

@@ -17,7 +17,7 @@ void look_for_tiles(PmtilesIndex& index, std::span<const std::byte> file) {
       const auto step = index.next(tile);
       if (!step || step->is_tile) break;
       if (!is_within(step->range, file.size())) std::abort();
-      index.learn(step->range, file.subspan(step->range.offset, step->range.length));
+      if (!index.learn(step->range, file.subspan(step->range.offset, step->range.length))) break;
     }
   }
 }

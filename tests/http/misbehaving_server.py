@@ -117,13 +117,23 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.answer(304, fields=[("ETag", etag)])
         self.answer(200, JPEG, fields=[("ETag", etag), ("Cache-Control", "max-age=60")])
 
-    def fault_file(self):
+    def fault_file(self, spoil=lambda data: data):
         root = self.server.root.resolve()
         path = (root / self.path.partition("?")[0].lstrip("/")).resolve()
         if root not in path.parents or not path.is_file():
             return self.status(404)
         kind = "image/png" if path.suffix == ".png" else "image/jpeg"
-        self.answer(200, path.read_bytes(), kind, [("ETag", f'"{path.stat().st_mtime_ns:x}"')])
+        self.answer(200, spoil(path.read_bytes()), kind, [("ETag", f'"{path.stat().st_mtime_ns:x}"')])
+
+    def fault_zeroed(self):
+        self.fault_file(lambda data: bytes(len(data)))
+
+    def fault_shifted(self):
+        self.fault_file(lambda data: bytes(7) + data[:-7])
+
+    def fault_scrambled(self):
+        """Begins and ends as it should."""
+        self.fault_file(lambda data: data[:700] + bytes(b ^ 0x55 for b in data[700:-300]) + data[-300:])
 
     def fault_empty(self):
         self.answer(200, b"")
