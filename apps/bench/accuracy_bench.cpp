@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "apps/bench/accuracy_settings.h"
-#include "apps/bench/counting_source.h"
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/mesh_error.h"
 #include "apps/bench/shots.h"
+#include "apps/bench/sources/counting_source.h"
 #include "apps/bench/truth/masked_error.h"
 #include "apps/bench/work_folder.h"
 #include "geo/body.h"

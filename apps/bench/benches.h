@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "apps/bench/report.h"
 #include "base/result.h"
@@ -23,6 +24,9 @@ struct BenchOptions {
   std::filesystem::path work;  ///< keeps the planet, its tiles and the ground truth between runs
   std::string only = {};       ///< runs only views or flights whose name contains this text; empty: all
   std::optional<ShaderFunctions> functions = {};  ///< functions of the self-test's shaders; none: the engine chooses
+  std::vector<std::string> commands = {};         ///< shell commands of bench_programs(), which takes turns with them
+  std::string reset = {};                         ///< shell command before each of these, not measured; empty: none
+  int rounds = 5;                                 ///< rounds of bench_programs(), at least 1
   std::function<void(const std::string& doing)> progress = [](const std::string&) {};
   std::function<bool()> goes_on = [] { return true; };  ///< called while pictures are cut; false stops
 
@@ -39,5 +43,8 @@ struct BenchOptions {
 [[nodiscard]] Result<Report> bench_objects(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stability(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_growth(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_features(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_limb(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_programs(const BenchOptions& options);
 
 }  // namespace terrella::bench

@@ -12,6 +12,7 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/frame_timing.h"
+#include "apps/bench/value_of.h"
 #include "apps/scene/scene_objects.h"
 #include "render/gl/offscreen.h"
 
@@ -28,12 +29,6 @@ double processor_ms(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
   return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
-}
-
-template <class T>
-T value_of(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return *std::move(result);
 }
 
 /// An arrow.

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "apps/bench/benches.h"
-#include "apps/bench/counting_source.h"
-#include "apps/bench/endless_source.h"
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/mesh_error.h"
 #include "apps/bench/shots.h"
+#include "apps/bench/sources/counting_source.h"
+#include "apps/bench/sources/endless_source.h"
 #include "apps/commands/flight_tiles.h"
 #include "apps/setup/data_dir.h"
 #include "geo/body.h"

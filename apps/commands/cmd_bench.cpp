@@ -32,7 +32,9 @@ constexpr std::array kBenches{
     NamedBench{"views", bench::bench_views},         NamedBench{"polar", bench::bench_polar},
     NamedBench{"accuracy", bench::bench_accuracy},   NamedBench{"traverse", bench::bench_traverse},
     NamedBench{"stream", bench::bench_stream},       NamedBench{"objects", bench::bench_objects},
-    NamedBench{"stability", bench::bench_stability}, NamedBench{"growth", bench::bench_growth}};
+    NamedBench{"stability", bench::bench_stability}, NamedBench{"growth", bench::bench_growth},
+    NamedBench{"features", bench::bench_features},   NamedBench{"limb", bench::bench_limb}};
+constexpr NamedBench kPrograms{"programs", bench::bench_programs};  // needs commands, so `all` has it not
 
 constexpr const char* kBenchExamples =
     "views      time and error of the table of the README: the globe against a plain sphere, all texturings\n"
@@ -45,16 +47,23 @@ constexpr const char* kBenchExamples =
     "objects    time of edits of single objects, beside scenes set anew, and of picks\n"
     "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
     "growth     cost against size: depth of a set, pixels, layers, tiles in a cache (--full: up to 10^7)\n"
-    "all        every one of these; one page, index.html, with all tables and plots, to attach to a report\n"
+    "features   cost of each feature of a frame: stereo, sky, relief, layers, spheres, numbers\n"
+    "limb       the limb beside the same pictures drawn larger, with a sky and without\n"
+    "programs   time and memory of shell commands that take turns, as ratios to the first one\n"
+    "all        every one of these but programs; one page, index.html, with all tables and plots, to attach to a "
+    "report\n"
     "Examples:\n"
     "  terrella bench polar --out results        results/polar.csv, .json, .gnuplot and .png\n"
     "  terrella bench polar --quick --json       a trial run of a few seconds\n"
-    "  terrella bench stability                  exit code 1 if a figure is over its limit";
+    "  terrella bench stability                  exit code 1 if a figure is over its limit\n"
+    "  terrella bench programs 'terrella cut a.jpg -o a.gpkg' 'vips dzsave a.jpg a' --reset 'rm -rf a.gpkg a_files'";
 
 struct BenchCommand {
   std::string name;
   std::string out = "terrella-bench";
-  std::string work, only, functions = "auto";
+  std::string work, only, functions = "auto", reset;
+  std::vector<std::string> commands;
+  int rounds = 5;
   bool quick = false, full = false, json = false;
 };
 
@@ -62,17 +71,21 @@ struct BenchCommand {
 std::span<const NamedBench> benches_named(const std::string& name) {
   if (name == "all") return kBenches;
   std::string names;
+  if (name == kPrograms.name) return {&kPrograms, 1};
   for (const NamedBench& bench : kBenches) {
     if (name == bench.name) return {&bench, 1};
     names += std::string(bench.name) + '|';
   }
-  throw CLI::ValidationError("NAME", "'" + name + "' is none of " + names + "all");
+  throw CLI::ValidationError("NAME", "'" + name + "' is none of " + names + "programs|all");
 }
 
 Result<bench::BenchOptions> bench_options(const BenchCommand& command) {
   bench::BenchOptions options;
   if (command.quick) options.effort = bench::Effort::quick;
   options.only = command.only;
+  options.commands = command.commands;
+  options.reset = command.reset;
+  options.rounds = command.rounds;
   if (command.functions == "driver") options.functions = ShaderFunctions::driver;
   if (command.functions == "own") options.functions = ShaderFunctions::own;
   if (command.full) options.effort = bench::Effort::full;
@@ -120,6 +133,9 @@ Status write_page(const std::vector<bench::PageEntry>& entries, const std::strin
 int run(const BenchCommand& command) {
   const std::span<const NamedBench> chosen = benches_named(command.name);
   const bool all = chosen.size() > 1;
+  if ((command.name == kPrograms.name) == command.commands.empty()) {
+    throw CLI::ValidationError("COMMAND", "programs measures commands, and nothing else does");
+  }
   if (all && !command.only.empty()) throw CLI::ValidationError("--only", "name one benchmark with it");
   const Result<bench::BenchOptions> options = bench_options(command);
   if (!options) return fail("bench", options.error().message);
@@ -155,12 +171,18 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<BenchCommand>();
   sub.add_option("NAME", command->name, "The measurement to run")
       ->required()
-      ->type_name("views|polar|accuracy|traverse|stream|objects|stability|growth|all");
+      ->type_name("views|polar|accuracy|traverse|stream|objects|stability|growth|features|limb|programs|all");
+  sub.add_option("COMMAND", command->commands, "Shell commands that programs measures")->type_name("TEXT ...");
+  sub.add_option("--rounds", command->rounds, "Run each COMMAND this many times")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  sub.add_option("--reset", command->reset, "Run this before each COMMAND and do not measure it");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")
       ->capture_default_str();
   sub.add_option("--work", command->work,
                  "Keep the planet, its tiles and the ground truth in this folder between runs (default: in the cache)");
-  sub.add_option("--only", command->only, "Run only the views or flights whose name contains this text");
+  sub.add_option("--only", command->only,
+                 "Run only the rows (views, flights, frames, grounds) whose name contains this text");
   sub.add_option("--functions", command->functions,
                  "Choose the shaders' trigonometric functions for stability; with auto the engine chooses")
       ->check(CLI::IsMember({"auto", "driver", "own"}))

@@ -92,7 +92,6 @@ struct LineObject {
 /// An extruded area is a body: a roof, `extrude_m` over the fill's height, and vertical walls under it, both lit, in
 /// the colour of the fill. The stroke goes round the roof. Walls begin at the fill's height. With the other height
 /// modes they begin at the lowest ground under the edges, and the roof counts from the mean ground under the places.
-/// Translucent bodies that overlap in the picture are not sorted.
 struct PolygonObject {
   std::vector<std::vector<Geodetic>> rings = {};  ///< the last place of a ring may repeat its first
   ObjectColor fill{230, 60, 50, 90};              ///< alpha 0: no fill

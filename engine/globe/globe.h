@@ -119,9 +119,8 @@ class Globe {
   void set_budget(const GlobeBudget& budget);
 
   /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`. `framebuffer` is a GL name, 0 the
-  /// window; it may be sRGB or not, and is drawn with as many samples as it has. Uploads arrived tiles within the
-  /// budget. Returns the frame's statistics. Draws nothing if status() is an error: also if the driver has no textures
-  /// with so many samples.
+  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns the frame's statistics. Draws
+  /// nothing if status() is an error, such as a number of samples that the driver's textures do not have.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
   [[nodiscard]] const FrameStats& last_frame() const;  ///< counts of the last frame
   /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/bench/truth/limb_rows.h"
 #include "tests/gl/gl_fixture.h"
-#include "tests/gl/limb_rows.h"
 #include "tests/gl/painted_heights.h"
 #include "tests/scene/patch_test_support.h"
 
@@ -66,9 +66,9 @@ TEST_F(Horizon, HasNoJaggedCoastInTheGlint) {
   globe->set_camera(camera_at(46, 7, 90000, 180, -9.9, 6));
   const Viewport large{kTimes * kHorizon.width_px, kTimes * kHorizon.height_px};
   settle(*globe, large);
-  const Levels truth = reduced(picture().rgba, large, kTimes);
+  const truth::Levels truth = truth::reduced(picture().rgba, large.width_px, large.height_px, kTimes);
   settle(*globe, kHorizon);
-  const Levels seen = reduced(picture().rgba, kHorizon, 1);
+  const truth::Levels seen = truth::reduced(picture().rgba, kHorizon.width_px, kHorizon.height_px, 1);
   double squares = 0.0;
   int coast = 0;
   for (int y = 1; y < kHorizon.height_px; ++y) {
@@ -94,9 +94,9 @@ TEST_F(Horizon, HasNoDashes) {
     const double dip = std::acos(6371e3 / (6371e3 + height_m)) * 180.0 / std::numbers::pi;
     globe->set_camera(camera_at(46, 7, height_m, 0, -dip, 6));
     settle(*globe, large);
-    const Levels truth = reduced(picture().rgba, large, kTimes);
+    const truth::Levels truth = truth::reduced(picture().rgba, large.width_px, large.height_px, kTimes);
     settle(*globe, kHorizon);
-    const Levels seen = reduced(picture().rgba, kHorizon, 1);
+    const truth::Levels seen = truth::reduced(picture().rgba, kHorizon.width_px, kHorizon.height_px, 1);
     double most = 0.0;
     for (int y = 0; y < kHorizon.height_px; ++y) {
       for (int x = 0; x < kHorizon.width_px; ++x) {

@@ -6,20 +6,31 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "apps/bench/truth/limb_rows.h"
 #include "tests/gl/gl_fixture.h"
-#include "tests/gl/limb_rows.h"
 #include "tests/scene/patch_test_support.h"
 
 namespace terrella::test {
 namespace {
 
+using truth::compare_limbs;
+using truth::Levels;
+using truth::LimbPair;
+
 constexpr int kTimes = 8;
+
+/// Painted land, sea and floes, as a pyramid of means.
+std::shared_ptr<PaintedSource> floes() {
+  auto source = std::make_shared<PaintedSource>(TileGrid{.tile_px = 128, .max_level = 4}, truth::floe_color);
+  source->average(3);
+  return source;
+}
 
 class LimbPictures : public GlTest {
  protected:
   Levels drawn(Viewport size, int times) {
     settle(*globe_, size);
-    return reduced(picture().rgba, size, times);
+    return truth::reduced(picture().rgba, size.width_px, size.height_px, times);
   }
   /// The left limb of a square picture, in each channel.
   std::array<LimbPair, 3> limbs(const Camera& camera, int size) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The ratio of a zone of 17,212 pixels to its surroundings has a standard deviation of 0.5 % among 20 meridians where
-// no seam is (tests/bench/antimeridian_chance.py). It would be 0.7 % in zones of this size, so 2 % is three of them.
+// no seam is. It would be 0.7 % in zones of this size, so 2 % is three of them.
 constexpr std::size_t kEnoughPixels = 8000;
 
 double limit_of(const Bound& bound, const JudgedView& judged, const std::vector<JudgedView>& earlier) {

@@ -1,5 +1,4 @@
-// A flight that never comes to the same place twice holds no more after many legs than after a few. A long one:
-// tests/bench's memory_flight.
+// A flight that never comes to the same place twice holds no more after many legs than after a few.
 #include <numeric>
 #include <span>
 #include <vector>

@@ -15,7 +15,7 @@ constexpr double kLevelRounding = 0.02;
 // A cell larger than this part of its distance has pixels of too different size: its middle cannot stand for all.
 constexpr double kLargeCell = 0.25;
 // A picture of the equator wants twice as many texels as it has pixels; one of the pole, in a full grid, six times. A
-// view that wants more than this, in more tiles than these, takes longer texels (cold_view.py, bench accuracy).
+// view that wants more than this, in more tiles than these, takes longer texels (bench stream, bench accuracy).
 constexpr double kMostTexelsAPixel = 5.5;
 constexpr int kFewTiles = 64;
 // Most pixels that such a texel is long along the meridian, and the squared cosine of the latitude from which on texels

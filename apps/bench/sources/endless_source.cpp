@@ -1,4 +1,4 @@
-#include "apps/bench/endless_source.h"
+#include "apps/bench/sources/endless_source.h"
 
 #include <algorithm>
 #include <array>

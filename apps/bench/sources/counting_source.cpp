@@ -1,4 +1,4 @@
-#include "apps/bench/counting_source.h"
+#include "apps/bench/sources/counting_source.h"
 
 namespace terrella::bench {
 

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
-#include "geo/camera.h"
-#include "tests/gl/painted_source.h"
-
-namespace terrella::test {
+namespace terrella::truth {
 
 /// A picture as levels, 0...255, in double. thread: any, for all of this header
 struct Levels {
@@ -17,7 +16,7 @@ struct Levels {
 };
 
 /// Means over squares of `times` by `times` pixels of RGBA8, rows from the top.
-[[nodiscard]] Levels reduced(const std::vector<std::uint8_t>& rgba, Viewport size, int times);
+[[nodiscard]] Levels reduced(const std::vector<std::uint8_t>& rgba, int width, int height, int times);
 
 /// The left limb, by row: the brightest of the pixels beside it, and its change from row to row, both as means.
 struct LimbRows {
@@ -36,7 +35,7 @@ struct LimbPair {
 /// Measures the rows from `first` up to `last` that have a limb in their left half. Both pictures are equally large.
 [[nodiscard]] LimbPair compare_limbs(const Levels& drawn, const Levels& truth, int first, int last, int channel);
 
-/// Land, sea, and white floes of six degrees in a blue sea, as a pyramid of means.
-[[nodiscard]] std::shared_ptr<PaintedSource> floes();
+/// Land, sea, and white floes of six degrees in a blue sea: the colour of a place.
+[[nodiscard]] std::array<std::uint8_t, 3> floe_color(double lon_deg, double lat_deg);
 
-}  // namespace terrella::test
+}  // namespace terrella::truth

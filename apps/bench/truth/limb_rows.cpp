@@ -1,9 +1,9 @@
-#include "tests/gl/limb_rows.h"
+#include "apps/bench/truth/limb_rows.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace terrella::test {
+namespace terrella::truth {
 namespace {
 
 constexpr double kDark_levels = 12.0;  // blue beside the globe
@@ -35,24 +35,17 @@ LimbRows left_limb(const Levels& p, const std::vector<int>& begins, int first, i
   return {rows.peak / std::max(1, peaks), rows.change / std::max(1, changes)};
 }
 
-Color paint_floes(double lon_deg, double lat_deg) {
-  const double a = std::sin(lon_deg * 0.12) * std::sin(lat_deg * 0.15),
-               b = std::sin(lon_deg * 0.5 + lat_deg * 0.1) * std::sin(lat_deg * 0.45);
-  if (b > 0.6) return {235, 240, 245};
-  return a > 0.2 ? Color{90, 100, 60} : Color{20, 40, 90};
-}
-
 }  // namespace
 
-Levels reduced(const std::vector<std::uint8_t>& rgba, Viewport size, int times) {
-  Levels small{size.width_px / times, size.height_px / times, {}};
+Levels reduced(const std::vector<std::uint8_t>& rgba, int width, int height, int times) {
+  Levels small{width / times, height / times, {}};
   small.values.reserve(static_cast<std::size_t>(3 * small.width) * static_cast<std::size_t>(small.height));
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       double sum[3] = {};
       for (int k = 0; k < times * times; ++k) {
         const auto row = static_cast<std::size_t>(times * y + k / times);
-        const std::size_t px = row * static_cast<std::size_t>(size.width_px) + std::size_t(times * x + k % times);
+        const std::size_t px = row * static_cast<std::size_t>(width) + std::size_t(times * x + k % times);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += rgba[4 * px + c];
       }
       for (const double s : sum) small.values.push_back(s / (times * times));
@@ -70,10 +63,12 @@ LimbPair compare_limbs(const Levels& drawn, const Levels& truth, int first, int 
   return {left_limb(drawn, begins, first, channel), left_limb(truth, begins, first, channel)};
 }
 
-std::shared_ptr<PaintedSource> floes() {
-  auto source = std::make_shared<PaintedSource>(TileGrid{.tile_px = 128, .max_level = 4}, paint_floes);
-  source->average(3);
-  return source;
+std::array<std::uint8_t, 3> floe_color(double lon_deg, double lat_deg) {
+  const double a = std::sin(lon_deg * 0.12) * std::sin(lat_deg * 0.15),
+               b = std::sin(lon_deg * 0.5 + lat_deg * 0.1) * std::sin(lat_deg * 0.45);
+  if (b > 0.6) return {235, 240, 245};
+  if (a > 0.2) return {90, 100, 60};
+  return {20, 40, 90};
 }
 
-}  // namespace terrella::test
+}  // namespace terrella::truth
