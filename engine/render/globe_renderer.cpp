@@ -114,8 +114,9 @@ const AirTextures* GlobeRenderer::air_of(const Pass& pass) const {
 }
 
 void GlobeRenderer::draw_picture(const Pass& pass) {
-  air_ = air_of(pass);
-  static_cast<void>(patches_->set_air(air_));  // prepare() has built the programs
+  const PatchScene scene = scene_of(pass);
+  air_ = scene.air;
+  patches_->set_scene(scene);  // prepare() has built the programs
   upload_frame(pass);
   begin_picture(pass);
   if (pass.input.naive_translucency) {

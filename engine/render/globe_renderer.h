@@ -197,6 +197,7 @@ class GlobeRenderer {
                            const FrameTargets& from, glm::ivec2 corner_px);
 
   // globe_surface.cpp: the image layers.
+  [[nodiscard]] PatchScene scene_of(const Pass& pass) const;
   Status prepare_layers(const Pass& pass);
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);

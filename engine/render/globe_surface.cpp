@@ -61,13 +61,19 @@ PatchBuffers& GlobeRenderer::vertices_of(const LayerFrame& layer, const LayerFra
   return *layer.vertices ? **layer.vertices : **base.vertices;
 }
 
+PatchScene GlobeRenderer::scene_of(const Pass& pass) const {
+  PatchScene scene{.air = air_of(pass), .light = light_of(pass.input), .paper_band = pass.input.paper_band};
+  if (limb_look(pass, scene.air) == LimbLook::whole && limb_->fit(pass.input.view, ellipsoid_)) {
+    scene.limb = LimbRing(pass.input.view, ellipsoid_);
+  }
+  if (!pass.input.lit) return scene;
+  scene.sun = pass.input.sun;
+  scene.plain_footprint_texels = lit_footprint_texels(pass.input);
+  return scene;
+}
+
 Status GlobeRenderer::prepare_layers(const Pass& pass) {
-  patches_->set_air(air_of(pass));
-  patches_->set_light(light_of(pass.input));
-  const bool whole_limb = limb_look(pass, air_of(pass)) == LimbLook::whole && limb_->fit(pass.input.view, ellipsoid_);
-  patches_->set_limb(whole_limb ? std::optional(LimbRing(pass.input.view, ellipsoid_)) : std::nullopt);
-  patches_->set_sun(pass.input.lit ? std::optional(pass.input.sun) : std::nullopt);
-  patches_->set_plain_footprint(pass.input.lit ? lit_footprint_texels(pass.input) : kPlainFootprint_texels);
+  patches_->set_scene(scene_of(pass));
   for (const LayerFrame& layer : pass.input.layers) {
     const bool numbers = layer.gpu->numbers != nullptr;
     if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches); !s) return s;
@@ -79,7 +85,6 @@ Status GlobeRenderer::prepare_layers(const Pass& pass) {
 void GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const TileGrid& rows = base.tree->grid();
-  patches_->set_paper_band(input.paper_band);
   const bool shaded = input.relief != nullptr && input.lit;
   if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
   if (slopes_) slopes_->set_views(input.views);

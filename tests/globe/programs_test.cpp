@@ -137,6 +137,28 @@ TEST_F(Programs, NumbersBringThoseOfTheirLayersPart) {
   EXPECT_EQ(all_programs().size(), alone + 3 * of_patches + 2) << "as the base layer, and the picture over it";
 }
 
+// Numbers are filtered in one way, and the air before glass is the same in every light.
+TEST_F(Programs, AnotherFilterMakesOnlyThoseThatDependOnIt) {
+  GlobeOptions options;
+  options.sky = true;
+  options.surface = {.alpha = 0.5, .sharpness = Sharpness::bilinear};
+  const auto globe = make_globe(options, one_colour(kProgramsGrid, {200, 120, 40}));
+  globe->set_camera(camera_at(10, 20, 2.0e7));
+  ImageLook look{.opacity = 0.5};
+  look.numbers = NumberLook{};
+  ASSERT_TRUE(globe->add_imagery(
+      std::make_shared<PaintedNumbers>(kProgramsGrid, [](double lon, double) { return static_cast<float>(lon); }),
+      look));
+  const auto counts = [&] {
+    settle(*globe, kProgramsPicture);
+    const auto all = all_programs();
+    return std::pair(all.count("patch_plain.frag"), all.count("patch_air.frag"));
+  };
+  EXPECT_EQ(counts(), std::pair(std::size_t{2}, std::size_t{1}));
+  globe->set_surface({.alpha = 0.5, .sharpness = Sharpness::bicubic});
+  EXPECT_EQ(counts(), std::pair(std::size_t{3}, std::size_t{1})) << "the picture's alone";
+}
+
 TEST_F(Programs, TheSkyBringsAirWithStarsThoseAndWithATimeSunAndMoon) {
   const Names in_air{"limb_air.frag", "patch_oblique.frag", "patch_plain.frag", "patch_polar_long.frag",
                      "sky_air.frag"};

@@ -102,7 +102,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
       if (patch.in_band) return polar_for(patch);
       break;
     case Texturing::paper:
-      if (patch.node->min_colatitude_rad < paper_band_ * std::numbers::pi) return paper;
+      if (patch.node->min_colatitude_rad < scene_.paper_band * std::numbers::pi) return paper;
       break;
     case Texturing::vertex:
       break;
@@ -110,7 +110,7 @@ PatchLayer::Program PatchPass::program_for(const SelectedPatch& patch) const {
   if (patch.footprint_texels < kMagnifiedFootprint_texels) return magnified;
   const bool beside_pole = patch.node->min_colatitude_rad < kBesidePole_rad;
   const double plain_texels =
-      beside_pole ? std::min(kBesidePole_texels, plain_footprint_texels_) : plain_footprint_texels_;
+      beside_pole ? std::min(kBesidePole_texels, scene_.plain_footprint_texels) : scene_.plain_footprint_texels;
   if (patch.footprint_texels <= plain_texels) return plain;
   return beside_pole && patch.footprint_texels <= most_of_seven() ? seven_taps : oblique;
 }
@@ -119,7 +119,7 @@ PatchLayer::Program PatchPass::polar_for(const SelectedPatch& patch) const {
   using enum PatchLayer::Program;
   if (patch.footprint_texels <= kThreeTaps_texels) return polar_short;
   // At the limb of a lit picture pixels may be far longer than the estimate for the middle of the patch.
-  if (plain_footprint_texels_ < kPlainFootprint_texels) return polar_long;
+  if (scene_.plain_footprint_texels < kPlainFootprint_texels) return polar_long;
   return patch.footprint_texels <= most_of_seven() ? polar : polar_long;
 }
 
@@ -134,18 +134,18 @@ int PatchPass::limb_variant_for(const SelectedPatch& patch) const {
 
 bool PatchPass::is_on_limb(const SelectedPatch& patch) const {
   const PatchNode& body = patch.body();
-  return limb_ && limb_->meets(body.cone_axis, body.cos_cone, body.sin_cone);
+  return scene_.limb && scene_.limb->meets(body.cone_axis, body.cos_cone, body.sin_cone);
 }
 
 bool PatchPass::is_dark(const PatchNode& node) const {
-  if (!options_.night_lights || !sun_) return false;
-  const double height_rad = std::asin(std::clamp(glm::dot(node.normal, *sun_), -1.0, 1.0));
+  if (!options_.night_lights || !scene_.sun) return false;
+  const double height_rad = std::asin(std::clamp(glm::dot(node.normal, *scene_.sun), -1.0, 1.0));
   const double half_rad = std::acos(std::clamp(node.cos_cone, -1.0, 1.0));
   return height_rad - kNormalsOverCone * half_rad < kLampsOn_rad;
 }
 
 // The length is an estimate for the middle of a patch. Beside the limb, where lit pictures need all taps, pixels vary.
-double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, plain_footprint_texels_); }
+double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, scene_.plain_footprint_texels); }
 
 void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
                        const TileCoverage& coverage, std::uint64_t frame) const {
@@ -166,7 +166,8 @@ void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::v
     const std::span<const glm::vec3> points = buffers.points(place);
     for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
       const std::uint16_t* corner = buffers.indices().indices.data() + i;
-      if (!limb_->holds(points[corner[0]]) && !limb_->holds(points[corner[1]]) && !limb_->holds(points[corner[2]]))
+      if (!scene_.limb->holds(points[corner[0]]) && !scene_.limb->holds(points[corner[1]]) &&
+          !scene_.limb->holds(points[corner[2]]))
         continue;
       limb_indices.insert(limb_indices.end(), corner, corner + 3);
     }
@@ -220,15 +221,16 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts, Limb limb) const {
-  const ProgramSet& set = sets_[set_index(role, layer.numbers != nullptr)];
-  if (air_ != nullptr) air_->bind_ground();
+  const bool numbers = layer.numbers != nullptr;
+  const ProgramSet& set = sets_[set_index(role, numbers, light_of(role, numbers))];
+  if (scene_.air != nullptr) scene_.air->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);
   for (GLuint unit : {0U, 2U, 3U}) glBindTextureUnit(unit, tiles.texture());
   glBindSampler(0, bilinear_.name());
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
-  if (layer.numbers != nullptr) layer.numbers->bind();
+  if (numbers) layer.numbers->bind();
   bind_vertices(layer, vertices);
   // The limb comes first: it lies before the ground that whole patches have there.
   for (int k = 0; k < kVariants; ++k) {
@@ -239,7 +241,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
     glVertexArrayElementBuffer(vertex_array_.name(), whole ? vertices.index_buffer() : layer.limb_indices.name());
     const GLuint program = set.programs[p].name();
     assert(program != 0);
-    if (layer.numbers != nullptr) {
+    if (numbers) {
       glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
     }
     apply(state.with(program));
@@ -250,7 +252,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
 
 void PatchPass::draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                            FrameCounts& counts) {
-  if (what == Whole::air) air_->bind_ground();
+  if (what == Whole::air) scene_.air->bind_ground();
   bind_vertices(layer, vertices);
   const int* first = layer.first_command;
   apply(state.with(whole_program(what, false).name()));

@@ -50,6 +50,18 @@ struct FrameCounts {
   long triangles = 0;
 };
 
+/// Air, light and limb of the surface in a picture. Programs and draws follow from them.
+struct PatchScene {
+  const AirTextures* air = nullptr;  ///< the ground is seen through this air; null: without air
+  PatchLight light = {};
+  std::optional<glm::dvec3> sun = {};  ///< city lights shine under this Sun (unit vector, ECEF axes); none: no lights
+  /// The ground in this ring is raised, so that each pixel on the limb shows its own (FrameBlock::limb); none: none is.
+  std::optional<LimbRing> limb = {};
+  /// Longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
+  double plain_footprint_texels = kPlainFootprint_texels;
+  double paper_band = 0.05;  ///< width of the pole bands of Texturing::paper: a fraction of the picture's height
+};
+
 /// The part of a layer in the picture; each part has programs of its own.
 enum class LayerRole {
   base,     ///< opaque
@@ -65,23 +77,11 @@ class PatchPass {
   [[nodiscard]] static std::unique_ptr<PatchPass> create(const RenderOptions& options, bool has_relief);
   /// Draws patches with or without heights from now on. The programs stay.
   void set_relief(bool has_relief);
-  /// Sees the ground through this air from now on; null: without air.
-  void set_air(const AirTextures* air) { air_ = air; }
-  /// Draws in this light from now on.
-  void set_light(const PatchLight& light) { light_ = light; }
-  /// Draws city lights under this Sun from now on (unit vector, ECEF axes); none: no city lights.
-  void set_sun(const std::optional<glm::dvec3>& sun) { sun_ = sun; }
-  /// Raises the ground in this ring from now on, so that each pixel on the limb shows its own (FrameBlock::limb); none:
-  /// raises nothing.
-  void set_limb(const std::optional<LimbRing>& ring) { limb_ = ring; }
-  /// Builds the programs that draw these patches of a layer of pictures or numbers in the present air and light, each
-  /// once; for upper layers also that of Whole::black. Call after set_air(), set_light(),
-  /// set_sun(), set_limb() and set_plain_footprint().
+  /// Draws in this scene from now on.
+  void set_scene(const PatchScene& scene) { scene_ = scene; }
+  /// Builds the programs that draw these patches of a layer of pictures or numbers in the scene, each once; for upper
+  /// layers also that of Whole::black.
   Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
-  /// Sets the width of paper 1's pole bands for Texturing::paper: a fraction of the picture's height.
-  void set_paper_band(double band) { paper_band_ = band; }
-  /// Sets the longest pixel, in texels, that plain patches integrate with three taps. Longer ones take up to 16.
-  void set_plain_footprint(double texels) { plain_footprint_texels_ = texels; }
   /// The vertices from which a layer is drawn: its own, of its tree, or those of the base layer and its tree.
   struct Vertices {
     PatchBuffers& buffers;
@@ -91,14 +91,14 @@ class PatchPass {
   /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch.
   void upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
               const TileCoverage& coverage, std::uint64_t frame) const;
-  /// The limb of a layer that lies on the ground is raised with the ground (set_limb()).
+  /// The limb of a layer that lies on the ground is raised with the ground (PatchScene::limb).
   enum class Limb { raised, flat };
   /// Draws a layer, program by program. Needs prepare().
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
             const DrawState& state, FrameCounts& counts, Limb limb = Limb::raised) const;
   /// Depth only, with the same bits as those of draw(); or with that depth opaque black, or the light of the air.
   enum class Whole { depth, black, air };
-  /// Makes the programs of draw_whole() for the present air and light, once. prepare() does so for `black`.
+  /// Makes the programs of draw_whole() for the scene, once. prepare() does so for `black`.
   Status prepare_whole(Whole what);
   /// Draws the whole surface. Needs prepare_whole().
   void draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
@@ -108,13 +108,20 @@ class PatchPass {
   static constexpr int kPrograms = PatchLayer::kPrograms, kVariants = PatchLayer::kVariants;
 
   PatchPass(const RenderOptions& options, bool has_relief)
-      : options_(options), has_relief_(has_relief), light_(options.light) {}
+      : options_(options), has_relief_(has_relief), scene_{.light = options.light} {}
   /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
-  [[nodiscard]] std::size_t which() const { return air_ == nullptr ? 0 : air_->near_ground() ? 2 : 1; }
-  /// Place in sets_ of the programs for a role, for pictures or numbers, in the present air and light.
-  [[nodiscard]] std::size_t set_index(LayerRole role, bool numbers) const {
+  [[nodiscard]] std::size_t which() const { return scene_.air == nullptr ? 0 : scene_.air->near_ground() ? 2 : 1; }
+  /// The part of the light that programs for a role, for pictures or numbers, differ by.
+  [[nodiscard]] PatchLight light_of(LayerRole role, bool numbers) const {
+    const PatchLight& light = scene_.light;
+    return {.relief = light.relief,
+            .bicubic = light.bicubic && !numbers,
+            .glint = light.glint && !numbers && role == LayerRole::base};
+  }
+  /// Place in sets_ of the programs for a role, for pictures or numbers, in the present air and this light.
+  [[nodiscard]] std::size_t set_index(LayerRole role, bool numbers, const PatchLight& light) const {
     const std::size_t layers = 2 * static_cast<std::size_t>(role) + (numbers ? 1 : 0);
-    return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light_.index());
+    return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light.index());
   }
   Status make_program(gl::Program& place, int variant, LayerRole role, bool numbers);
   /// Features of a program that not all patches of a layer need.
@@ -138,9 +145,9 @@ class PatchPass {
   /// Longest pixel, in texels, that seven taps suffice for.
   [[nodiscard]] double most_of_seven() const;
 
-  std::optional<LimbRing> limb_;
   RenderOptions options_;
   bool has_relief_;
+  PatchScene scene_;
   /// The programs of a role, for pictures or numbers, by which() air, in a light; those that some patch has needed.
   struct ProgramSet {
     gl::Program programs[kVariants];
@@ -148,11 +155,6 @@ class PatchPass {
   };
   static constexpr std::size_t kRoles = 3, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
-  const AirTextures* air_ = nullptr;
-  PatchLight light_;
-  std::optional<glm::dvec3> sun_;
-  double paper_band_ = 0.05;
-  double plain_footprint_texels_ = kPlainFootprint_texels;
   gl::Program depth_programs_[2], flat_programs_[2];  ///< for whole patches, and for the limb
   gl::VertexArray vertex_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;

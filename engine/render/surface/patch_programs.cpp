@@ -11,7 +11,7 @@ constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECI
 }  // namespace
 
 Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches) {
-  ProgramSet& set = sets_[set_index(role, numbers)];
+  ProgramSet& set = sets_[set_index(role, numbers, light_of(role, numbers))];
   const auto make = [&](int variant) -> Status {
     gl::Program& program = set.programs[variant];
     return program ? Status{Done{}} : make_program(program, variant, role, numbers);
@@ -24,7 +24,8 @@ Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<Select
 }
 
 gl::Program& PatchPass::whole_program(Whole what, bool limb) {
-  if (what == Whole::air) return sets_[set_index(LayerRole::base, false)].air;
+  // The air before the ground is the same in every light; its vertices have slopes if those are lit.
+  if (what == Whole::air) return sets_[set_index(LayerRole::base, false, {.relief = scene_.light.relief})].air;
   return what == Whole::depth ? depth_programs_[limb ? 1 : 0] : flat_programs_[limb ? 1 : 0];
 }
 
@@ -34,7 +35,7 @@ Status PatchPass::prepare_whole(Whole what) {
                                                        : "patch_flat.frag";
   for (const bool limb : {false, true}) {
     gl::Program& program = whole_program(what, limb);
-    if (program || (limb && !limb_)) continue;
+    if (program || (limb && !scene_.limb)) continue;
     if (Status made = build(program, {"frame.glsl", "air.glsl", file}, LayerRole::base, false, {.limb = limb}); !made)
       return made;
   }
@@ -43,16 +44,15 @@ Status PatchPass::prepare_whole(Whole what) {
 
 Status PatchPass::build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role,
                         bool numbers, const Extras& extras) const {
-  const bool pictures = !numbers;
+  const PatchLight light = light_of(role, numbers);
   return build_into(place,
                     {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
                      {GL_FRAGMENT_SHADER, fragment}},
-                    {depth_define(options_.depth), light_.relief ? "RELIEF" : "LEVEL_LIGHT",
+                    {depth_define(options_.depth), light.relief ? "RELIEF" : "LEVEL_LIGHT",
                      options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", extras.pole ? "AT_POLE" : "OFF_POLE",
                      extras.city_lights ? "CITY_LIGHTS" : "NO_LAMPS", extras.limb ? "AT_LIMB" : "OFF_LIMB",
-                     options_.regolith ? "REGOLITH" : "NO_DUST",
-                     light_.glint && pictures && role == LayerRole::base ? "GLINT" : "NO_GLINT",
-                     light_.bicubic && pictures ? "BICUBIC" : "BILINEAR", air_ != nullptr ? "AIR" : "NO_AIR",
+                     options_.regolith ? "REGOLITH" : "NO_DUST", light.glint ? "GLINT" : "NO_GLINT",
+                     light.bicubic ? "BICUBIC" : "BILINEAR", scene_.air != nullptr ? "AIR" : "NO_AIR",
                      which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)),
                      kRoleDefines[static_cast<int>(role)], numbers ? "NUMBERS" : "PICTURES"});
