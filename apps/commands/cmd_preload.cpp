@@ -65,6 +65,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
 }
 
 Result<std::shared_ptr<TileCache>> cache_of(const PreloadCommand& command, const PreloadSource& source) {
+  if (source.cache) return source.cache;
   auto cache = open_cache("terrella preload", command.output, source.cache_info, source.key, command.cache_size_mb);
   if (!cache) return cache.error();
   return *std::move(cache);

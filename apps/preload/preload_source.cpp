@@ -48,27 +48,26 @@ Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
   return opened;
 }
 
-/// The file stays open until its parts are planned.
+/// The raster checks the parts that come.
 struct PlannedTiff {
-  std::optional<OpenedRemoteTiff> opened;
+  OpenedRemoteTiff opened;
+  std::shared_ptr<RemoteTiff> raster;
   WarpFigure figure;
   TileGrid grid;
-  FileAddress address;
   std::shared_ptr<const SpanList> spans;
 };
 
 Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const TilePlan& tiles) {
   const auto find = [&tiff](const TilePlan& plan) {
-    return spans_of_tiles(*tiff.opened->raster, tiff.figure, tiff.grid, plan, [] { return !StopSignals::came(); });
+    return spans_of_tiles(*tiff.raster, tiff.figure, tiff.grid, plan, [] { return !StopSignals::came(); });
   };
   auto spans = find(tiles);
   // A viewer stretches numbers by these tiles, wherever it looks.
-  if (spans && tiff.opened->tiff.pyramid->whole().part.picture.samples.colour == TiffColour::gray) {
+  if (spans && tiff.opened.tiff.pyramid->whole().part.picture.samples.colour == TiffColour::gray) {
     auto sampled = find(*plan_list(sampled_places(tiff.grid)));
     if (!sampled) return sampled.error();
     spans->merge(*sampled);
   }
-  tiff.opened.reset();  // closes the cache, which the preload opens
   if (!spans) return spans.error();
   std::vector<TileId> ids;
   for (const auto& [id, span] : *spans) ids.push_back(id);
@@ -96,12 +95,14 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
   planned.set.url = source;
   planned.set.info.grid = *grid;
   planned.set.info.body = opened->body;
-  const FileAddress address = opened->tiff.file->address();
+  const std::shared_ptr<RemoteFile> file = opened->tiff.file;
+  if (file->cache() != nullptr) planned.cache = file->cache()->tiles();
+  const std::shared_ptr<RemoteTiff> raster = std::move(opened->raster);
   auto tiff = std::make_shared<PlannedTiff>(
-      PlannedTiff{.opened = *std::move(opened), .figure = warp.figure, .grid = *grid, .address = address, .spans = {}});
+      PlannedTiff{.opened = *std::move(opened), .raster = raster, .figure = warp.figure, .grid = *grid, .spans = {}});
   planned.plan_parts = [tiff](const TilePlan& tiles) { return plan_spans(*tiff, tiles); };
-  planned.make_origin = [tiff, http](ReplyQueue& answers) {
-    return range_origin(tiff->address, http, tiff->spans, answers);
+  planned.make_origin = [tiff, file, http](ReplyQueue& answers) {
+    return range_origin(file->address(), tiff->raster, http, tiff->spans, answers);
   };
   return planned;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "streaming/cache/tile_cache.h"
 #include "streaming/http/http_fetcher.h"
 #include "streaming/preload/tile_origin.h"
 #include "streaming/preload/tile_plan.h"
@@ -21,6 +22,7 @@ struct PreloadSource {
   std::string key;         ///< identifies the source's cache
   bool remote = false;
   std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)> make_origin;
+  std::shared_ptr<TileCache> cache = {};  ///< the cache if it is open already, as that of a TIFF on a server is
   /// For a TIFF on a server: finds the parts of the file that a plan needs; call before make_origin(). Empty: the cache
   /// keeps the plan's tiles themselves.
   std::function<Result<std::shared_ptr<const TilePlan>>(const TilePlan& tiles)> plan_parts = {};

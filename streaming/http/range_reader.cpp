@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 #include <utility>
 
 namespace terrella {
@@ -11,6 +12,15 @@ namespace {
 
 constexpr std::uint64_t kKeptBytes = 16UL << 20;
 constexpr std::chrono::milliseconds kBetweenLooks{100};
+
+bool has_blank_block(std::span<const std::byte> bytes, std::uint64_t block_bytes) {
+  while (!bytes.empty()) {
+    const auto block = bytes.first(std::min<std::size_t>(block_bytes, bytes.size()));
+    if (std::ranges::all_of(block, [](std::byte byte) { return byte == std::byte{0}; })) return true;
+    bytes = bytes.subspan(block.size());
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -46,22 +56,44 @@ void RangeReader::use_store(std::shared_ptr<RangeStore> store, const FileVersion
   version_ = version;
   has_version_ = true;
   offline_ = offline;
-  if (!store_) return;
-  for (const auto& [number, block] : blocks_) {
-    store_->keep({.offset = number * block_bytes_, .length = block_bytes_}, block.bytes);
+}
+
+ByteRange RangeReader::range_of(std::uint64_t number) const {
+  return {.offset = number * block_bytes_, .length = block_bytes_};
+}
+
+void RangeReader::keep_blocks() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [number, block] : blocks_) {
+    if (store_ && !block.kept && !block.doubted) store_->keep(range_of(number), block.bytes);
+    block.kept = true;
+  }
+}
+
+void RangeReader::doubt_blocks() {
+  const std::lock_guard lock(mutex_);
+  if (offline_) return;
+  for (auto& [number, block] : blocks_) {
+    if (store_ && block.kept) store_->doubt(range_of(number));
+    block.doubted = true;
   }
 }
 
 Result<std::vector<std::byte>> RangeReader::read(const ByteRange& range) {
   assert(range.length <= kMaxReadBytes);
-  if (auto known = held(range)) return *std::move(known);
-  const std::lock_guard one(network_);
-  Lock lock(mutex_);
+  if (range.length == 0) return std::vector<std::byte>();
   const std::uint64_t first = range.offset / block_bytes_, last = (range.offset + range.length - 1) / block_bytes_;
+  Lock lock(mutex_);
+  bool known = true;
+  for (std::uint64_t number = first; number <= last; ++number) known = known && !needs_request(number);
+  if (known) return put_together(range);
+  lock.unlock();
+  const std::lock_guard one(network_);
+  lock.lock();
   for (std::uint64_t begin = first; begin <= last; ++begin) {
-    if (find_block(begin)) continue;
+    if (!needs_request(begin)) continue;
     std::uint64_t end = begin;
-    while (end < last && !find_block(end + 1)) ++end;
+    while (end < last && needs_request(end + 1)) ++end;
     if (Status fetched = fetch_blocks(lock, begin, end); !fetched) return fetched.error();
     begin = end;
   }
@@ -84,11 +116,13 @@ std::optional<std::vector<std::byte>> RangeReader::held(const ByteRange& range) 
 bool RangeReader::find_block(std::uint64_t number) {
   if (blocks_.contains(number)) return true;
   if (!store_) return false;
-  auto stored = store_->find({.offset = number * block_bytes_, .length = block_bytes_});
+  auto stored = store_->find(range_of(number));
   if (!stored) return false;
-  blocks_[number] = {.bytes = *std::move(stored), .last_use = ++uses_};
+  blocks_[number] = {.bytes = *std::move(stored), .last_use = ++uses_, .kept = true};
   return true;
 }
+
+bool RangeReader::needs_request(std::uint64_t number) { return !find_block(number) || blocks_.at(number).doubted; }
 
 std::vector<std::byte> RangeReader::put_together(const ByteRange& range) {
   std::vector<std::byte> bytes;
@@ -106,34 +140,37 @@ std::vector<std::byte> RangeReader::put_together(const ByteRange& range) {
   return bytes;
 }
 
-/// Gives up the lock while it waits.
 Status RangeReader::fetch_blocks(Lock& lock, std::uint64_t first, std::uint64_t last) {
   const ByteRange range{.offset = first * block_bytes_, .length = (last - first + 1) * block_bytes_};
   const bool beyond = version_.file_bytes && range.offset >= *version_.file_bytes;
-  std::vector<std::byte> body;
-  if (!beyond) {
-    if (offline_) {
-      return Error{fmt::format("{}: its bytes from {} on are not in the cache; open it once without --offline",
-                               url_.redacted(), range.offset)};
-    }
-    const FileVersion version = version_;
-    lock.unlock();
-    Result<HttpReply> reply = ask(range, version);
-    lock.lock();
-    if (!reply) return reply.error();
-    if (Status accepted = accept(*reply); !accepted) return accepted;
-    body = std::move(reply->body);
-    latest_ = std::move(*reply);
-  }
+  auto body = beyond ? Result<std::vector<std::byte>>(std::vector<std::byte>()) : request(lock, range);
+  if (body && has_blank_block(*body, block_bytes_)) body = request(lock, range);
+  if (!body) return body.error();
   for (std::uint64_t number = first; number <= last; ++number) {
-    const auto from = std::min<std::size_t>((number - first) * block_bytes_, body.size());
-    const auto to = std::min<std::size_t>(from + block_bytes_, body.size());
-    const auto begin = body.begin() + static_cast<std::ptrdiff_t>(from);
-    std::vector<std::byte>& bytes = blocks_[number].bytes;
-    bytes.assign(begin, body.begin() + static_cast<std::ptrdiff_t>(to));
-    if (store_ && !beyond) store_->keep({.offset = number * block_bytes_, .length = block_bytes_}, bytes);
+    const auto from = std::min<std::size_t>((number - first) * block_bytes_, body->size());
+    const auto to = std::min<std::size_t>(from + block_bytes_, body->size());
+    blocks_[number] = {
+        .bytes = {body->begin() + static_cast<std::ptrdiff_t>(from), body->begin() + static_cast<std::ptrdiff_t>(to)},
+        .last_use = uses_,
+        .kept = beyond};
   }
   return Done{};
+}
+
+/// Gives up the lock while it waits.
+Result<std::vector<std::byte>> RangeReader::request(Lock& lock, const ByteRange& range) {
+  if (offline_) {
+    return Error{fmt::format("{}: its bytes from {} on are not in the cache; open it once without --offline",
+                             url_.redacted(), range.offset)};
+  }
+  const FileVersion version = version_;
+  lock.unlock();
+  Result<HttpReply> reply = ask(range, version);
+  lock.lock();
+  if (!reply) return reply.error();
+  if (Status accepted = accept(*reply); !accepted) return accepted.error();
+  latest_ = *std::move(reply);
+  return std::exchange(latest_.body, {});
 }
 
 Status RangeReader::accept(const HttpReply& reply) {

@@ -35,14 +35,17 @@ class RangeStore {
   virtual ~RangeStore() = default;
   [[nodiscard]] virtual std::optional<std::vector<std::byte>> find(const ByteRange& range) = 0;
   virtual void keep(const ByteRange& range, std::vector<std::byte> bytes) = 0;
+  /// Lets later runs ask the server for the range again.
+  virtual void doubt(const ByteRange& range) = 0;
 };
 
 /// The smallest unit that a RangeReader requests, bytes.
 inline constexpr std::uint64_t kRangeBlockBytes = 16384;
 
 /// Reads parts of one file on a server by range requests, in blocks. Missing blocks that are neighbours are one
-/// request. Keeps the latest 16 MiB. A file that changes is an error. Calls of read() wait for the network, one after
-/// the other. thread: any
+/// request. A block of zeros alone is requested twice, because faulty servers send such in place of the file. Keeps
+/// the latest 16 MiB. A file that changes is an error. Calls of read() wait for the network, one after the other.
+/// thread: any
 class RangeReader {
  public:
   /// `go_on` is asked ten times a second while a call waits; false ends the call with an error.
@@ -58,9 +61,14 @@ class RangeReader {
   [[nodiscard]] std::optional<std::vector<std::byte>> held(const ByteRange& range);
   /// Known once a call of read() succeeded.
   [[nodiscard]] FileVersion version() const;
-  /// Takes blocks of `version` from a store from now on, and puts new blocks into the store. With `offline`, a block
-  /// that the store does not have is an error.
+  /// Takes blocks of `version` from a store from now on. With `offline`, a block that the store does not have is an
+  /// error.
   void use_store(std::shared_ptr<RangeStore> store, const FileVersion& version, bool offline);
+  /// Puts the blocks read so far into the store: the caller could make sense of them.
+  void keep_blocks();
+  /// Requests each block read so far again when read() needs it: the caller could make no sense of them. No effect if
+  /// offline.
+  void doubt_blocks();
   /// The answer to the latest request, without its body.
   [[nodiscard]] HttpReply latest_answer() const;
 
@@ -68,11 +76,16 @@ class RangeReader {
   struct Block {
     std::vector<std::byte> bytes;  ///< fewer than a block at the file's end
     std::uint64_t last_use = 0;
+    bool kept = false;     ///< the store has it
+    bool doubted = false;  ///< held() still returns it
   };
   using Lock = std::unique_lock<std::mutex>;
   [[nodiscard]] bool find_block(std::uint64_t number);
+  [[nodiscard]] bool needs_request(std::uint64_t number);
+  [[nodiscard]] ByteRange range_of(std::uint64_t number) const;
   [[nodiscard]] std::vector<std::byte> put_together(const ByteRange& range);
   [[nodiscard]] Status fetch_blocks(Lock& lock, std::uint64_t first, std::uint64_t last);
+  [[nodiscard]] Result<std::vector<std::byte>> request(Lock& lock, const ByteRange& range);
   [[nodiscard]] Status accept(const HttpReply& reply);
   [[nodiscard]] Result<HttpReply> ask(const ByteRange& range, const FileVersion& version);
   void drop_old();

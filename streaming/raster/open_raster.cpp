@@ -112,6 +112,11 @@ class TiffRaster : public TiffSource {
     return part.tiles ? part.tiles->spans(block.x, block.y) : std::vector<ByteSpan>();
   }
 
+  [[nodiscard]] Status check(const TileId& block, const ByteSpan& span, std::span<const std::byte> bytes) override {
+    const RasterPart& part = parts_->parts[static_cast<std::size_t>(block.level)];
+    return part.tiles ? part.tiles->check(block.x, block.y, span, bytes) : Status(Done{});
+  }
+
   [[nodiscard]] std::unique_ptr<TiffSource> over(const std::shared_ptr<const ByteFile>& file) const override {
     auto parts = std::make_shared<TiffParts>(TiffParts{parts_->name, parts_->coding, {}});
     for (const RasterPart& part : parts_->parts) {

@@ -98,6 +98,18 @@ Result<std::vector<ByteSpan>> TiffTileLevel::spans(std::int64_t column, std::int
   return all;
 }
 
+Status TiffTileLevel::check(std::int64_t column, std::int64_t row, const ByteSpan& span,
+                            std::span<const std::byte> bytes) {
+  const auto check_in = [&](TiffReaders& readers, const TiffPicture& of, std::int64_t u, std::int64_t v) -> Status {
+    auto reader = readers.lend();
+    return reader ? check_span(**reader, of, u, v, span, bytes) : Status(reader.error());
+  };
+  if (Status good = check_in(readers_, picture(), column, row); !good) return good;
+  return for_each_mask_tile(column, row, [&](std::int64_t u, std::int64_t v) {
+    return check_in(*mask_readers_, level_.mask->picture, u, v);
+  });
+}
+
 Result<Image> TiffTileLevel::colours(std::int64_t column, std::int64_t row, const ColourConverter& converter) {
   const auto pixels = samples(column, row);
   if (!pixels) return pixels.error();

@@ -25,6 +25,9 @@ class TiffTileLevel {
   [[nodiscard]] Result<double> exact_sample_at(std::int64_t x, std::int64_t y, std::size_t band);
   /// Looks up the bytes of the tile and of its mask. Parts that the file does not store are left out.
   [[nodiscard]] Result<std::vector<ByteSpan>> spans(std::int64_t column, std::int64_t row);
+  /// Decodes one of spans() from its bytes.
+  [[nodiscard]] Status check(std::int64_t column, std::int64_t row, const ByteSpan& span,
+                             std::span<const std::byte> bytes);
 
  private:
   /// Calls `call` for each tile of the mask under the tile, with its column and row, until one fails.

@@ -50,7 +50,28 @@ std::uint64_t most_stored_bytes(const TiffPicture& picture, const TilePart& part
   return 2 * packed + (1U << 20);
 }
 
+/// `bytes` may be changed.
+Status decode_part(TiffReader& reader, const TilePart& part, std::span<std::byte> bytes, std::span<std::uint8_t> to) {
+  reader.clear_message();
+  const int done = TIFFReadFromUserBuffer(reader.get(), part.index, bytes.data(), static_cast<tmsize_t>(bytes.size()),
+                                          to.data(), static_cast<tmsize_t>(to.size()));
+  return done == 1 ? Status(Done{}) : Error{why_not(reader)};
+}
+
 }  // namespace
+
+Status check_span(TiffReader& reader, const TiffPicture& picture, std::int64_t column, std::int64_t row,
+                  const ByteSpan& span, std::span<const std::byte> bytes) {
+  for (const TilePart& part : parts_of(picture, column, row)) {
+    int failed = 0;
+    if (TIFFGetStrileOffsetWithErr(reader.get(), part.index, &failed) != span.offset || failed != 0) continue;
+    std::vector<std::byte> copy(bytes.begin(), bytes.end());
+    std::vector<std::uint8_t> samples(static_cast<std::size_t>(part.rows) *
+                                      picture.packed_bytes(picture.tile_width_px));
+    return decode_part(reader, part, copy, samples);
+  }
+  return Done{};
+}
 
 Result<std::vector<ByteSpan>> tile_spans(TiffReader& reader, const TiffPicture& picture, std::int64_t column,
                                          std::int64_t row) {
@@ -112,12 +133,8 @@ Result<std::vector<std::uint8_t>> decode_tile(TiffReader& reader, const TiffPict
     const std::int64_t wanted = std::min(part.rows, rows - part.first_row);
     if (bytes.empty() || wanted <= 0) continue;
     std::uint8_t* to = samples.data() + static_cast<std::size_t>(part.first_row) * to_row_bytes;
-    reader.clear_message();
-    if (TIFFReadFromUserBuffer(reader.get(), part.index, bytes.data(), static_cast<tmsize_t>(bytes.size()),
-                               direct ? to : packed.data(),
-                               static_cast<tmsize_t>(static_cast<std::size_t>(wanted) * row_bytes)) != 1) {
-      return Error{why_not(reader)};
-    }
+    const std::span<std::uint8_t> into(direct ? to : packed.data(), static_cast<std::size_t>(wanted) * row_bytes);
+    if (Status decoded = decode_part(reader, part, bytes, into); !decoded) return decoded.error();
     for (std::int64_t y = 0; !direct && y < wanted; ++y) {
       place_plane(picture, part.plane, packed.data() + static_cast<std::size_t>(y) * row_bytes, width,
                   to + static_cast<std::size_t>(y) * to_row_bytes);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -27,6 +28,11 @@ struct ByteSpan {
                                                             std::int64_t column, std::int64_t row,
                                                             std::vector<std::vector<std::byte>> pieces,
                                                             std::int64_t rows);
+
+/// Decodes the part of a tile that has this span, from its bytes. No error for a span of another tile. The error does
+/// not name the file. thread: that of the reader
+[[nodiscard]] Status check_span(TiffReader& reader, const TiffPicture& picture, std::int64_t column, std::int64_t row,
+                                const ByteSpan& span, std::span<const std::byte> bytes);
 
 /// Reads a tile from the file and decodes its first `rows` rows. thread: any, several at once
 [[nodiscard]] Result<std::vector<std::uint8_t>> read_tile(TiffReaders& readers, const TiffPicture& picture,

@@ -67,9 +67,18 @@ std::optional<FileVersion> version_in_key(const std::string& key, const Url& url
 
 std::optional<std::vector<std::byte>> RangeCache::bytes_of(const TileId& id) {
   auto found = cache_->find(id);
-  if (!found || !*found || (*found)->missing) return std::nullopt;
+  if (!found || !*found || (*found)->missing || !is_fresh(**found, std::time(nullptr))) return std::nullopt;
   return std::move((*found)->bytes);
 }
+
+/// Only ranges in doubt have an expiry.
+void RangeCache::expire(const TileId& id) {
+  const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
+  cache_->renew(id, now_s, now_s);
+}
+
+void RangeCache::doubt(const ByteRange& block) { expire(id_of(kBlocks, block.offset)); }
+void RangeCache::doubt_span(const ByteRange& span) { expire(span_id(span)); }
 
 std::optional<std::vector<std::byte>> RangeCache::find(const ByteRange& block) {
   auto bytes = bytes_of(id_of(kBlocks, block.offset));

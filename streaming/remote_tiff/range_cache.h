@@ -29,12 +29,14 @@ class RangeCache : public RangeStore {
 
   [[nodiscard]] std::optional<std::vector<std::byte>> find(const ByteRange& block) override;
   void keep(const ByteRange& block, std::vector<std::byte> bytes) override;
+  void doubt(const ByteRange& block) override;
   [[nodiscard]] std::optional<std::vector<std::byte>> find_span(const ByteRange& span);
   void keep_span(const ByteRange& span, std::vector<std::byte> bytes);
+  void doubt_span(const ByteRange& span);  ///< find_span() no longer finds it
 
   /// Name of a span in the cache: by its first byte.
   [[nodiscard]] static TileId span_id(const ByteRange& span);
-  [[nodiscard]] TileCache& tiles() { return *cache_; }
+  [[nodiscard]] const std::shared_ptr<TileCache>& tiles() const { return cache_; }
 
   /// True if the version needs no request until later, by the latest call of set_checked().
   [[nodiscard]] bool is_checked(std::int64_t now_unix_s);
@@ -43,6 +45,7 @@ class RangeCache : public RangeStore {
 
  private:
   [[nodiscard]] std::optional<std::vector<std::byte>> bytes_of(const TileId& id);
+  void expire(const TileId& id);
 
   const std::shared_ptr<TileCache> cache_;
 };

@@ -10,15 +10,19 @@ namespace {
 
 class RangeOrigin : public TileOrigin {
  public:
-  RangeOrigin(const FileAddress& file, const HttpOptions& options, std::shared_ptr<const SpanList> spans,
-              ReplyQueue& answers)
-      : spans_(std::move(spans)), fetcher_(file, options, answers) {}
+  RangeOrigin(const FileAddress& file, std::shared_ptr<RemoteTiff> raster, const HttpOptions& options,
+              std::shared_ptr<const SpanList> spans, ReplyQueue& answers)
+      : raster_(std::move(raster)), spans_(std::move(spans)), fetcher_(file, options, answers) {}
 
-  void ask(TileQuestion question) override { fetcher_.fetch(question.number, spans_->at(question.id), 0.0); }
+  void ask(TileQuestion question) override {
+    const PlannedSpan& span = spans_->at(question.id);
+    fetcher_.fetch(question.number, span.range, 0.0, raster_->check_of(span.block));
+  }
   void withdraw(std::uint64_t number) override { fetcher_.cancel(number); }
   [[nodiscard]] HttpCounts counts() const override { return fetcher_.counts(); }
 
  private:
+  const std::shared_ptr<RemoteTiff> raster_;
   const std::shared_ptr<const SpanList> spans_;
   SpanFetcher fetcher_;
 };
@@ -47,14 +51,15 @@ Result<SpanList> spans_of_tiles(RemoteTiff& raster, const WarpFigure& figure, co
   for (const TileId& block : blocks) {
     const auto found = raster.spans(block);
     if (!found) return Error{found.error().why};
-    for (const ByteRange& span : *found) spans.emplace(RangeCache::span_id(span), span);
+    for (const ByteRange& span : *found) spans.emplace(RangeCache::span_id(span), PlannedSpan{span, block});
   }
   return spans;
 }
 
-std::unique_ptr<TileOrigin> range_origin(const FileAddress& file, const HttpOptions& options,
-                                         std::shared_ptr<const SpanList> spans, ReplyQueue& answers) {
-  return std::make_unique<RangeOrigin>(file, options, std::move(spans), answers);
+std::unique_ptr<TileOrigin> range_origin(const FileAddress& file, std::shared_ptr<RemoteTiff> raster,
+                                         const HttpOptions& options, std::shared_ptr<const SpanList> spans,
+                                         ReplyQueue& answers) {
+  return std::make_unique<RangeOrigin>(file, std::move(raster), options, std::move(spans), answers);
 }
 
 }  // namespace terrella

@@ -147,6 +147,12 @@ std::string RemoteFile::take_fault() {
   return std::exchange(fault_, {});
 }
 
+bool RemoteFile::doubt_directories() {
+  if (offline_ || doubted_.exchange(true)) return false;
+  reader_->doubt_blocks();
+  return true;
+}
+
 void RemoteFile::doubt_version() {
   const auto now_s = static_cast<std::int64_t>(std::time(nullptr));
   if (cache_) cache_->set_checked(now_s, now_s - 1);

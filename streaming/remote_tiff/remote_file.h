@@ -53,6 +53,11 @@ class RemoteFile {
   /// The whole file. Reads wait for the network. take_fault() says why a read ended early.
   [[nodiscard]] std::shared_ptr<const ByteFile> fetching() const { return fetching_; }
   [[nodiscard]] std::string take_fault();  ///< empty: there was none since the last call
+  /// Puts the blocks read so far into the cache: they made sense.
+  void keep_directories() { reader_->keep_blocks(); }
+  /// Lets fetching() and later runs ask the server for the blocks again, because they make no sense. Returns false, and
+  /// does nothing, from the second call on.
+  bool doubt_directories();
   /// Lets the next opening ask the server for the version again.
   void doubt_version();
   /// Ends reads of fetching() that wait, and all later ones that would.
@@ -83,6 +88,7 @@ class RemoteFile {
   const HttpOptions http_;
   const bool offline_;
   const Flag stopped_;
+  std::atomic<bool> doubted_ = false;
   const std::unique_ptr<RangeReader> reader_;
   const std::shared_ptr<RangeCache> cache_;
   const FileAddress address_;

@@ -18,9 +18,14 @@ bool is_tiff_address(const Url& tile_set) {
 
 Result<TiffPyramid> read_remote_pyramid(RemoteFile& file) {
   auto pyramid = read_pyramid(file.fetching());
-  const std::string fault = file.take_fault();
+  std::string fault = file.take_fault();
+  if (!pyramid && fault.empty() && file.doubt_directories()) {
+    pyramid = read_pyramid(file.fetching());
+    fault = file.take_fault();
+  }
   if (!fault.empty()) return Error{fault};
   if (!pyramid) return pyramid;
+  file.keep_directories();
   for (TiffLevel& level : pyramid->levels) {
     static_cast<void>(make_strip_blocks(level.part.picture));
     if (level.mask) static_cast<void>(make_strip_blocks(level.mask->picture));

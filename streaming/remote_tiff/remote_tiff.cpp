@@ -33,6 +33,12 @@ struct Wish {
   std::vector<std::uint64_t> numbers{};  ///< numbers of the spans that are in flight
 };
 
+/// Lets spans that do not decode be requested again. An earlier version, or a fault of the disk, may have put them
+/// there.
+void doubt(RangeCache& cache, const std::vector<FilePiece>& pieces) {
+  for (const FilePiece& piece : pieces) cache.doubt_span({.offset = piece.offset, .length = piece.bytes->size()});
+}
+
 /// The threads of a raster, and the data that they use.
 class RemoteTiffDesk : public RemoteTiles {
  public:
@@ -83,7 +89,9 @@ class RemoteTiffDesk : public RemoteTiles {
   }
 
   [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) {
-    const auto found = tables_->spans(block);
+    auto found = tables_->spans(block);
+    if (!found && file_->doubt_directories()) found = tables_->spans(block);
+    if (found) file_->keep_directories();
     if (!found) {
       std::string fault = file_->take_fault();
       if (!fault.empty()) return TileFailure{MissingKind::failed, std::move(fault)};
@@ -95,6 +103,15 @@ class RemoteTiffDesk : public RemoteTiles {
     std::vector<ByteRange> ranges;
     for (const ByteSpan& span : *found) ranges.push_back({.offset = span.offset, .length = span.size});
     return ranges;
+  }
+
+  /// Bytes that do not decode may be due to a wrong table of tiles.
+  [[nodiscard]] SpanCheck check_of(const TileId& block) {
+    return [this, block](const ByteRange& span, std::span<const std::byte> bytes) {
+      Status good = decoder_->check(block, {.offset = span.offset, .size = span.length}, bytes);
+      if (!good) static_cast<void>(file_->doubt_directories());
+      return good;
+    };
   }
 
   void fetch(const TileId& block, double priority, Done done) override {
@@ -150,7 +167,9 @@ class RemoteTiffDesk : public RemoteTiles {
     const auto lend = [file = file_, pieces = std::move(pieces)](const auto& make) {
       return [file, pieces, make] {
         const RemoteFile::Loan loan(*file, pieces);
-        return make();
+        auto made = make();
+        if (!made && file->cache() != nullptr) doubt(*file->cache(), pieces);
+        return made;
       };
     };
     if (inner->make_picture) tile.make_picture = lend(inner->make_picture);
@@ -210,7 +229,7 @@ class RemoteTiffDesk : public RemoteTiles {
       for (const ByteRange& range : missing) {
         wish->numbers.push_back(++last_number_);
         asked_.emplace(last_number_, Asked{block, range});
-        fetcher_->fetch(last_number_, range, wish->priority);
+        fetcher_->fetch(last_number_, range, wish->priority, check_of(block));
       }
       return;
     }
@@ -233,7 +252,8 @@ class RemoteTiffDesk : public RemoteTiles {
       static_cast<void>(forget(asked.block));
       lock.unlock();
       if (answer.status == 412) file_->doubt_version();
-      return wish->done(TileFailure{MissingKind::failed, std::move(answer.why)});
+      const bool broken = answer.outcome == HttpOutcome::broken;
+      return wish->done(TileFailure{broken ? MissingKind::broken : MissingKind::failed, std::move(answer.why)});
     }
     const auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(answer.body));
     wish->pieces.push_back({asked.range.offset, bytes});
@@ -277,6 +297,7 @@ class RemoteTiffSource : public RemoteTiff {
   [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
     return desk_->spans(block);
   }
+  [[nodiscard]] SpanCheck check_of(const TileId& block) override { return desk_->check_of(block); }
 
  private:
   std::unique_ptr<RemoteTiffDesk> desk_;

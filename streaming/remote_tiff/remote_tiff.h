@@ -23,6 +23,8 @@ class RemoteTiff : public RasterSource {
   /// Looks up the bytes of a block. Waits for the network if its part of the table of tiles is not there. Fails if that
   /// part cannot be had (failed) or is damaged (broken). The reason names the address. thread: any, one at a time
   [[nodiscard]] virtual Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) = 0;
+  /// Returns the check of a block's spans. It must not outlive the raster. thread: any
+  [[nodiscard]] virtual SpanCheck check_of(const TileId& block) = 0;
 };
 
 }  // namespace terrella

@@ -1,8 +1,12 @@
 #include "streaming/remote_tiff/span_fetcher.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <new>
+#include <utility>
 
 namespace terrella {
 namespace {
@@ -14,6 +18,8 @@ constexpr std::uint64_t kMostGapBytes = 4096;
 constexpr std::uint64_t kMostGroupBytes = 1U << 20;
 /// A tile of 64 MiB that grew by its coding.
 constexpr std::size_t kMostSpanBytes = 130UL << 20;
+/// Threads that decode spans to check them.
+constexpr unsigned kMostSplitters = 4;
 
 HttpOptions with_room(HttpOptions options) {
   options.max_response_bytes = std::max(options.max_response_bytes, kMostSpanBytes);
@@ -28,11 +34,15 @@ SpanFetcher::SpanFetcher(FileAddress file, const HttpOptions& options, ReplyQueu
     : file_(std::move(file)),
       most_in_flight_(static_cast<std::size_t>(options.connections_per_host)),
       answers_(answers),
-      fetcher_(with_room(options), raw_),
-      splitter_([this] {
-        while (auto reply = raw_.take()) split(*std::move(reply));
-      }),
-      launcher_([this] { launch_gathered(); }) {}
+      fetcher_(with_room(options), raw_) {
+  const unsigned splitters = std::clamp(std::thread::hardware_concurrency(), 1U, kMostSplitters);
+  for (unsigned i = 0; i < splitters; ++i) {
+    splitters_.emplace_back([this] {
+      while (auto reply = raw_.take()) split(*std::move(reply));
+    });
+  }
+  launcher_ = std::jthread([this] { launch_gathered(); });
+}
 
 SpanFetcher::~SpanFetcher() {
   {
@@ -43,11 +53,15 @@ SpanFetcher::~SpanFetcher() {
   raw_.close();
 }
 
-void SpanFetcher::fetch(std::uint64_t number, const ByteRange& span, double priority) {
+void SpanFetcher::fetch(std::uint64_t number, const ByteRange& span, double priority, SpanCheck check) {
+  wait(number, {span, priority, std::move(check)});
+}
+
+void SpanFetcher::wait(std::uint64_t number, Span span) {
   {
     const std::lock_guard lock(mutex_);
-    waiting_.insert_or_assign(number, Span{span, priority});
-    places_.emplace(span.offset, number);
+    places_.emplace(span.range.offset, number);
+    waiting_.insert_or_assign(number, std::move(span));
     new_spans_ = true;
   }
   came_.notify_one();
@@ -100,7 +114,7 @@ void SpanFetcher::launch() {
   while (!stopping_ && groups_.size() < most_in_flight_ && !places_.empty()) {
     const std::uint64_t number = ++last_group_;
     const Group& group = groups_.emplace(number, take_group(most_wanted())).first->second;
-    for (const auto& [span, range] : group.spans) group_of_.emplace(span, number);
+    for (const auto& [span, asked] : group.spans) group_of_.emplace(span, number);
     submit(number, group);
   }
 }
@@ -128,7 +142,7 @@ SpanFetcher::Group SpanFetcher::take_group(Place first) {
     group.range = {.offset = next.offset, .length = whole_end - next.offset};
   }
   for (auto place = begin; place != end; ++place) {
-    group.spans.emplace(place->second, waiting_.extract(place->second).mapped().range);
+    group.spans.emplace(place->second, std::move(waiting_.extract(place->second).mapped()));
   }
   places_.erase(begin, end);
   return group;
@@ -156,23 +170,42 @@ void SpanFetcher::split(HttpReply&& reply) {
     const auto found = groups_.extract(reply.id);
     if (found.empty()) return;
     group = std::move(found.mapped());
-    for (const auto& [span, range] : group.spans) group_of_.erase(span);
+    for (const auto& [number, span] : group.spans) group_of_.erase(number);
     launch();
   }
   const std::vector<std::byte> body = std::move(reply.body);
-  for (const auto& [number, range] : group.spans) {
+  for (auto& [number, span] : group.spans) {
     HttpReply part = reply;
     part.id = number;
-    const std::uint64_t from = range.offset - group.range.offset;
-    if (part.outcome == HttpOutcome::content && !is_within({from, range.length}, body.size())) {
-      part.outcome = HttpOutcome::refused;
-      part.why = file_.url.redacted() + ": the file ends within a tile; it is truncated, get it again";
+    if (part.outcome == HttpOutcome::content) cut_out(part, group, span, body);
+    if (part.outcome == HttpOutcome::broken && !std::exchange(span.again, true)) {
+      wait(number, std::move(span));
+    } else {
+      answers_.push(std::move(part));
     }
-    if (part.outcome == HttpOutcome::content) {
-      const auto begin = body.begin() + static_cast<std::ptrdiff_t>(from);
-      part.body.assign(begin, begin + static_cast<std::ptrdiff_t>(range.length));
+  }
+}
+
+/// Gives an answer the bytes of a span, or says why it has none.
+void SpanFetcher::cut_out(HttpReply& part, const Group& group, const Span& span,
+                          std::span<const std::byte> body) const {
+  const ByteRange within{span.range.offset - group.range.offset, span.range.length};
+  if (!is_within(within, body.size())) {
+    part.outcome = HttpOutcome::refused;
+    part.why = file_.url.redacted() + ": the file ends within a tile; it is truncated, get it again";
+    return;
+  }
+  const auto bytes = body.subspan(within.offset, within.length);
+  try {
+    if (Status good = span.check(span.range, bytes); !good) {
+      part.outcome = HttpOutcome::broken;
+      part.why = fmt::format("{}: bytes of a tile do not decode: {}", file_.url.redacted(), good.error().message);
+      return;
     }
-    answers_.push(std::move(part));
+    part.body.assign(bytes.begin(), bytes.end());
+  } catch (const std::bad_alloc&) {
+    part.outcome = HttpOutcome::failed;
+    part.why = file_.url.redacted() + ": there is not enough memory to decode a tile";
   }
 }
 

@@ -2,10 +2,12 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <unordered_map>
@@ -27,9 +29,13 @@ struct FileAddress {
   FileVersion version;
 };
 
+/// Says why the bytes of a span do not decode. Comes from the one who knows the coding. thread: one of the fetcher's
+using SpanCheck = std::function<Status(const ByteRange& span, std::span<const std::byte> bytes)>;
+
 /// Fetches spans of one file, neighbours by one request. Waiting spans whose bytes touch, or nearly do, go together, up
-/// to 1 MiB. Each span gets an answer of its own: its bytes, or why there are none. An answer of another version of the
-/// file is `refused` with the status 412. Answers go to a queue that outlives the fetcher. thread: any
+/// to 1 MiB. Each span gets an answer of its own: its bytes, or why there are none. A span that does not decode is
+/// requested once more; if it does not decode again, its answer is `broken`. An answer of another version of the file
+/// is `refused` with the status 412. Answers go to a queue that outlives the fetcher. thread: any
 class SpanFetcher {
  public:
   SpanFetcher(FileAddress file, const HttpOptions& options, ReplyQueue& answers);
@@ -38,7 +44,7 @@ class SpanFetcher {
   SpanFetcher& operator=(const SpanFetcher&) = delete;
 
   /// `number` names the answer (HttpReply::id); unique among spans without an answer. The span has at least one byte.
-  void fetch(std::uint64_t number, const ByteRange& span, double priority);
+  void fetch(std::uint64_t number, const ByteRange& span, double priority, SpanCheck check);
   void set_priority(std::uint64_t number, double priority);
   void cancel(std::uint64_t number);
   [[nodiscard]] HttpCounts counts() const;
@@ -48,10 +54,12 @@ class SpanFetcher {
   struct Span {
     ByteRange range;
     double priority = 0.0;
+    SpanCheck check;
+    bool again = false;  ///< it came once and did not decode
   };
   struct Group {
     ByteRange range;
-    std::map<std::uint64_t, ByteRange> spans;  ///< by number
+    std::map<std::uint64_t, Span> spans;  ///< by number
   };
   using Place = std::set<std::pair<std::uint64_t, std::uint64_t>>::iterator;
 
@@ -60,7 +68,9 @@ class SpanFetcher {
   [[nodiscard]] Place most_wanted() const;
   [[nodiscard]] Group take_group(Place first);
   void submit(std::uint64_t number, const Group& group);
+  void wait(std::uint64_t number, Span span);
   void split(HttpReply&& reply);
+  void cut_out(HttpReply& part, const Group& group, const Span& span, std::span<const std::byte> body) const;
 
   const FileAddress file_;
   const std::size_t most_in_flight_;
@@ -76,7 +86,8 @@ class SpanFetcher {
   std::uint64_t last_group_ = 0;
   ReplyQueue raw_;
   HttpFetcher fetcher_;
-  std::jthread splitter_, launcher_;  ///< last: use the rest
+  std::vector<std::jthread> splitters_;  ///< last, with the launcher: use the rest
+  std::jthread launcher_;
 };
 
 }  // namespace terrella

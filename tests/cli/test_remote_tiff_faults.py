@@ -1,14 +1,94 @@
 """A TIFF on a server that is damaged, hostile or cannot be read by parts, and servers that answer with something else."""
 
+import sqlite3
 import struct
 import unittest
 
 from georeferenced import gdal, make
-from program import DONE_IN_PART, FAILED
-from range_server import range_server
+from program import DONE, DONE_IN_PART, FAILED
+from range_server import RangeServer, range_server
 from test_remote_tiff import PLANET, VIEW, RemoteTiffTest
 
 CLOSE = "40,10,3000"  # shows pixels of the finest level
+
+
+class SpoiledTest(RemoteTiffTest):
+    """Answers with the right ranges, length and entity tag, and wrong bytes."""
+
+    AREA = ("--bbox", "5,30,50,60")
+    SPOILS = {"zeros": lambda body: bytes(len(body)), "shifted": lambda body: bytes(3) + body[:-3]}
+
+    def preload(self, url):
+        return self.run_program("preload", url, *self.AREA, "-o", "c.gpkg")
+
+    def assert_well(self, url, data, about):
+        """The server is well again: what was spoiled is asked for again, and the cache has bytes of the file alone."""
+        done = self.preload(url)
+        self.assertEqual(done.returncode, DONE, f"{about}: {done.stderr}")
+        with sqlite3.connect(self.folder / "c.gpkg") as base:
+            rows = base.execute("SELECT tile_column, tile_row, tile_data FROM tiles WHERE tile_column >= 0").fetchall()
+        base.close()
+        self.assertGreater(len(rows), 10)
+        for high, low, stored in rows:
+            at = (high << 32) + low
+            self.assertEqual(stored, data[at:at + len(stored)], f"{about}: bytes from {at} on")
+
+    def spoil_each(self, data, spoils):
+        """Each request of a run in turn is answered wrongly, once, or until the run ends."""
+        with range_server(data, name="a.tif") as (url, server):
+            self.assertEqual(self.preload(url).returncode, DONE)
+            requests = server.count
+            cases = [(n, name, last) for n in range(1, requests + 1) for name in spoils for last in (n, 1 << 30)]
+            for number, name, last in cases:
+                (self.folder / "c.gpkg").unlink()
+                server.count = 0
+                server.spoil = staticmethod(lambda nth, _, body, s=self.SPOILS[name], n=number, end=last:
+                                            s(body) if n <= nth <= end else body)
+                done = self.preload(url)
+                server.spoil = staticmethod(RangeServer.spoil)
+                about = f"{name}, request {number} of {requests} to {last}: {done.stdout}{done.stderr}"
+                self.assertIn(done.returncode, (DONE,) if last == number else (FAILED, DONE_IN_PART), about)
+                if last > number:
+                    self.assertRegex(about, "a.tif: |do not decode")
+                self.assert_well(url, data, about)
+            (self.folder / "c.gpkg").unlink()
+        return requests
+
+    def test_no_answer_spoils_the_cache(self):
+        for coding in "DEFLATE", "JPEG", "LZW":
+            with self.subTest(coding):
+                self.spoil_each(self.planet("-co", f"COMPRESS={coding}", width=1024), self.SPOILS if coding == "LZW" else ["zeros"])
+
+    def test_no_answer_spoils_directories_at_the_end(self):
+        """The overviews' directories and tables of tiles are not in the first block."""
+        make(self.folder / "a.tif", 1024, 512, *PLANET, "-co", "TILED=YES", "-co", "COMPRESS=LZW", "-co", "BLOCKXSIZE=128",
+             "-co", "BLOCKYSIZE=128")
+        gdal("gdaladdo", "-q", self.folder / "a.tif", 2, 4)
+        data = (self.folder / "a.tif").read_bytes()
+        self.assertGreaterEqual(self.spoil_each(data, ["zeros"]), 3)
+
+    def test_a_picture_is_whole_once_the_server_is_well(self):
+        """`render` fails while all tiles come as zeros, and not later."""
+        with range_server(self.planet("-co", "COMPRESS=DEFLATE"), name="a.tif") as (url, server):
+            truth = self.pixels(url, "--cache", "off", camera=CLOSE)
+            server.spoil = staticmethod(lambda _, first, body: body if first == 0 else bytes(len(body)))
+            bad = self.run_program("render", url, "-o", "x.png", *VIEW, "--camera", CLOSE, "--cache", "c.gpkg")
+            self.assertIn(bad.returncode, (FAILED, DONE_IN_PART), bad.stderr)
+            server.spoil = staticmethod(RangeServer.spoil)
+            self.assertEqual(self.pixels(url, "--cache", "c.gpkg", camera=CLOSE), truth)
+
+    def test_spans_that_are_spoiled_in_the_cache_are_asked_for_again(self):
+        with range_server(self.planet("-co", "COMPRESS=DEFLATE"), name="a.tif") as (url, _):
+            truth = self.pixels(url, "--cache", "c.gpkg", camera=CLOSE)
+            with sqlite3.connect(self.folder / "c.gpkg") as base:
+                base.execute("UPDATE tiles SET tile_data = zeroblob(length(tile_data)) WHERE zoom_level = 1")
+            base.close()
+            # A run asks for the spans that the run before met.
+            codes = [self.run_program("render", url, "-o", "x.png", *VIEW, "--camera", CLOSE, "--cache", "c.gpkg").returncode
+                     for _ in range(8)]
+            self.assertIn(codes[0], (FAILED, DONE_IN_PART))
+            self.assertEqual(codes[-1], DONE, codes)
+            self.assertEqual((self.folder / "x.png").read_bytes(), truth)
 
 
 class RefusedTest(RemoteTiffTest):
@@ -90,7 +170,7 @@ class RefusedTest(RemoteTiffTest):
             "offsets beyond the end": (changed(*(("<I", offsets + 4 * n, 0xFFFFFF00) for n in range(count))),
                                        "beyond the end"),
             "2^31 tiles": (self.two_to_the_31_tiles(), "table of tiles"),
-            "one tile's bytes for all": (changed(*(("<I", offsets + 4 * n, 8) for n in range(count))), "cannot be read"),
+            "one tile's bytes for all": (changed(*(("<I", offsets + 4 * n, 8) for n in range(count))), "do not decode"),
         }
         for name, (data, says) in cases.items():
             with self.subTest(name), range_server(data, name="a.tif") as (url, _):

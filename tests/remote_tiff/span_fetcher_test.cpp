@@ -4,12 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <map>
+#include <span>
 
 #include "served_folder.h"
 
 namespace terrella::test {
 namespace {
+
+Status any_bytes(const ByteRange&, std::span<const std::byte>) { return Done{}; }
 
 class SpanFetcherTest : public testing::Test {
  protected:
@@ -43,8 +47,8 @@ class SpanFetcherTest : public testing::Test {
 TEST_F(SpanFetcherTest, NeighboursAreOneRequest) {
   SpanFetcher fetcher(address(), quick_options(), answers_);
   // Nine spans with 8 bytes between them, and one far away.
-  for (std::uint64_t i = 0; i < 9; ++i) fetcher.fetch(i, {1000 + i * 508, 500}, static_cast<double>(i));
-  fetcher.fetch(9, {2'000'000, 700}, 5.0);
+  for (std::uint64_t i = 0; i < 9; ++i) fetcher.fetch(i, {1000 + i * 508, 500}, static_cast<double>(i), any_bytes);
+  fetcher.fetch(9, {2'000'000, 700}, 5.0, any_bytes);
   const auto taken = take(answers_, 10);
   for (std::uint64_t i = 0; i < 9; ++i) expect_text(taken.at(i), 1000 + i * 508, 500);
   expect_text(taken.at(9), 2'000'000, 700);
@@ -54,14 +58,14 @@ TEST_F(SpanFetcherTest, NeighboursAreOneRequest) {
 TEST_F(SpanFetcherTest, OverlappingAndEqualSpansGetTheirOwnBytes) {
   SpanFetcher fetcher(address(), quick_options(), answers_);
   const std::vector<ByteRange> spans = {{100, 1000}, {600, 100}, {600, 100}, {50, 3000}, {0, 10}};
-  for (std::size_t i = 0; i < spans.size(); ++i) fetcher.fetch(i, spans[i], 0.0);
+  for (std::size_t i = 0; i < spans.size(); ++i) fetcher.fetch(i, spans[i], 0.0, any_bytes);
   const auto taken = take(answers_, spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) expect_text(taken.at(i), spans[i].offset, spans[i].length);
 }
 
 TEST_F(SpanFetcherTest, AGroupHasAtMostOneMebibyte) {
   SpanFetcher fetcher(address(), quick_options(), answers_);
-  for (std::uint64_t i = 0; i < 6; ++i) fetcher.fetch(i, {i * 400'000, 400'000}, 0.0);
+  for (std::uint64_t i = 0; i < 6; ++i) fetcher.fetch(i, {i * 400'000, 400'000}, 0.0, any_bytes);
   const auto taken = take(answers_, 6);
   for (std::uint64_t i = 0; i < 6; ++i) expect_text(taken.at(i), i * 400'000, 400'000);
   EXPECT_EQ(served_.requests(3), 3U);
@@ -69,19 +73,39 @@ TEST_F(SpanFetcherTest, AGroupHasAtMostOneMebibyte) {
 
 TEST_F(SpanFetcherTest, TheFileMayEndTooEarly) {
   SpanFetcher fetcher(address(), quick_options(), answers_);
-  fetcher.fetch(1, {text_.size() - 100, 200}, 0.0);
-  fetcher.fetch(2, {text_.size() - 300, 100}, 0.0);
+  fetcher.fetch(1, {text_.size() - 100, 200}, 0.0, any_bytes);
+  fetcher.fetch(2, {text_.size() - 300, 100}, 0.0, any_bytes);
   const auto taken = take(answers_, 2);
   expect_text(taken.at(2), text_.size() - 300, 100);
   EXPECT_EQ(taken.at(1).outcome, HttpOutcome::refused);
   EXPECT_NE(taken.at(1).why.find("truncated"), std::string::npos) << taken.at(1).why;
 }
 
+TEST_F(SpanFetcherTest, ASpanThatDoesNotDecodeIsRequestedOnceMore) {
+  SpanFetcher fetcher(address(), quick_options(), answers_);
+  std::atomic<int> looks = 0;
+  const auto bad = [&looks](int times) {
+    return [&looks, times](const ByteRange&, std::span<const std::byte>) {
+      return ++looks <= times ? Status(Error{"not so"}) : Status(Done{});
+    };
+  };
+  fetcher.fetch(1, {1000, 500}, 0.0, bad(1));
+  expect_text(take(answers_, 1).at(1), 1000, 500);
+  EXPECT_EQ(looks, 2);
+  fetcher.fetch(2, {1000, 500}, 0.0, bad(100));
+  const HttpReply broken = take(answers_, 1).at(2);
+  EXPECT_EQ(broken.outcome, HttpOutcome::broken);
+  EXPECT_NE(broken.why.find("file.bin: bytes of a tile do not decode: not so"), std::string::npos) << broken.why;
+  EXPECT_TRUE(broken.body.empty());
+  EXPECT_EQ(looks, 4);
+  EXPECT_EQ(served_.requests(4), 4U);
+}
+
 TEST_F(SpanFetcherTest, AnotherVersionIsRefused) {
   FileAddress other = address();
   other.version.etag = "\"another\"";
   SpanFetcher fetcher(other, quick_options(), answers_);
-  fetcher.fetch(1, {0, 10}, 0.0);
+  fetcher.fetch(1, {0, 10}, 0.0, any_bytes);
   const auto taken = take(answers_, 1);
   EXPECT_EQ(taken.at(1).outcome, HttpOutcome::refused);
   EXPECT_EQ(taken.at(1).status, 412);
@@ -90,10 +114,10 @@ TEST_F(SpanFetcherTest, AnotherVersionIsRefused) {
 
 TEST_F(SpanFetcherTest, ACancelledSpanIsNotAnswered) {
   SpanFetcher fetcher(address(), quick_options(), answers_);
-  fetcher.fetch(1, {0, 10}, 0.0);
-  fetcher.fetch(2, {20, 10}, 0.0);
+  fetcher.fetch(1, {0, 10}, 0.0, any_bytes);
+  fetcher.fetch(2, {20, 10}, 0.0, any_bytes);
   fetcher.cancel(1);
-  fetcher.fetch(3, {500'000, 10}, -1.0);
+  fetcher.fetch(3, {500'000, 10}, -1.0, any_bytes);
   const auto taken = take(answers_, 2);
   EXPECT_TRUE(taken.contains(2) && taken.contains(3));
 }
