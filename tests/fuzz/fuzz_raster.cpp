@@ -1,34 +1,11 @@
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <string>
 
 #include "streaming/raster/open_raster.h"
+#include "tests/fuzz/memory_file.h"
 
 namespace {
-
-/// open_raster() takes files; this one is only in memory.
-class MemoryFile {
- public:
-  MemoryFile(const std::uint8_t* data, std::size_t size) : file_(memfd_create("raster", 0)) {
-    while (size > 0) {
-      const ssize_t written = write(file_, data, size);
-      if (written <= 0) break;
-      data += written;
-      size -= static_cast<std::size_t>(written);
-    }
-  }
-  ~MemoryFile() { close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  int file_;
-};
 
 /// Reads the first and the last block of a level. A header can claim a picture of terabytes: enough is read to pass
 /// every stage.
@@ -52,7 +29,7 @@ void read_some(terrella::RasterSource& source, std::size_t index) {
 
 /// Whatever the directories and tiles are, a TIFF gives blocks or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const MemoryFile file(data, size);
+  const terrella::test::MemoryFile file(data, size);
   for (const bool heights : {false, true}) {
     terrella::RasterOptions options;
     options.heights = heights;
