@@ -13,8 +13,8 @@
 #include "apps/bench/polar_methods.h"
 #include "apps/bench/polar_views.h"
 #include "apps/bench/shots.h"
+#include "apps/bench/test_planet.h"
 #include "apps/bench/truth/masked_error.h"
-#include "apps/bench/work_folder.h"
 #include "geo/body.h"
 #include "globe/experiments.h"
 

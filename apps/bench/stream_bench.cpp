@@ -12,8 +12,8 @@
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/shots.h"
 #include "apps/bench/sources/counting_source.h"
+#include "apps/bench/test_planet.h"
 #include "apps/bench/truth/masked_error.h"
-#include "apps/bench/work_folder.h"
 #include "geo/body.h"
 #include "streaming/sets/open_tile_set.h"
 

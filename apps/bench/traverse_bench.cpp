@@ -14,7 +14,7 @@
 #include "apps/bench/shots.h"
 #include "apps/bench/sources/counting_source.h"
 #include "apps/bench/sources/endless_source.h"
-#include "apps/commands/flight_tiles.h"
+#include "apps/preload/flight_tiles.h"
 #include "apps/setup/data_dir.h"
 #include "geo/body.h"
 

@@ -11,8 +11,8 @@
 #include "apps/bench/polar_methods.h"
 #include "apps/bench/polar_views.h"
 #include "apps/bench/shots.h"
+#include "apps/bench/test_planet.h"
 #include "apps/bench/truth/judge.h"
-#include "apps/bench/work_folder.h"
 #include "geo/body.h"
 
 namespace terrella::bench {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/option_checks.h"
 #include "apps/program/commands.h"
 #include "apps/scene/number_options.h"
+#include "apps/scene/option_checks.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_remote_tiff.h"

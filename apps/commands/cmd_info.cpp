@@ -9,11 +9,11 @@
 #include <memory>
 #include <string>
 
-#include "apps/commands/option_checks.h"
 #include "apps/commands/picture_report.h"
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/verify_tiles.h"
 #include "apps/program/commands.h"
+#include "apps/scene/option_checks.h"
 #include "apps/scene/place_options.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/commands/missing_report.h"
+#include "apps/preload/missing_report.h"
 #include "apps/preload/preload_options.h"
 #include "apps/preload/preload_plan.h"
 #include "apps/preload/preload_progress.h"

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/commands/option_checks.h"
 #include "apps/program/commands.h"
 #include "apps/program/scene_picture.h"
+#include "apps/scene/option_checks.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_rasters.h"
 #include "apps/setup/stop_signals.h"

@@ -10,6 +10,7 @@
 
 #include "apps/commands/raster_facts.h"
 #include "apps/program/commands.h"
+#include "apps/scene/eye_place.h"
 #include "apps/scene/opened_rasters.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
@@ -17,7 +18,6 @@
 #include "apps/scene/scene_options.h"
 #include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
-#include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/viewer/tools/map_data.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "apps/commands/option_checks.h"
-#include "apps/commands/remote_set_options.h"
+#include "apps/scene/option_checks.h"
+#include "apps/scene/remote_set_options.h"
 #include "base/number.h"
 #include "tiles/tile_grid.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "apps/commands/flight_tiles.h"
+#include "apps/preload/flight_tiles.h"
 #include "geo/body.h"
 #include "streaming/preload/geojson_region.h"
 #include "streaming/warp/web_mercator.h"

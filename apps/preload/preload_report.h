@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/missing_report.h"
+#include "apps/preload/missing_report.h"
 #include "streaming/preload/preloader.h"
 #include "streaming/preload/sample_size.h"
 #include "streaming/preload/tile_plan.h"

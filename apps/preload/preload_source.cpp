@@ -1,17 +1,14 @@
 #include "apps/preload/preload_source.h"
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <utility>
 
+#include "apps/setup/fetch_description.h"
 #include "apps/setup/open_remote_tiff.h"
 #include "apps/setup/stop_signals.h"
 #include "geo/body.h"
-#include "streaming/http/reply_queue.h"
 #include "streaming/numbers/sample_tiles.h"
 #include "streaming/remote/describe_remote.h"
-#include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote_tiff/range_plan.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/warp/warp_source.h"
@@ -113,41 +110,6 @@ Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions
                                           const PreloadTiff& tiff) {
   if (is_remote(source) && leads_to_tiff(source, remote.headers, http)) return open_tiff(source, remote, http, tiff);
   return is_remote(source) ? open_remote(source, remote, http) : open_on_disk(source, http.connections_per_host);
-}
-
-Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
-  if (is_pmtiles_address(source)) {
-    RangeReader reader(source, remote.headers, http, [] { return !StopSignals::came(); });
-    return describe_remote_pmtiles(source, remote, reader);
-  }
-  return describe_remote(source, remote, [&](const Url& url, const std::vector<std::string>& headers) {
-    return fetch_document(http, url, headers);
-  });
-}
-
-HttpOptions within_limits(HttpOptions http, const RemoteTileSet& set) {
-  if (set.timeout) http.total_timeout = std::min<std::chrono::milliseconds>(http.total_timeout, *set.timeout);
-  if (set.connections > 0) http.connections_per_host = std::min(http.connections_per_host, set.connections);
-  return http;
-}
-
-Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
-                                              const std::vector<std::string>& headers) {
-  ReplyQueue replies;
-  HttpFetcher fetcher(http, replies);
-  HttpRequest request;
-  request.url = url;
-  request.headers = headers;
-  fetcher.submit(std::move(request));
-  constexpr std::chrono::milliseconds kBetweenLooks{100};
-  std::vector<HttpReply> answer;
-  while (answer.empty()) {
-    if (StopSignals::came()) return Error{"stopped before it answered"};
-    answer = replies.take_all(kBetweenLooks);
-  }
-  HttpReply& reply = answer.front();
-  if (reply.outcome != HttpOutcome::content) return Error{reply.why};
-  return std::move(reply.body);
 }
 
 }  // namespace terrella

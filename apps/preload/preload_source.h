@@ -38,14 +38,4 @@ struct PreloadTiff {
 [[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
                                                         const HttpOptions& http, const PreloadTiff& tiff);
 
-/// Fetches the description of a remote set; the headers are in `remote`. The error names the address. thread: any
-[[nodiscard]] Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote,
-                                                      const HttpOptions& http);
-/// Applies the limits that a set's description gives for its server. thread: any
-[[nodiscard]] HttpOptions within_limits(HttpOptions http, const RemoteTileSet& set);
-
-/// Fetches one document and waits for the answer. thread: any
-[[nodiscard]] Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url& url,
-                                                            const std::vector<std::string>& headers);
-
 }  // namespace terrella

@@ -11,12 +11,12 @@
 #include <optional>
 #include <utility>
 
+#include "apps/scene/eye_place.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/scene/scene_objects.h"
 #include "apps/scene/scene_overlays.h"
 #include "apps/setup/console.h"
-#include "apps/setup/eye_place.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/process.h"
 #include "apps/setup/stop_signals.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/commands/option_checks.h"
+#include "apps/scene/option_checks.h"
 #include "apps/scene/scene_numbers.h"
 #include "apps/setup/console.h"
 #include "base/number.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/commands/option_checks.h"
+#include "apps/scene/option_checks.h"
 #include "apps/setup/console.h"
 #include "base/number.h"
 

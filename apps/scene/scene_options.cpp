@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "apps/commands/option_checks.h"
-#include "apps/commands/remote_set_options.h"
+#include "apps/scene/option_checks.h"
 #include "apps/scene/place_options.h"
+#include "apps/scene/remote_set_options.h"
 #include "apps/scene/scene_overlays.h"
 #include "apps/scene/surface_options.h"
 #include "globe/experiments.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/commands/option_checks.h"
+#include "apps/scene/option_checks.h"
 #include "streaming/objects/object_style.h"
 #include "streaming/sets/elevation_json.h"
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/preload/preload_source.h"
 #include "apps/scene/opened_rasters.h"
 #include "apps/setup/console.h"
+#include "apps/setup/fetch_description.h"
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/open_remote_tiff.h"

@@ -37,13 +37,13 @@ class TileFetcher {
     TileId id;
     HttpRequest request;
     int reads = 0;
-    bool again = false;  ///< it came once and did not decode
+    bool again = false;  ///< the tile came once and did not decode
   };
   /// A directory that is requested, and the tiles that wait for it.
   struct Directory {
     ByteRange range;
     std::vector<std::uint64_t> tiles;
-    bool again = false;  ///< it came once and was damaged
+    bool again = false;  ///< the tile came once and was damaged
   };
 
   void start_checking();

@@ -55,7 +55,7 @@ class SpanFetcher {
     ByteRange range;
     double priority = 0.0;
     SpanCheck check;
-    bool again = false;  ///< it came once and did not decode
+    bool again = false;  ///< the span came once and did not decode
   };
   struct Group {
     ByteRange range;

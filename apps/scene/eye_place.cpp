@@ -1,4 +1,4 @@
-#include "apps/setup/eye_place.h"
+#include "apps/scene/eye_place.h"
 
 #include <fmt/format.h>
 

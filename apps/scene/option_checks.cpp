@@ -1,4 +1,4 @@
-#include "apps/commands/option_checks.h"
+#include "apps/scene/option_checks.h"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/commands/flight_tiles.h"
+#include "apps/preload/flight_tiles.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {

@@ -1,6 +1,6 @@
-#include "apps/commands/remote_set_options.h"
+#include "apps/scene/remote_set_options.h"
 
-#include "apps/commands/option_checks.h"
+#include "apps/scene/option_checks.h"
 #include "streaming/http/http_headers.h"
 #include "tiles/tile_grid.h"
 

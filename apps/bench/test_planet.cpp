@@ -1,4 +1,4 @@
-#include "apps/bench/work_folder.h"
+#include "apps/bench/test_planet.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "apps/commands/flight_tiles.h"
+#include "apps/preload/flight_tiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/commands/missing_report.h"
+#include "apps/preload/missing_report.h"
 
 #include <fmt/format.h>
 
