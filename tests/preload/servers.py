@@ -33,6 +33,10 @@ def tile_file(z, x, y):
     return TILES[(z * 31 + x * 7 + y) % len(TILES)]
 
 
+def places(levels):
+    return [(z, x, y) for z in range(levels) for x in range(2 << z) for y in range(1 << z)]
+
+
 def tiles_in(levels):
     return sum(2 << (2 * z) for z in range(levels))
 
