@@ -141,7 +141,7 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
     auto image = decode_image(*bytes, DecodeLimits{});
     return image ? std::optional<Image>(*std::move(image)) : std::nullopt;
   };
-  const auto check = check_grid(fetch, set.info.grid);
+  const auto check = find_mistaken_grid(fetch, set.info.grid);
   if (!check) return Done{};  // a failed fetch proves nothing
   if (check->verdict == GridCheck::Verdict::fits || check->verdict == GridCheck::Verdict::cannot_tell) return Done{};
   return Error{fmt::format("{}: {}", set.info.name, check->advice)};

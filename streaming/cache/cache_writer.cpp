@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "streaming/cache/open_cache.h"
+#include "streaming/cache/cache_database.h"
 #include "streaming/sets/directory_source.h"
 
 namespace terrella {

@@ -11,11 +11,11 @@
 #include <optional>
 #include <string>
 
+#include "streaming/cache/cache_database.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_rows.h"
 #include "streaming/cache/cache_schema.h"
 #include "streaming/cache/merge_part.h"
-#include "streaming/cache/open_cache.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sqlite_reader.h"
 

@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
+#include "streaming/cache/cache_database.h"
 #include "streaming/cache/cache_reader.h"
 #include "streaming/cache/cache_writer.h"
-#include "streaming/cache/open_cache.h"
 #include "streaming/cache/write_queue.h"
 #include "streaming/sets/directory_source.h"
 

@@ -179,7 +179,7 @@ class Checking {
 
 }  // namespace
 
-Result<GridCheck> check_grid(const FetchTileImage& fetch, const TileGrid& grid) {
+Result<GridCheck> find_mistaken_grid(const FetchTileImage& fetch, const TileGrid& grid) {
   return Checking(fetch, grid).check();
 }
 

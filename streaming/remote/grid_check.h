@@ -30,6 +30,6 @@ struct GridCheck {
 /// Compares a tile with the two tiles under half of it, and checks which root tiles exist. Fetches at most eight tiles.
 /// Reports a fault only if the tiles show it clearly; seas of one colour, and sets of a part of the planet, show
 /// nothing. thread: any
-[[nodiscard]] Result<GridCheck> check_grid(const FetchTileImage& fetch, const TileGrid& grid);
+[[nodiscard]] Result<GridCheck> find_mistaken_grid(const FetchTileImage& fetch, const TileGrid& grid);
 
 }  // namespace terrella

@@ -11,7 +11,7 @@ namespace terrella {
 
 /// Describes the tiles beside a geodetic tilemapresource.xml that was fetched from `address`: {folder}/{x}/{y from the
 /// south}. A query of the address goes with each tile. gdal2tiles does not say if there are one or two root tiles;
-/// check_grid() finds out. The error begins with `where`. thread: any
+/// find_mistaken_grid() finds out. The error begins with `where`. thread: any
 [[nodiscard]] Result<RemoteTileSet> parse_remote_tms(std::string_view xml, const Url& address,
                                                      const RemoteOptions& options, const std::string& where);
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "cache/cache_test_support.h"
-#include "streaming/cache/open_cache.h"
+#include "streaming/cache/cache_database.h"
 
 namespace terrella {
 namespace {

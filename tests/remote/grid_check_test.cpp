@@ -72,7 +72,7 @@ GridCheck check(Server& server, double believed_span_deg = 180.0, int max_level 
                 Projection projection = Projection::equirectangular) {
   const TileGrid grid{
       .root_span_deg = believed_span_deg, .tile_px = kTilePx, .max_level = max_level, .projection = projection};
-  const auto result = check_grid(std::ref(server), grid);
+  const auto result = find_mistaken_grid(std::ref(server), grid);
   EXPECT_TRUE(result);
   EXPECT_LE(server.asked, 9);
   EXPECT_EQ(result->advice.empty(), result->verdict == Verdict::fits) << result->advice;
@@ -137,7 +137,7 @@ TEST(GridCheck, SaysNothingOfAPartOrOfOneLevel) {
     if (id.x >= (1LL << id.level)) return std::optional<Image>();
     return west(id);
   };
-  const auto result = check_grid(half, {.tile_px = kTilePx, .max_level = 4});
+  const auto result = find_mistaken_grid(half, {.tile_px = kTilePx, .max_level = 4});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->verdict, Verdict::fits) << result->advice;
 }
@@ -146,14 +146,14 @@ TEST(GridCheck, TilesOfSomethingElseFitNeitherWay) {
   Server here;
   Server there{.planet = {.amplitude = -100.0}};
   const auto mixed = [&](const TileId& id) { return id.level == 0 ? here(id) : there(id); };
-  const auto result = check_grid(mixed, {.tile_px = kTilePx, .max_level = 4});
+  const auto result = find_mistaken_grid(mixed, {.tile_px = kTilePx, .max_level = 4});
   ASSERT_TRUE(result);
   EXPECT_NE(result->verdict, Verdict::fits);
 }
 
 TEST(GridCheck, PassesOnThatItCouldNotAsk) {
   const auto down = [](const TileId&) -> Result<std::optional<Image>> { return Error{"no network"}; };
-  EXPECT_FALSE(check_grid(down, {.max_level = 3}));
+  EXPECT_FALSE(find_mistaken_grid(down, {.max_level = 3}));
 }
 
 }  // namespace

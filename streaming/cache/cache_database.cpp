@@ -1,4 +1,4 @@
-#include "streaming/cache/open_cache.h"
+#include "streaming/cache/cache_database.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
