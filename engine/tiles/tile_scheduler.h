@@ -6,13 +6,11 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
-#include <exception>
 #include <functional>
 #include <future>
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -91,18 +89,6 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   void work(std::size_t worker);
   void look_for(std::unique_lock<std::mutex>& lock, const TileRequest& wish);
   [[nodiscard]] Encoded read(const TileId& id);
-  /// The exception that is being caught, as a failed tile. An exception that left a thread would end the program.
-  [[nodiscard]] static TileFailure caught() {
-    try {
-      throw;
-    } catch (const std::bad_alloc&) {
-      return {MissingKind::failed, "not enough memory"};
-    } catch (const std::exception& error) {
-      return {MissingKind::failed, error.what()};
-    } catch (...) {
-      return {MissingKind::failed, "the tile source threw an exception of its own type"};
-    }
-  }
   void decode(std::unique_lock<std::mutex>& lock, const Arrived& tile);
   [[nodiscard]] Result<Decoded, TileFailure> decoded(const Arrived& tile) const;
   [[nodiscard]] bool may_start() const {

@@ -156,7 +156,7 @@ void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const 
       if (const auto self = loader.lock()) self->arrive({id, std::move(answer), edition});
     });
   } catch (...) {
-    arrive({wish.id, caught(), edition});
+    arrive({wish.id, caught_failure(), edition});
   }
   lock.lock();
 }
@@ -166,7 +166,7 @@ typename TileScheduler<Decoded>::Encoded TileScheduler<Decoded>::read(const Tile
   try {
     return source_->read_or_stop(id, stop_.get_token());
   } catch (...) {
-    return caught();
+    return caught_failure();
   }
 }
 
@@ -191,7 +191,7 @@ Result<Decoded, TileFailure> TileScheduler<Decoded>::decoded(const Arrived& tile
   try {
     return decode_(tile.id, *tile.encoded);
   } catch (...) {
-    return caught();
+    return caught_failure();
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
 
 #include "geo/longitudes.h"
 #include "tiles/height_decoder.h"
@@ -22,6 +24,18 @@ Result<double, TileFailure> value_of(const EncodedTile& tile, const TileSetInfo&
 }
 
 }  // namespace
+
+TileFailure caught_failure() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return {MissingKind::failed, "not enough memory"};
+  } catch (const std::exception& error) {
+    return {MissingKind::failed, error.what()};
+  } catch (...) {
+    return {MissingKind::failed, "the tile source threw an exception of its own type"};
+  }
+}
 
 Result<double, TileFailure> TileSource::value_at(const Geodetic& place, const Ellipsoid& figure) {
   const TileSetInfo& set = info();

@@ -88,6 +88,9 @@ struct TileFailure {
   std::string why;
 };
 
+/// The exception that is being caught, as a failed tile. An exception that left a thread would end the program.
+[[nodiscard]] TileFailure caught_failure();
+
 /// The bytes of one tile as stored, or a function that makes its picture.
 struct EncodedTile {
   std::vector<std::byte> bytes;
@@ -100,7 +103,8 @@ struct EncodedTile {
   std::function<Result<Numbers, TileFailure>()> make_numbers = {};
 };
 
-/// The network side of a source: fetches tiles that read() does not have locally, without blocking. thread: any
+/// The network side of a source: fetches tiles that read() does not have locally, without blocking. Sources have a
+/// RequestDesk for it (request_desk.h). thread: any
 class RemoteTiles {
  public:
   using Done = std::function<void(Result<EncodedTile, TileFailure>)>;

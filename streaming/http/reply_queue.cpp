@@ -1,10 +1,12 @@
 #include "streaming/http/reply_queue.h"
 
+#include <exception>
 #include <utility>
 
 namespace terrella {
 
 void ReplyQueue::push(HttpReply&& reply, Finish finish) {
+  if (taker_) return taker_({std::move(reply), std::move(finish)});
   const std::lock_guard lock(mutex_);
   items_.push_back({std::move(reply), std::move(finish)});
   if (items_.size() >= wake_at_) pushed_.notify_one();
@@ -17,7 +19,7 @@ std::optional<HttpReply> ReplyQueue::take() {
   Item item = std::move(items_.front());
   items_.pop_front();
   lock.unlock();
-  return finished(std::move(item));
+  return std::move(item).finished();
 }
 
 std::vector<HttpReply> ReplyQueue::take_all(std::chrono::milliseconds longest) {
@@ -29,7 +31,7 @@ std::vector<HttpReply> ReplyQueue::take_all(std::chrono::milliseconds longest) {
   }
   std::vector<HttpReply> replies;
   replies.reserve(items.size());
-  for (Item& item : items) replies.push_back(finished(std::move(item)));
+  for (Item& item : items) replies.push_back(std::move(item).finished());
   return replies;
 }
 
@@ -39,9 +41,14 @@ void ReplyQueue::close() {
   pushed_.notify_all();
 }
 
-HttpReply ReplyQueue::finished(Item&& item) {
-  if (item.finish) item.finish(item.reply);
-  return std::move(item.reply);
+HttpReply ReplyQueue::Item::finished() && {
+  try {
+    if (finish) finish(reply);
+  } catch (const std::exception& failed) {
+    reply.outcome = HttpOutcome::failed;
+    reply.why = failed.what();
+  }
+  return std::move(reply);
 }
 
 }  // namespace terrella

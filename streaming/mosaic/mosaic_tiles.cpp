@@ -105,7 +105,7 @@ class Mosaic : public MosaicTiles {
     return !tile && tile.error().kind == MissingKind::blank ? nothing() : std::move(tile);
   }
 
-  [[nodiscard]] RemoteTiles* remote() override { return &overview_; }
+  [[nodiscard]] RemoteTiles* remote() override { return &overview_.remote(); }
 
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
     const double row = row_latitude_deg(info_.grid, figure, Ellipsoid::normal(place.lat, place.lon));

@@ -8,22 +8,9 @@
 #include "streaming/mosaic/sheet_tiles.h"
 
 namespace terrella {
-namespace {
 
-constexpr std::size_t kThreads = 2;
-
-TileFailure stopped() { return {MissingKind::failed, "the overview of the files is not ready"}; }
-
-}  // namespace
-
-Overview::~Overview() {
-  {
-    const std::lock_guard lock(mutex_);
-    closing_ = true;
-  }
-  wake_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
-}
+Overview::Overview(Parts parts)
+    : parts_(std::move(parts)), desk_({.work = [this](const TileWish& wish) { return work(wish); }}) {}
 
 EncodedTile Overview::encoded(std::shared_ptr<const Block> block) const {
   EncodedTile tile;
@@ -45,8 +32,8 @@ Result<EncodedTile, TileFailure> Overview::read(const TileId& id, std::uint64_t 
   return encoded(std::make_shared<const Block>(*std::move(block)));
 }
 
-DecodedBlocks::Decoded Overview::pixels(const TileId& id, const TileId& wish) {
-  if (!is_wanted(wish)) return stopped();
+DecodedBlocks::Decoded Overview::pixels(const TileId& id, std::uint64_t wish) {
+  if (!desk_.is_wanted(wish)) return TileFailure{MissingKind::failed, "the overview of the files is not ready"};
   const OverviewTile tile = parts_.look(id);
   if (tile.is_empty) return TileFailure{MissingKind::blank, {}};
   if (!tile.is_direct) return made_.get(id, [&] { return make(id, tile.mark, wish); });
@@ -56,7 +43,7 @@ DecodedBlocks::Decoded Overview::pixels(const TileId& id, const TileId& wish) {
   return std::make_shared<const Block>(*std::move(decoded));
 }
 
-Result<Block, TileFailure> Overview::make(const TileId& id, std::uint64_t mark, const TileId& wish) {
+Result<Block, TileFailure> Overview::make(const TileId& id, std::uint64_t mark, std::uint64_t wish) {
   const auto bytes = parts_.store != nullptr ? parts_.store->tile(id, mark) : std::nullopt;
   auto kept = bytes ? unpack_pixels(*bytes, parts_.tile_px, parts_.numbers) : Result<Block>(Error{});
   if (kept) return *std::move(kept);
@@ -84,59 +71,11 @@ Result<Block, TileFailure> Overview::make(const TileId& id, std::uint64_t mark, 
   return made;
 }
 
-bool Overview::is_wanted(const TileId& wish) {
-  const std::lock_guard lock(mutex_);
-  return !closing_ && wishes_.contains(wish);
-}
-
-void Overview::work() {
-  std::unique_lock lock(mutex_);
-  while (!closing_) {
-    auto next = wishes_.end();
-    for (auto wish = wishes_.begin(); wish != wishes_.end(); ++wish) {
-      if (!wish->second.in_work && (next == wishes_.end() || wish->second.priority > next->second.priority))
-        next = wish;
-    }
-    if (next == wishes_.end()) {
-      wake_.wait(lock);
-      continue;
-    }
-    const TileId id = next->first;
-    next->second.in_work = true;
-    lock.unlock();
-    auto block = pixels(id, id);
-    Result<EncodedTile, TileFailure> answer =
-        block ? Result<EncodedTile, TileFailure>(encoded(*std::move(block))) : block.error();
-    lock.lock();
-    const auto wish = wishes_.find(id);
-    if (wish == wishes_.end()) continue;
-    const Done done = std::move(wish->second.done);
-    wishes_.erase(wish);
-    lock.unlock();
-    done(std::move(answer));
-    lock.lock();
-  }
-}
-
-void Overview::fetch(const TileId& id, double priority, Done done) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!begun_) parts_.begin();
-    begun_ = true;
-    wishes_[id] = Wish{.priority = priority, .done = std::move(done)};
-    if (threads_.size() < kThreads) threads_.emplace_back([this] { work(); });
-  }
-  wake_.notify_one();
-}
-
-void Overview::set_priority(const TileId& id, double priority) {
-  const std::lock_guard lock(mutex_);
-  if (const auto wish = wishes_.find(id); wish != wishes_.end()) wish->second.priority = priority;
-}
-
-void Overview::cancel(const TileId& id) {
-  const std::lock_guard lock(mutex_);
-  wishes_.erase(id);
+Result<EncodedTile, TileFailure> Overview::work(const TileWish& wish) {
+  std::call_once(begun_, parts_.begin);
+  auto block = pixels(wish.id, wish.number);
+  if (!block) return block.error();
+  return encoded(*std::move(block));
 }
 
 }  // namespace terrella

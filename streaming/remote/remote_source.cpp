@@ -4,15 +4,12 @@
 
 #include <ctime>
 #include <mutex>
-#include <system_error>
-#include <thread>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "streaming/http/reply_queue.h"
 #include "streaming/remote/tile_fetcher.h"
-#include "tiles/late_workers.h"
+#include "tiles/request_desk.h"
 
 namespace terrella {
 namespace {
@@ -21,8 +18,6 @@ using std::chrono::seconds;
 
 constexpr seconds kTileLife{7 * 24 * 3600};
 constexpr seconds kMissingLife{24 * 3600};
-// Threads that check replies, store them in the cache and answer requests. If one waits for a disk, the other goes on.
-constexpr int kAnswerers = 2;
 
 std::int64_t unix_now_s() { return static_cast<std::int64_t>(std::time(nullptr)); }
 
@@ -33,122 +28,89 @@ Encoded tile_of(CacheRecord&& record) {
   return EncodedTile{std::move(record.bytes)};
 }
 
-/// The threads of a source, and the data that they use.
-class RemoteDesk : public RemoteTiles {
+class RemoteSource : public TileSource {
  public:
-  RemoteDesk(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
-      : set_(std::move(set)), cache_(std::move(cache)), fetcher_(set_, options, replies_) {
-    start_answering();
-  }
-  ~RemoteDesk() override { replies_.close(); }
-  RemoteDesk(const RemoteDesk&) = delete;
-  RemoteDesk& operator=(const RemoteDesk&) = delete;
+  RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
+      : set_(std::move(set)),
+        cache_(std::move(cache)),
+        desk_({.work = [this](const TileWish& wish) { return work(wish); },
+               .moved = [this](const TileWish& wish) { fetcher_.set_priority(wish.number, wish.priority); },
+               .ended = [this](const TileWish& wish, bool is_answered) { forget(wish.number, is_answered); }}),
+        replies_([this](ReplyQueue::Item&& reply) { keep(std::move(reply)); }),
+        fetcher_(set_, options, replies_) {}
+  ~RemoteSource() override { desk_.close(); }
+  RemoteSource(const RemoteSource&) = delete;
+  RemoteSource& operator=(const RemoteSource&) = delete;
 
-  [[nodiscard]] const TileSetInfo& info() const { return set_.info; }
-  [[nodiscard]] const std::vector<std::jthread>& threads() const { return answerers_; }
+  [[nodiscard]] const TileSetInfo& info() const override { return set_.info; }
+  [[nodiscard]] RemoteTiles* remote() override { return &desk_; }
 
-  [[nodiscard]] Encoded read(const TileId& id) {
+  [[nodiscard]] Encoded read(const TileId& id) override {
     if (!exists(set_.info.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
     std::optional<CacheRecord> record = cached(id);
     if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
     return TileFailure{MissingKind::remote, {}};
   }
 
-  void fetch(const TileId& id, double priority, Done done) override {
-    HttpRequest request;
-    request.priority = priority;
-    if (cache_ != nullptr) {
-      if (const auto known = cache_->peek(id); known && *known) {
-        request.etag = (*known)->etag;
-        request.last_modified = (*known)->last_modified;
-      }
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      request.id = ++last_number_;
-      numbers_.insert_or_assign(id, request.id);
-      asked_.emplace(request.id, Asked{id, std::move(done)});
-    }
-    fetcher_.fetch(id, std::move(request));
-  }
-
-  void set_priority(const TileId& id, double priority) override {
-    if (const std::uint64_t number = number_of(id); number != 0) fetcher_.set_priority(number, priority);
-  }
-
-  void cancel(const TileId& id) override {
-    const std::uint64_t number = number_of(id);
-    if (number == 0) return;
-    forget(number);
-    fetcher_.cancel(number);
-  }
-
  private:
-  struct Asked {
-    TileId id;
-    Done done;
-  };
-
   [[nodiscard]] std::optional<CacheRecord> cached(const TileId& id) {
     if (cache_ == nullptr) return std::nullopt;
     auto found = cache_->find(id);
     return found ? *std::move(found) : std::nullopt;
   }
 
-  [[nodiscard]] std::uint64_t number_of(const TileId& id) {
-    const std::lock_guard lock(mutex_);
-    const auto number = numbers_.find(id);
-    return number == numbers_.end() ? 0 : number->second;
+  // thread: the desk's ------------------------------------------------------------------------------------------------
+
+  /// Asks the server, and answers once its reply is there. The cache may be slow.
+  std::optional<Encoded> work(const TileWish& wish) {
+    if (wish.is_new) {
+      ask(wish);
+      return std::nullopt;
+    }
+    std::optional<ReplyQueue::Item> reply;
+    {
+      const std::lock_guard lock(mutex_);
+      reply.swap(asked_.at(wish.number));
+    }
+    if (!reply) return std::nullopt;
+    return answer(wish.id, std::move(*reply).finished());
   }
 
-  std::optional<Asked> forget(std::uint64_t number) {
-    const std::lock_guard lock(mutex_);
-    auto asked = asked_.extract(number);
-    if (asked.empty()) return std::nullopt;
-    // Another request for the same tile may have followed.
-    const auto latest = numbers_.find(asked.mapped().id);
-    if (latest != numbers_.end() && latest->second == number) numbers_.erase(latest);
-    return std::move(asked.mapped());
-  }
-
-  void start_answering() {
-    for (int i = 0; i < kAnswerers; ++i) {
-      try {
-        answerers_.emplace_back([this] {
-          while (auto reply = replies_.take()) settle(*std::move(reply));
-        });
-      } catch (const std::system_error&) {
-        if (answerers_.empty()) throw;
-        return;  // the system has no more threads; one suffices
+  void ask(const TileWish& wish) {
+    HttpRequest request;
+    request.id = wish.number;
+    request.priority = wish.priority;
+    if (cache_ != nullptr) {
+      if (const auto known = cache_->peek(wish.id); known && *known) {
+        request.etag = (*known)->etag;
+        request.last_modified = (*known)->last_modified;
       }
     }
-  }
-
-  [[nodiscard]] std::optional<TileId> id_of_request(std::uint64_t number) {
-    const std::lock_guard lock(mutex_);
-    const auto asked = asked_.find(number);
-    return asked == asked_.end() ? std::nullopt : std::optional(asked->second.id);
-  }
-
-  // thread: answering
-  void settle(HttpReply&& reply) {
-    const std::uint64_t number = reply.id;
-    const std::optional<TileId> id = id_of_request(number);
-    if (!id) return;
-    Encoded encoded = answer_or_failure(*id, std::move(reply));
-    // The cache may have been slow, and the request may have been cancelled meanwhile.
-    if (const std::optional<Asked> asked = forget(number)) asked->done(std::move(encoded));
-  }
-
-  /// Catches all exceptions, because an exception that leaves a thread ends the program.
-  Encoded answer_or_failure(const TileId& id, HttpReply&& reply) {
-    try {
-      return answer(id, std::move(reply));
-    } catch (const std::exception& error) {
-      return TileFailure{MissingKind::failed, error.what()};
-    } catch (...) {
-      return TileFailure{MissingKind::failed, "unknown exception"};
+    {
+      const std::lock_guard lock(mutex_);
+      asked_.try_emplace(wish.number);
     }
+    fetcher_.fetch(wish.id, std::move(request));
+  }
+
+  void forget(std::uint64_t number, bool is_answered) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (asked_.erase(number) == 0) return;
+    }
+    if (!is_answered) fetcher_.cancel(number);
+  }
+
+  // thread: the fetcher's
+  void keep(ReplyQueue::Item&& reply) {
+    const std::uint64_t number = reply.reply.id;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto asked = asked_.find(number);
+      if (asked == asked_.end()) return;
+      asked->second = std::move(reply);
+    }
+    desk_.resume(number);
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
@@ -215,35 +177,18 @@ class RemoteDesk : public RemoteTiles {
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;
-  std::mutex mutex_;  ///< guards the next three members
-  std::uint64_t last_number_ = 0;
-  std::unordered_map<std::uint64_t, Asked> asked_;
-  std::unordered_map<TileId, std::uint64_t, TileIdHash> numbers_;  ///< number of the latest request for each tile
+  std::mutex mutex_;                                                          ///< guards asked_
+  std::unordered_map<std::uint64_t, std::optional<ReplyQueue::Item>> asked_;  ///< by the wish's number; with the reply
+  RequestDesk desk_;
   ReplyQueue replies_;
-  TileFetcher fetcher_;
-  std::vector<std::jthread> answerers_;  ///< the last member, because the threads use the others
-};
-
-class RemoteSource : public TileSource {
- public:
-  explicit RemoteSource(std::unique_ptr<RemoteDesk> desk) : desk_(std::move(desk)) {}
-  ~RemoteSource() override { end_owner(std::move(desk_)); }
-  RemoteSource(const RemoteSource&) = delete;
-  RemoteSource& operator=(const RemoteSource&) = delete;
-
-  [[nodiscard]] const TileSetInfo& info() const override { return desk_->info(); }
-  [[nodiscard]] Encoded read(const TileId& id) override { return desk_->read(id); }
-  [[nodiscard]] RemoteTiles* remote() override { return desk_.get(); }
-
- private:
-  std::unique_ptr<RemoteDesk> desk_;
+  TileFetcher fetcher_;  ///< the last member, because it calls the others
 };
 
 }  // namespace
 
 std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
                                                const HttpOptions& options) {
-  return std::make_unique<RemoteSource>(std::make_unique<RemoteDesk>(std::move(set), std::move(cache), options));
+  return std::make_unique<RemoteSource>(std::move(set), std::move(cache), options);
 }
 
 }  // namespace terrella

@@ -2,35 +2,33 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <condition_variable>
 #include <map>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "streaming/raster/rows/row_raster.h"
 #include "streaming/raster/tiff_source.h"
 #include "streaming/remote_tiff/remote_pyramid.h"
-#include "tiles/late_workers.h"
+#include "tiles/request_desk.h"
 
 namespace terrella {
 namespace {
 
-/// Threads that take answers, keep them and pass them on, which may make a picture of them.
-constexpr int kTakers = 2;
+/// Threads that look up blocks, keep answers and pass them on. One of them at most looks up, which may wait for the
+/// network.
+constexpr int kThreads = 3;
 
 using Encoded = Result<EncodedTile, TileFailure>;
 using Bytes = std::shared_ptr<const std::vector<std::byte>>;
 
-/// A block that is wanted, and its bytes as they come.
-struct Wish {
+/// The bytes of a wanted block as they come.
+struct WishedBlock {
   double priority = 0.0;
-  RemoteTiles::Done done;
-  bool looked_up = false;
-  std::vector<FilePiece> pieces{};       ///< those that came
-  std::vector<std::uint64_t> numbers{};  ///< numbers of the spans that are in flight
+  std::vector<FilePiece> pieces{};             ///< those that are there
+  std::map<std::uint64_t, ByteRange> spans{};  ///< in flight, by number
+  std::vector<HttpReply> came{};               ///< answers that were not worked on yet
 };
 
 /// Lets spans that do not decode be requested again. An earlier version, or a fault of the disk, may have put them
@@ -39,44 +37,37 @@ void doubt(RangeCache& cache, const std::vector<FilePiece>& pieces) {
   for (const FilePiece& piece : pieces) cache.doubt_span({.offset = piece.offset, .length = piece.bytes->size()});
 }
 
-/// The threads of a raster, and the data that they use.
-class RemoteTiffDesk : public RemoteTiles {
+class RemoteTiffSource : public RemoteTiff {
  public:
-  RemoteTiffDesk(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
-                 std::unique_ptr<TiffSource> decoder)
-      : file_(std::move(file)), tables_(std::move(tables)), decoder_(std::move(decoder)) {
-    if (file_->offline()) return;
-    fetcher_ = std::make_unique<SpanFetcher>(file_->address(), file_->http(), answers_);
-    threads_.emplace_back([this] { look_up_wishes(); });
-    for (int i = 0; i < kTakers; ++i) {
-      threads_.emplace_back([this] {
-        while (auto answer = answers_.take()) take(*std::move(answer));
-      });
-    }
+  RemoteTiffSource(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
+                   std::unique_ptr<TiffSource> decoder)
+      : file_(std::move(file)),
+        tables_(std::move(tables)),
+        decoder_(std::move(decoder)),
+        desk_({.work = [this](const TileWish& wish) { return work(wish); },
+               .moved = [this](const TileWish& wish) { move(wish); },
+               .ended = [this](const TileWish& wish, bool) { forget(wish.number); },
+               .threads = kThreads,
+               .beginners = 1}),
+        answers_([this](ReplyQueue::Item&& answer) { take(std::move(answer.reply)); }) {
+    if (!file_->offline()) fetcher_ = std::make_unique<SpanFetcher>(file_->address(), file_->http(), answers_);
   }
-  ~RemoteTiffDesk() override {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-    }
+  ~RemoteTiffSource() override {
     file_->stop();
-    wished_.notify_all();
-    answers_.close();
-    threads_.clear();
+    desk_.close();
   }
 
-  [[nodiscard]] const RasterInfo& info() const { return decoder_->info(); }
-  [[nodiscard]] const std::vector<std::jthread>& threads() const { return threads_; }
-  [[nodiscard]] RemoteTiles* remote() { return fetcher_ ? this : nullptr; }
+  [[nodiscard]] const RasterInfo& info() const override { return decoder_->info(); }
+  [[nodiscard]] RemoteTiles* remote() override { return fetcher_ ? &desk_ : nullptr; }
 
-  [[nodiscard]] Encoded read(const TileId& block) {
+  [[nodiscard]] Encoded read(const TileId& block) override {
     if (!has_block(info(), block)) return TileFailure{MissingKind::absent, {}};
     auto pieces = cached_pieces(block);
     if (!pieces) return pieces.error();
     return tile_of(block, *std::move(pieces));
   }
 
-  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) {
+  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
     const RasterLevel& finest = info().levels.back();
     const TileId block{.level = static_cast<int>(info().levels.size()) - 1,
                        .x = column / finest.block_width_px,
@@ -88,7 +79,7 @@ class RemoteTiffDesk : public RemoteTiles {
     return decoder_->value_at(column, row);
   }
 
-  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) {
+  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
     auto found = tables_->spans(block);
     if (!found && file_->doubt_directories()) found = tables_->spans(block);
     if (found) file_->keep_directories();
@@ -106,7 +97,7 @@ class RemoteTiffDesk : public RemoteTiles {
   }
 
   /// Bytes that do not decode may be due to a wrong table of tiles.
-  [[nodiscard]] SpanCheck check_of(const TileId& block) {
+  [[nodiscard]] SpanCheck check_of(const TileId& block) override {
     return [this, block](const ByteRange& span, std::span<const std::byte> bytes) {
       Status good = decoder_->check(block, {.offset = span.offset, .size = span.length}, bytes);
       if (!good) static_cast<void>(file_->doubt_directories());
@@ -114,30 +105,7 @@ class RemoteTiffDesk : public RemoteTiles {
     };
   }
 
-  void fetch(const TileId& block, double priority, Done done) override {
-    {
-      const std::lock_guard lock(mutex_);
-      wishes_.insert_or_assign(block, std::make_shared<Wish>(Wish{.priority = priority, .done = std::move(done)}));
-    }
-    wished_.notify_one();
-  }
-
-  void set_priority(const TileId& block, double priority) override {
-    const std::lock_guard lock(mutex_);
-    const auto wish = wishes_.find(block);
-    if (wish == wishes_.end()) return;
-    wish->second->priority = priority;
-    for (const std::uint64_t number : wish->second->numbers) fetcher_->set_priority(number, priority);
-  }
-
-  void cancel(const TileId& block) override {
-    const std::lock_guard lock(mutex_);
-    static_cast<void>(forget(block));
-  }
-
  private:
-  using Lock = std::unique_lock<std::mutex>;
-
   [[nodiscard]] Bytes cached(const ByteRange& span) {
     if (file_->cache() == nullptr) return nullptr;
     auto bytes = file_->cache()->find_span(span);
@@ -177,130 +145,111 @@ class RemoteTiffDesk : public RemoteTiles {
     return tile;
   }
 
-  /// Takes a wish away with its requests. The lock is held.
-  std::shared_ptr<Wish> forget(const TileId& block) {
-    auto found = wishes_.extract(block);
-    if (found.empty()) return nullptr;
-    for (const std::uint64_t number : found.mapped()->numbers) {
-      fetcher_->cancel(number);
-      asked_.erase(number);
-    }
-    return std::move(found.mapped());
+  [[nodiscard]] WishedBlock& block_of(const TileWish& wish) {
+    const std::lock_guard lock(mutex_);
+    const auto [block, is_new] = blocks_.try_emplace(wish.number);
+    if (is_new) block->second.priority = wish.priority;
+    return block->second;
   }
 
-  // thread: look-up ---------------------------------------------------------------------------------------------------
+  void move(const TileWish& wish) {
+    const std::lock_guard lock(mutex_);
+    WishedBlock& block = blocks_[wish.number];
+    block.priority = wish.priority;
+    for (const auto& [number, range] : block.spans) fetcher_->set_priority(number, wish.priority);
+  }
 
-  void look_up_wishes() {
-    Lock lock(mutex_);
-    for (;;) {
-      auto next = wishes_.end();
-      const auto is_next = [&] {
-        next = wishes_.end();
-        for (auto wish = wishes_.begin(); wish != wishes_.end(); ++wish) {
-          if (wish->second->looked_up) continue;
-          if (next == wishes_.end() || wish->second->priority > next->second->priority) next = wish;
-        }
-        return stopping_ || next != wishes_.end();
-      };
-      wished_.wait(lock, is_next);
-      if (stopping_) return;
-      const auto [block, wish] = *next;
-      wish->looked_up = true;
-      look_up(lock, block, wish);
+  void forget(std::uint64_t wish) {
+    const std::lock_guard lock(mutex_);
+    const auto block = blocks_.extract(wish);
+    if (block.empty()) return;
+    for (const auto& [number, range] : block.mapped().spans) {
+      if (asked_.erase(number) > 0) fetcher_->cancel(number);
     }
   }
 
-  /// Gives up the lock while it waits for the network or the cache.
-  void look_up(Lock& lock, const TileId& block, const std::shared_ptr<Wish>& wish) {
-    lock.unlock();
-    const auto ranges = spans(block);
-    std::vector<FilePiece> pieces;
+  // thread: the fetcher's
+  void take(HttpReply&& answer) {
+    std::uint64_t wish = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto asked = asked_.extract(answer.id);
+      if (asked.empty()) return;
+      wish = asked.mapped();
+      blocks_.at(wish).came.push_back(std::move(answer));
+    }
+    desk_.resume(wish);
+  }
+
+  // thread: the desk's ------------------------------------------------------------------------------------------------
+
+  std::optional<Encoded> work(const TileWish& wish) {
+    WishedBlock& block = block_of(wish);
+    if (wish.is_new) {
+      if (auto failure = look_up(wish, block)) return *std::move(failure);
+    }
+    std::vector<HttpReply> came;
+    {
+      const std::lock_guard lock(mutex_);
+      came.swap(block.came);
+    }
+    for (HttpReply& answer : came) {
+      if (auto failure = keep(block, std::move(answer))) return *std::move(failure);
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (!block.spans.empty()) return std::nullopt;
+    }
+    return tile_of(wish.id, std::move(block.pieces));
+  }
+
+  /// Takes the bytes that the cache has, and asks for the others. Waits for the network or the cache.
+  std::optional<TileFailure> look_up(const TileWish& wish, WishedBlock& block) {
+    const auto ranges = spans(wish.id);
+    if (!ranges) return ranges.error();
     std::vector<ByteRange> missing;
-    for (const ByteRange& range : ranges ? *ranges : std::vector<ByteRange>()) {
+    for (const ByteRange& range : *ranges) {
       auto bytes = cached(range);
       if (!bytes) missing.push_back(range);
-      if (bytes) pieces.push_back({range.offset, std::move(bytes)});
+      if (bytes) block.pieces.push_back({range.offset, std::move(bytes)});
     }
-    lock.lock();
-    const auto found = wishes_.find(block);
-    if (found == wishes_.end() || found->second != wish) return;
-    wish->pieces = std::move(pieces);
-    if (ranges && !missing.empty()) {
-      for (const ByteRange& range : missing) {
-        wish->numbers.push_back(++last_number_);
-        asked_.emplace(last_number_, Asked{block, range});
-        fetcher_->fetch(last_number_, range, wish->priority, check_of(block));
-      }
-      return;
+    if (!desk_.is_wanted(wish.number)) return TileFailure{MissingKind::failed, "given up"};
+    const std::lock_guard lock(mutex_);
+    for (const ByteRange& range : missing) {
+      block.spans.emplace(++last_number_, range);
+      asked_.emplace(last_number_, wish.number);
+      fetcher_->fetch(last_number_, range, block.priority, check_of(wish.id));
     }
-    static_cast<void>(forget(block));
-    lock.unlock();
-    wish->done(ranges ? tile_of(block, std::move(wish->pieces)) : Encoded(ranges.error()));
-    lock.lock();
+    return std::nullopt;
   }
 
-  // thread: taker -----------------------------------------------------------------------------------------------------
-
-  void take(HttpReply&& answer) {
-    Lock lock(mutex_);
-    const auto number = asked_.extract(answer.id);
-    if (number.empty()) return;
-    const Asked asked = number.mapped();
-    const std::shared_ptr<Wish> wish = wishes_.at(asked.block);
-    std::erase(wish->numbers, answer.id);
+  std::optional<TileFailure> keep(WishedBlock& block, HttpReply&& answer) {
+    ByteRange range;
+    {
+      const std::lock_guard lock(mutex_);
+      range = block.spans.extract(answer.id).mapped();
+    }
     if (answer.outcome != HttpOutcome::content) {
-      static_cast<void>(forget(asked.block));
-      lock.unlock();
       if (answer.status == 412) file_->doubt_version();
       const bool broken = answer.outcome == HttpOutcome::broken;
-      return wish->done(TileFailure{broken ? MissingKind::broken : MissingKind::failed, std::move(answer.why)});
+      return TileFailure{broken ? MissingKind::broken : MissingKind::failed, std::move(answer.why)};
     }
     const auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(answer.body));
-    wish->pieces.push_back({asked.range.offset, bytes});
-    const bool complete = wish->numbers.empty();
-    if (complete) wishes_.erase(asked.block);
-    lock.unlock();
-    if (file_->cache() != nullptr && !answer.no_store) file_->cache()->keep_span(asked.range, *bytes);
-    if (complete) wish->done(tile_of(asked.block, std::move(wish->pieces)));
+    block.pieces.push_back({range.offset, bytes});
+    if (file_->cache() != nullptr && !answer.no_store) file_->cache()->keep_span(range, *bytes);
+    return std::nullopt;
   }
-
-  struct Asked {
-    TileId block;
-    ByteRange range;
-  };
 
   const std::shared_ptr<RemoteFile> file_;
-  const std::unique_ptr<TiffSource> tables_;   ///< looks up the bytes of blocks, waiting for the network
-  const std::unique_ptr<TiffSource> decoder_;  ///< decodes the blocks whose bytes are there
-  std::mutex mutex_;                           ///< guards what follows
-  std::condition_variable wished_;
-  bool stopping_ = false;
-  std::map<TileId, std::shared_ptr<Wish>> wishes_;
-  std::unordered_map<std::uint64_t, Asked> asked_;
+  const std::unique_ptr<TiffSource> tables_;                ///< looks up the bytes of blocks, waiting for the network
+  const std::unique_ptr<TiffSource> decoder_;               ///< decodes the blocks whose bytes are there
+  std::mutex mutex_;                                        ///< guards the next three members
+  std::unordered_map<std::uint64_t, WishedBlock> blocks_;   ///< by the wish's number
+  std::unordered_map<std::uint64_t, std::uint64_t> asked_;  ///< the wish's number, by that of a span in flight
   std::uint64_t last_number_ = 0;
+  RequestDesk desk_;
   ReplyQueue answers_;
-  std::unique_ptr<SpanFetcher> fetcher_;  ///< null: offline
-  std::vector<std::jthread> threads_;     ///< last: use the rest
-};
-
-class RemoteTiffSource : public RemoteTiff {
- public:
-  explicit RemoteTiffSource(std::unique_ptr<RemoteTiffDesk> desk) : desk_(std::move(desk)) {}
-  ~RemoteTiffSource() override { end_owner(std::move(desk_)); }
-
-  [[nodiscard]] const RasterInfo& info() const override { return desk_->info(); }
-  [[nodiscard]] RemoteTiles* remote() override { return desk_->remote(); }
-  [[nodiscard]] Encoded read(const TileId& block) override { return desk_->read(block); }
-  [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
-    return desk_->value_at(column, row);
-  }
-  [[nodiscard]] Result<std::vector<ByteRange>, TileFailure> spans(const TileId& block) override {
-    return desk_->spans(block);
-  }
-  [[nodiscard]] SpanCheck check_of(const TileId& block) override { return desk_->check_of(block); }
-
- private:
-  std::unique_ptr<RemoteTiffDesk> desk_;
+  std::unique_ptr<SpanFetcher> fetcher_;  ///< null: offline. The last member, because it calls the others
 };
 
 }  // namespace
@@ -314,8 +263,8 @@ Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile>
     return fault.empty() ? tables.error() : Error{fault};
   }
   auto decoder = (*tables)->over(file->held());
-  return std::unique_ptr<RemoteTiff>(std::make_unique<RemoteTiffSource>(
-      std::make_unique<RemoteTiffDesk>(std::move(file), *std::move(tables), std::move(decoder))));
+  return std::unique_ptr<RemoteTiff>(
+      std::make_unique<RemoteTiffSource>(std::move(file), *std::move(tables), std::move(decoder)));
 }
 
 }  // namespace terrella

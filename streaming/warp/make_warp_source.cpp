@@ -4,35 +4,35 @@
 #include <limits>
 #include <utility>
 
-#include "streaming/warp/fetch_desk.h"
+#include "streaming/warp/block_fetcher.h"
 
 namespace terrella {
 namespace {
 
-class WarpSource : public TileSource, public RemoteTiles {
+class WarpSource : public TileSource {
  public:
   WarpSource(std::shared_ptr<TilePlanner> planner, std::shared_ptr<const StoredBlocks> blocks, TileSetInfo info)
       : planner_(std::move(planner)), blocks_(std::move(blocks)), info_(std::move(info)) {
-    if (RemoteTiles* network = blocks_->network()) {
-      desk_ = std::make_shared<FetchDesk>(*network, blocks_, info_.numbers.has_value());
-    }
+    if (blocks_->network() == nullptr) return;
+    const auto make_job = [plans = planner_, from = blocks_](const TileId& id) { return job_of(*plans, from, id); };
+    fetcher_ = std::make_shared<BlockFetcher>(blocks_, make_job, info_.numbers.has_value());
   }
   ~WarpSource() override {
-    if (desk_) desk_->close();
+    if (fetcher_) fetcher_->close();
   }
   WarpSource(const WarpSource&) = delete;
   WarpSource& operator=(const WarpSource&) = delete;
 
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] RemoteTiles* remote() override { return fetcher_ ? &fetcher_->tiles() : nullptr; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
     if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
-    auto plan = planner_->plan(id);
-    if (!plan) return plan.error();
-    WarpJob job(blocks_, *std::move(plan));
-    job.advance();
-    if (!job.missing().empty()) return TileFailure{MissingKind::remote, {}};
-    return job.result(info_.numbers.has_value());
+    auto job = job_of(*planner_, blocks_, id);
+    if (!job) return job.error();
+    job->advance();
+    if (!job->missing().empty()) return TileFailure{MissingKind::remote, {}};
+    return job->result(info_.numbers.has_value());
   }
 
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
@@ -41,21 +41,18 @@ class WarpSource : public TileSource, public RemoteTiles {
     return pixel ? blocks_->value_at(*pixel) : pixel.error();
   }
 
-  [[nodiscard]] RemoteTiles* remote() override { return desk_ ? this : nullptr; }
-
-  void fetch(const TileId& id, double priority, Done done) override {
-    auto plan = planner_->plan(id);
-    if (!plan) return done(plan.error());
-    desk_->fetch(id, WarpJob(blocks_, *std::move(plan)), priority, std::move(done));
-  }
-  void set_priority(const TileId& id, double priority) override { desk_->set_priority(id, priority); }
-  void cancel(const TileId& id) override { desk_->cancel(id); }
-
  private:
+  static Result<WarpJob, TileFailure> job_of(TilePlanner& planner, const std::shared_ptr<const StoredBlocks>& blocks,
+                                             const TileId& id) {
+    auto plan = planner.plan(id);
+    if (!plan) return plan.error();
+    return WarpJob(blocks, *std::move(plan));
+  }
+
   const std::shared_ptr<TilePlanner> planner_;
   const std::shared_ptr<const StoredBlocks> blocks_;
   const TileSetInfo info_;
-  std::shared_ptr<FetchDesk> desk_;  ///< null: all blocks are available without requests
+  std::shared_ptr<BlockFetcher> fetcher_;  ///< null: all blocks are available without requests
 };
 
 }  // namespace

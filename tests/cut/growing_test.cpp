@@ -13,6 +13,7 @@
 #include "streaming/cut/growing/coarse_raster.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/sets/open_tile_set.h"
+#include "tests/support/end_by_answer.h"
 #include "tiles/height_decoder.h"
 
 namespace terrella::test {
@@ -117,6 +118,13 @@ TEST_F(GrowingCutTest, FineTilesArriveWhenTheCutHasComeToThem) {
   EXPECT_FALSE(bytes.empty());
   wait(*cut);
   EXPECT_EQ(bytes, bytes_of(cut->read(last)));
+}
+
+TEST_F(GrowingCutTest, AnAnswerMayEndTheCut) {
+  write_large();
+  auto cut = start();
+  const TileId last{.level = cut->info().grid.max_level, .x = 11, .y = 39};
+  EXPECT_TRUE(end_by_answer(std::move(cut), last));
 }
 
 TEST_F(GrowingCutTest, AStoppedCutKeepsWhatIsDoneAndTheNextGoesOnFromThere) {

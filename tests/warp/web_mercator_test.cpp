@@ -309,6 +309,8 @@ TEST(Mercator, HeightsAreNumbersOfTheSameMeaning) {
 
 // ---- behind a network
 
+constexpr std::chrono::seconds kFarPatience{60};  // a loaded machine under a sanitizer
+
 /// A planet whose tiles have to be fetched; the test answers.
 class FarPlanet : public TileSource, public RemoteTiles {
  public:
@@ -337,6 +339,7 @@ class FarPlanet : public TileSource, public RemoteTiles {
     ++fetches[id];
     priorities[id] = priority;
     asked_[id] = std::move(done);
+    changed_.notify_all();
   }
   void set_priority(const TileId& id, double priority) override {
     const std::lock_guard lock(mutex_);
@@ -345,10 +348,12 @@ class FarPlanet : public TileSource, public RemoteTiles {
   void cancel(const TileId& id) override {
     const std::lock_guard lock(mutex_);
     asked_.erase(id);
+    changed_.notify_all();
   }
-  [[nodiscard]] std::size_t asked() {
-    const std::lock_guard lock(mutex_);
-    return asked_.size();
+  /// True once exactly so many tiles are asked for.
+  [[nodiscard]] bool wait_until_asked(std::size_t tiles) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, kFarPatience, [&] { return asked_.size() == tiles; });
   }
   /// Answers one after the other until nothing is asked.
   void answer_all() {
@@ -372,6 +377,7 @@ class FarPlanet : public TileSource, public RemoteTiles {
  private:
   const std::unique_ptr<MercatorPlanet> planet_;
   std::mutex mutex_;
+  std::condition_variable changed_;
   std::map<TileId, Done> asked_;
   std::mutex disk_;
   std::condition_variable disk_changed_;
@@ -387,24 +393,44 @@ struct FarMercator : testing::Test {
     network = far_planet.get();
     tiles = *as_geodetic(std::move(far_planet), "far");
   }
-  RemoteTiles::Done keep(std::vector<Result<EncodedTile, TileFailure>>& answers) {
-    return [&answers](Result<EncodedTile, TileFailure> answer) { answers.push_back(std::move(answer)); };
+  /// Wants a tile, and waits until the network is asked for all that the tiles wanted so far are made of.
+  void want(const TileId& id, double priority) {
+    wanted.push_back(id);
+    tiles->remote()->fetch(id, priority, [this](Result<EncodedTile, TileFailure> answer) {
+      const std::lock_guard lock(mutex);
+      answers.push_back(std::move(answer));
+    });
+    EXPECT_TRUE(network->wait_until_asked(stored_tiles_of(stored->info().grid, wanted)->size()));
   }
+  [[nodiscard]] std::size_t answered() {
+    const std::lock_guard lock(mutex);
+    return answers.size();
+  }
+  /// Lets the network answer until so many tiles are made.
+  [[nodiscard]] bool answer_until(std::size_t tiles_made) {
+    const auto deadline = std::chrono::steady_clock::now() + kFarPatience;
+    while (answered() < tiles_made && std::chrono::steady_clock::now() < deadline) {
+      network->answer_all();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return answered() == tiles_made;
+  }
+  std::mutex mutex;  ///< guards answers
+  std::vector<Result<EncodedTile, TileFailure>> answers;
+  std::vector<TileId> wanted;
   MercatorPlanet* stored = nullptr;
   FarPlanet* network = nullptr;
   std::unique_ptr<TileSource> tiles;
 };
 
 TEST_F(FarMercator, WhatManyTilesAreMadeOfIsFetchedOnce) {
-  std::vector<Result<EncodedTile, TileFailure>> answers;
   for (int y = 4; y < 8; ++y) {
     ASSERT_EQ(tiles->read({5, 10, y}).error().kind, MissingKind::remote);
-    tiles->remote()->fetch({5, 10, y}, y, keep(answers));
+    want({5, 10, y}, y);
   }
   for (const auto& [id, times] : network->fetches) EXPECT_EQ(times, 1) << id.y;
   for (const auto& [id, priority] : network->priorities) EXPECT_GE(priority, 4.0);
-  network->answer_all();
-  ASSERT_EQ(answers.size(), 4U);
+  ASSERT_TRUE(answer_until(4));
   for (const auto& answer : answers) {
     ASSERT_TRUE(answer);
     EXPECT_TRUE(answer->make_picture());
@@ -413,35 +439,30 @@ TEST_F(FarMercator, WhatManyTilesAreMadeOfIsFetchedOnce) {
 
 TEST_F(FarMercator, AbsentOnesAreLookedForALevelHigherOverTheNetworkToo) {
   stored->note_missing({5, 10, 14}, MissingKind::absent);
-  std::vector<Result<EncodedTile, TileFailure>> answers;
-  tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
-  network->answer_all();
-  ASSERT_EQ(answers.size(), 1U);
+  want({5, 10, 6}, 1.0);
+  ASSERT_TRUE(answer_until(1));
   ASSERT_TRUE(answers[0]) << answers[0].error().why;
   EXPECT_EQ(network->fetches.count({4, 5, 7}), 1U);
   EXPECT_EQ(answers[0]->make_picture()->rgba.back(), 255);
 }
 
 TEST_F(FarMercator, WhatNobodyWaitsForIsCancelled) {
-  std::vector<Result<EncodedTile, TileFailure>> answers;
-  tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
-  tiles->remote()->fetch({5, 10, 5}, 2.0, keep(answers));
-  const std::size_t both = network->asked();
+  want({5, 10, 6}, 1.0);
+  const std::size_t one = stored_tiles_of(stored->info().grid, wanted)->size();
+  want({5, 10, 5}, 2.0);
+  ASSERT_GT(stored_tiles_of(stored->info().grid, wanted)->size(), one);
   tiles->remote()->cancel({5, 10, 5});
-  EXPECT_LT(network->asked(), both);
-  EXPECT_GT(network->asked(), 0U) << "the other tile's stay";
+  EXPECT_TRUE(network->wait_until_asked(one)) << "the other tile's stay";
   tiles->remote()->cancel({5, 10, 6});
-  EXPECT_EQ(network->asked(), 0U);
-  network->answer_all();
-  EXPECT_TRUE(answers.empty());
+  EXPECT_TRUE(network->wait_until_asked(0));
+  EXPECT_EQ(answered(), 0U);
 }
 
 TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
   stored->note_missing({5, 10, 14}, MissingKind::absent);
-  std::vector<Result<EncodedTile, TileFailure>> answers;
-  tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
+  want({5, 10, 6}, 1.0);
   network->turn_disk(false);
-  std::thread answering([this] { network->answer_all(); });
+  network->answer_all();
   network->wait_until_disk_waits();
   auto called = std::async(std::launch::async, [this] {
     tiles->remote()->set_priority({5, 10, 6}, 3.0);
@@ -449,22 +470,19 @@ TEST_F(FarMercator, MainDoesNotWaitForTheDiskThatAnAnswerWaitsFor) {
   });
   EXPECT_EQ(called.wait_for(std::chrono::seconds(5)), std::future_status::ready);
   network->turn_disk(true);
-  answering.join();
   called.get();
-  EXPECT_TRUE(answers.empty());
-  EXPECT_EQ(network->asked(), 0U);
+  EXPECT_TRUE(network->wait_until_asked(0));
+  EXPECT_EQ(answered(), 0U);
 }
 
 TEST_F(FarMercator, OneThatFailsEndsTheWaitAtOnce) {
   const TileId first = *stored_tiles_of(stored->info().grid, std::array{TileId{5, 10, 6}})->begin();
   stored->note_missing(first, MissingKind::failed);
-  std::vector<Result<EncodedTile, TileFailure>> answers;
-  tiles->remote()->fetch({5, 10, 6}, 1.0, keep(answers));
-  network->answer_all();
-  ASSERT_EQ(answers.size(), 1U);
+  want({5, 10, 6}, 1.0);
+  ASSERT_TRUE(answer_until(1));
   ASSERT_FALSE(answers[0]);
   EXPECT_EQ(answers[0].error().kind, MissingKind::failed);
-  EXPECT_EQ(network->asked(), 0U);
+  EXPECT_TRUE(network->wait_until_asked(0));
 }
 
 TEST_F(FarMercator, TheLoaderTakesThemAsItTakesAnyTiles) {

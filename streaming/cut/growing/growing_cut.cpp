@@ -68,7 +68,8 @@ GrowingCut::GrowingCut(CutOptions options, PlannedCut planned)
     : options_(std::move(options)),
       planned_(std::move(planned)),
       canvas_(planned_.plan),
-      coarsest_cut_(std::max(canvas_.grid().max_level, bands_of(planned_.plan).coarsest - 1)) {}
+      coarsest_cut_(std::max(canvas_.grid().max_level, bands_of(planned_.plan).coarsest - 1)),
+      desk_({.work = [this](const TileWish& wish) { return answer(wish.id); }, .threads = 1}) {}
 
 Result<std::shared_ptr<GrowingCut>> GrowingCut::start(CutOptions options, const fs::path& folder) {
   options.remark = {};
@@ -161,23 +162,16 @@ void GrowingCut::paint_coarse() {
 }
 
 void GrowingCut::keep(const CutTile& tile) {
-  Done done;
   {
     const std::lock_guard lock(mutex_);
     if (logs_.empty() || logs_.back() != tile.log) logs_.push_back(tile.log);
     stored_[tile.id] = {logs_.size() - 1, tile.offset, tile.size};
-    const auto waits = waiting_.find(tile.id);
-    if (waits != waiting_.end()) {
-      done = std::move(waits->second);
-      waiting_.erase(waits);
-    }
   }
   if (tile.id.level <= coarsest_cut_) dirty_ = true;
-  if (done) done(find(tile.id).value_or(TileFailure{MissingKind::failed, "its file cannot be read"}));
+  desk_.resume(tile.id);
 }
 
 void GrowingCut::finish(Result<std::shared_ptr<TileSource>> whole) {
-  std::unordered_map<TileId, Done, TileIdHash> waiting;
   {
     const std::lock_guard lock(mutex_);
     if (whole) {
@@ -186,11 +180,9 @@ void GrowingCut::finish(Result<std::shared_ptr<TileSource>> whole) {
       error_ = whole.error();
     }
     stored_.clear();
-    waiting.swap(waiting_);
   }
   renew(true);
-  if (stop_) return;
-  for (const auto& [id, done] : waiting) done(read(id));
+  desk_.resume_all();
 }
 
 std::optional<GrowingCut::Answer> GrowingCut::find(const TileId& id) const {
@@ -239,28 +231,11 @@ EncodedTile GrowingCut::coarse_tile(const TileId& id) {
   return tile;
 }
 
-void GrowingCut::fetch(const TileId& id, double priority, Done done) {
-  static_cast<void>(priority);
-  while (true) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!whole_ && !error_ && !stored_.contains(id)) {
-        waiting_[id] = std::move(done);
-        return;
-      }
-    }
-    if (auto found = find(id)) return done(*std::move(found));
-    // The finished set replaces the file of the tile just now.
-    const std::lock_guard lock(mutex_);
-    if (whole_ || error_) continue;
-    waiting_[id] = std::move(done);
-    return;
-  }
-}
-
-void GrowingCut::cancel(const TileId& id) {
-  const std::lock_guard lock(mutex_);
-  waiting_.erase(id);
+/// Nothing until the cut comes to the tile.
+std::optional<GrowingCut::Answer> GrowingCut::answer(const TileId& id) {
+  auto tile = read(id);
+  if (!tile && tile.error().kind == MissingKind::remote) return std::nullopt;
+  return tile;
 }
 
 }  // namespace terrella

@@ -15,14 +15,14 @@
 #include "streaming/cut.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/growing/coarse_canvas.h"
-#include "tiles/tile_source.h"
+#include "tiles/request_desk.h"
 
 namespace terrella {
 
 /// Tiles of a picture while it is cut into the cache on a thread of its own. Until a tile is cut, coarse levels are
 /// made from a small version of the picture (coarse_raster), which the cut's rows replace, unless it has numbers. Finer
 /// tiles are `remote` and arrive when the cut comes to them. Afterwards the finished set is read. thread: any
-class GrowingCut : public TileSource, private RemoteTiles {
+class GrowingCut : public TileSource {
  public:
   /// Starts the cut of one picture into `folder`, which exists. Fails as cut() would before it reads a pixel. Null for
   /// numbers of which no small version can be read soon: their cut is not begun.
@@ -43,7 +43,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
 
   [[nodiscard]] const TileSetInfo& info() const override { return planned_.info; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override;
-  [[nodiscard]] RemoteTiles* remote() override { return this; }
+  [[nodiscard]] RemoteTiles* remote() override { return &desk_; }
   [[nodiscard]] std::uint64_t edition() const override { return edition_; }
   [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override {
     return id.level <= coarsest_cut_ ? edition_.load() : 0;
@@ -60,10 +60,7 @@ class GrowingCut : public TileSource, private RemoteTiles {
 
   GrowingCut(CutOptions options, PlannedCut planned);
   [[nodiscard]] EncodedTile coarse_tile(const TileId& id);
-  void fetch(const TileId& id, double priority, Done done) override;
-  void set_priority(const TileId&, double) override {}
-  void cancel(const TileId& id) override;
-
+  [[nodiscard]] std::optional<Answer> answer(const TileId& id);
   void run(const std::filesystem::path& folder);
   void paint_coarse();
   void watch();
@@ -87,10 +84,10 @@ class GrowingCut : public TileSource, private RemoteTiles {
   mutable std::mutex mutex_;  ///< guards the members below
   std::vector<std::filesystem::path> logs_;
   std::unordered_map<TileId, Stored, TileIdHash> stored_;
-  std::unordered_map<TileId, Done, TileIdHash> waiting_;
   std::shared_ptr<TileSource> whole_;
   std::optional<Error> error_;
 
+  RequestDesk desk_;
   std::thread thread_;  ///< last: it uses all others
 };
 
