@@ -14,9 +14,8 @@ void RequestDesk::fetch(const TileId& id, double priority, Done done) {
   if (threads_.empty()) start_threads();
   if (const auto earlier = wishes_.find(id); earlier != wishes_.end()) replaced = remove(earlier, false);
   const std::uint64_t number = ++last_number_;
-  wishes_.emplace(id, Entry{{.number = number, .id = id, .priority = priority}, std::move(done)});
   ids_.emplace(number, id);
-  ready_.notify_one();
+  resume(wishes_.emplace(id, Entry{{.number = number, .id = id, .priority = priority}, std::move(done)}).first->second);
 }
 
 void RequestDesk::set_priority(const TileId& id, double priority) {
@@ -33,9 +32,9 @@ void RequestDesk::cancel(const TileId& id) {
   if (const auto entry = wishes_.find(id); entry != wishes_.end()) given_up = remove(entry, false);
 }
 
-void RequestDesk::resume(std::uint64_t number) {
+void RequestDesk::resume(std::uint64_t number, Work next) {
   const std::lock_guard lock(mutex_);
-  if (const auto id = ids_.find(number); id != ids_.end()) resume(wishes_.at(id->second));
+  if (const auto id = ids_.find(number); id != ids_.end()) resume(wishes_.at(id->second), std::move(next));
 }
 
 void RequestDesk::resume(const TileId& id) {
@@ -48,11 +47,9 @@ void RequestDesk::resume_all() {
   for (auto& [id, entry] : wishes_) resume(entry);
 }
 
-void RequestDesk::resume(Entry& entry) {
-  if (entry.stage == Stage::in_work) entry.stage = Stage::in_work_again;
-  if (entry.stage != Stage::waiting) return;
-  entry.stage = Stage::ready;
-  ready_.notify_one();
+void RequestDesk::resume(Entry& entry, Work next) {
+  if (next || entry.next.empty() || entry.next.back()) entry.next.push_back(std::move(next));
+  if (!entry.in_work) ready_.notify_one();
 }
 
 bool RequestDesk::is_wanted(std::uint64_t number) const {
@@ -92,7 +89,7 @@ RequestDesk::Entries::iterator RequestDesk::most_wanted() {
   auto best = wishes_.end();
   for (auto at = wishes_.begin(); at != wishes_.end(); ++at) {
     const Entry& entry = at->second;
-    if (entry.stage != Stage::ready || (entry.wish.is_new && beginning_ >= parts_.beginners)) continue;
+    if (entry.in_work || entry.next.empty() || (entry.wish.is_new && beginning_ >= parts_.beginners)) continue;
     if (best == wishes_.end() || entry.wish.priority > best->second.wish.priority) best = at;
   }
   return best;
@@ -102,8 +99,7 @@ RequestDesk::Entries::iterator RequestDesk::most_wanted() {
 RemoteTiles::Done RequestDesk::remove(Entries::iterator entry, bool is_answered) {
   Entry removed = std::move(wishes_.extract(entry).mapped());
   ids_.erase(removed.wish.number);
-  const bool in_work = removed.stage == Stage::in_work || removed.stage == Stage::in_work_again;
-  if (!in_work && parts_.ended) parts_.ended(removed.wish, is_answered);
+  if (!removed.in_work && parts_.ended) parts_.ended(removed.wish, is_answered);
   return std::move(removed.done);
 }
 
@@ -118,29 +114,33 @@ void RequestDesk::run(std::size_t thread) {
     threads_[thread].id = std::this_thread::get_id();
   }
   while (!*closed) {
-    const auto wish = next();
-    if (!wish) return;
-    auto answer = worked(*wish);
-    const Done done = put_back(*wish, answer.has_value());
+    auto task = next();
+    if (!task) return;
+    auto answer = worked(*task);
+    task->works.clear();
+    const Done done = put_back(task->wish, answer.has_value());
     if (done) done(*std::move(answer));
   }
 }
 
-std::optional<TileWish> RequestDesk::next() {
+std::optional<RequestDesk::Task> RequestDesk::next() {
   std::unique_lock lock(mutex_);
   auto entry = wishes_.end();
   ready_.wait(lock, [&] { return *closed_ || (entry = most_wanted()) != wishes_.end(); });
   if (*closed_) return std::nullopt;
-  entry->second.stage = Stage::in_work;
-  const TileWish wish = entry->second.wish;
+  entry->second.in_work = true;
+  Task task{entry->second.wish, std::exchange(entry->second.next, {})};
   entry->second.wish.is_new = false;
-  if (wish.is_new) ++beginning_;
-  return wish;
+  if (task.wish.is_new) ++beginning_;
+  return task;
 }
 
-std::optional<RequestDesk::Answer> RequestDesk::worked(const TileWish& wish) const {
+std::optional<RequestDesk::Answer> RequestDesk::worked(const Task& task) const {
   try {
-    return parts_.work(wish);
+    for (const Work& work : task.works) {
+      if (auto answer = work ? work(task.wish) : parts_.work(task.wish)) return answer;
+    }
+    return std::nullopt;
   } catch (...) {
     return caught_failure();
   }
@@ -158,10 +158,9 @@ RemoteTiles::Done RequestDesk::put_back(const TileWish& wish, bool is_answered) 
     if (parts_.ended) parts_.ended(wish, false);
     return {};
   }
-  const bool again = entry->second.stage == Stage::in_work_again;
-  entry->second.stage = again ? Stage::ready : Stage::waiting;
+  entry->second.in_work = false;
   if (is_answered) return remove(entry, true);
-  if (again) ready_.notify_one();
+  if (!entry->second.next.empty()) ready_.notify_one();
   return {};
 }
 

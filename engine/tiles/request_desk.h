@@ -31,10 +31,11 @@ struct TileWish {
 class RequestDesk : public RemoteTiles {
  public:
   using Answer = Result<EncodedTile, TileFailure>;
+  /// Works on a wish. Without an answer the wish waits for resume(). An exception becomes a failed tile. thread: one of
+  /// the desk's, one at a time for each wish
+  using Work = std::function<std::optional<Answer>(const TileWish&)>;
   struct Parts {
-    /// Works on a wish. Without an answer the wish waits for resume(). An exception becomes a failed tile. thread: one
-    /// of the desk's, one at a time for each wish
-    std::function<std::optional<Answer>(const TileWish&)> work;
+    Work work;  ///< on a new wish, and on one that is resumed without other work
     // Called with the desk's lock held, so these two must not call the desk. thread: any
     std::function<void(const TileWish&)> moved = {};  ///< the priority has changed
     /// The wish is answered, or given up; comes once for each wish, after the last work on it.
@@ -53,9 +54,10 @@ class RequestDesk : public RemoteTiles {
   void set_priority(const TileId& id, double priority) override;  ///< thread: any
   void cancel(const TileId& id) override;                         ///< thread: any
 
-  void resume(std::uint64_t number);  ///< works on a wish again, if it is still wanted. thread: any
-  void resume(const TileId& id);      ///< thread: any
-  void resume_all();                  ///< thread: any
+  /// Goes on with a wish, if it is still wanted: with `next`, or with Parts::work again. thread: any
+  void resume(std::uint64_t number, Work next = {});
+  void resume(const TileId& id);                             ///< thread: any
+  void resume_all();                                         ///< thread: any
   [[nodiscard]] bool is_wanted(std::uint64_t number) const;  ///< thread: any
 
   /// Gives up all wishes and ends the threads. Waits for work in progress, but not for an answer that makes this call.
@@ -63,11 +65,15 @@ class RequestDesk : public RemoteTiles {
   void close();
 
  private:
-  enum class Stage { ready, in_work, in_work_again, waiting };
   struct Entry {
     TileWish wish;
     Done done;
-    Stage stage = Stage::ready;
+    std::vector<Work> next{};  ///< empty: the wish waits. An empty Work is Parts::work
+    bool in_work = false;
+  };
+  struct Task {
+    TileWish wish;
+    std::vector<Work> works;
   };
   using Entries = std::map<TileId, Entry>;
   struct Thread {
@@ -77,14 +83,14 @@ class RequestDesk : public RemoteTiles {
 
   // Call the functions below with the lock held.
   void start_threads();
-  void resume(Entry& entry);
+  void resume(Entry& entry, Work next = {});
   [[nodiscard]] Entries::iterator most_wanted();
   Done remove(Entries::iterator entry, bool is_answered);
 
   // thread: the desk's
   void run(std::size_t thread);
-  [[nodiscard]] std::optional<TileWish> next();
-  [[nodiscard]] std::optional<Answer> worked(const TileWish& wish) const;
+  [[nodiscard]] std::optional<Task> next();
+  [[nodiscard]] std::optional<Answer> worked(const Task& task) const;
   [[nodiscard]] Done put_back(const TileWish& wish, bool is_answered);
 
   const Parts parts_;

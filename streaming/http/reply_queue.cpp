@@ -6,7 +6,7 @@
 namespace terrella {
 
 void ReplyQueue::push(HttpReply&& reply, Finish finish) {
-  if (taker_) return taker_({std::move(reply), std::move(finish)});
+  if (taker_) return taker_(std::move(reply));
   const std::lock_guard lock(mutex_);
   items_.push_back({std::move(reply), std::move(finish)});
   if (items_.size() >= wake_at_) pushed_.notify_one();
@@ -19,7 +19,7 @@ std::optional<HttpReply> ReplyQueue::take() {
   Item item = std::move(items_.front());
   items_.pop_front();
   lock.unlock();
-  return std::move(item).finished();
+  return finished(std::move(item));
 }
 
 std::vector<HttpReply> ReplyQueue::take_all(std::chrono::milliseconds longest) {
@@ -31,7 +31,7 @@ std::vector<HttpReply> ReplyQueue::take_all(std::chrono::milliseconds longest) {
   }
   std::vector<HttpReply> replies;
   replies.reserve(items.size());
-  for (Item& item : items) replies.push_back(std::move(item).finished());
+  for (Item& item : items) replies.push_back(finished(std::move(item)));
   return replies;
 }
 
@@ -41,14 +41,14 @@ void ReplyQueue::close() {
   pushed_.notify_all();
 }
 
-HttpReply ReplyQueue::Item::finished() && {
+HttpReply ReplyQueue::finished(Item&& item) {
   try {
-    if (finish) finish(reply);
+    if (item.finish) item.finish(item.reply);
   } catch (const std::exception& failed) {
-    reply.outcome = HttpOutcome::failed;
-    reply.why = failed.what();
+    item.reply.outcome = HttpOutcome::failed;
+    item.reply.why = failed.what();
   }
-  return std::move(reply);
+  return std::move(item.reply);
 }
 
 }  // namespace terrella

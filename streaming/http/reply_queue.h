@@ -25,15 +25,8 @@ class ReplyQueue {
   /// small tile.
   explicit ReplyQueue(std::size_t wake_at = 1) : wake_at_(wake_at) {}
 
-  /// A reply, and the work that completes it.
-  struct Item {
-    HttpReply reply;
-    Finish finish;
-    /// Runs `finish` and returns the reply. An exception becomes a failed reply.
-    [[nodiscard]] HttpReply finished() &&;
-  };
-  /// A queue that keeps nothing: each push goes to `taker`, which must not block.
-  explicit ReplyQueue(std::function<void(Item&&)> taker) : wake_at_(1), taker_(std::move(taker)) {}
+  /// A queue that keeps nothing: each push goes to `taker`, which must not block. For replies without a Finish.
+  explicit ReplyQueue(std::function<void(HttpReply&&)> taker) : wake_at_(1), taker_(std::move(taker)) {}
 
   /// Never blocks. The thread that takes the reply runs `finish`, if any, before it gets the reply.
   void push(HttpReply&& reply, Finish finish = {});
@@ -44,9 +37,15 @@ class ReplyQueue {
   void close();  ///< take() returns nothing from now on
 
  private:
+  struct Item {
+    HttpReply reply;
+    Finish finish;
+  };
+  [[nodiscard]] static HttpReply finished(Item&& item);
+
   const std::size_t wake_at_;
-  const std::function<void(Item&&)> taker_;  ///< empty: the queue keeps the replies
-  std::mutex mutex_;                         ///< guards the members below
+  const std::function<void(HttpReply&&)> taker_;  ///< empty: the queue keeps the replies
+  std::mutex mutex_;                              ///< guards the members below
   std::condition_variable pushed_;
   std::deque<Item> items_;
   bool closed_ = false;

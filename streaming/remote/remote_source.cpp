@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <ctime>
-#include <mutex>
-#include <unordered_map>
 #include <utility>
 
 #include "streaming/http/reply_queue.h"
@@ -33,10 +31,18 @@ class RemoteSource : public TileSource {
   RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
       : set_(std::move(set)),
         cache_(std::move(cache)),
-        desk_({.work = [this](const TileWish& wish) { return work(wish); },
+        desk_({.work = [this](const TileWish& wish) { return ask(wish); },
                .moved = [this](const TileWish& wish) { fetcher_.set_priority(wish.number, wish.priority); },
-               .ended = [this](const TileWish& wish, bool is_answered) { forget(wish.number, is_answered); }}),
-        replies_([this](ReplyQueue::Item&& reply) { keep(std::move(reply)); }),
+               .ended =
+                   [this](const TileWish& wish, bool is_answered) {
+                     if (!is_answered) fetcher_.cancel(wish.number);
+                   }}),
+        replies_([this](HttpReply&& reply) {
+          const std::uint64_t wish = reply.id;
+          desk_.resume(wish, [this, reply = std::move(reply)](const TileWish& asked) mutable {
+            return answer(asked.id, std::move(reply));
+          });
+        }),
         fetcher_(set_, options, replies_) {}
   ~RemoteSource() override { desk_.close(); }
   RemoteSource(const RemoteSource&) = delete;
@@ -61,22 +67,7 @@ class RemoteSource : public TileSource {
 
   // thread: the desk's ------------------------------------------------------------------------------------------------
 
-  /// Asks the server, and answers once its reply is there. The cache may be slow.
-  std::optional<Encoded> work(const TileWish& wish) {
-    if (wish.is_new) {
-      ask(wish);
-      return std::nullopt;
-    }
-    std::optional<ReplyQueue::Item> reply;
-    {
-      const std::lock_guard lock(mutex_);
-      reply.swap(asked_.at(wish.number));
-    }
-    if (!reply) return std::nullopt;
-    return answer(wish.id, std::move(*reply).finished());
-  }
-
-  void ask(const TileWish& wish) {
+  std::optional<Encoded> ask(const TileWish& wish) {
     HttpRequest request;
     request.id = wish.number;
     request.priority = wish.priority;
@@ -86,31 +77,8 @@ class RemoteSource : public TileSource {
         request.last_modified = (*known)->last_modified;
       }
     }
-    {
-      const std::lock_guard lock(mutex_);
-      asked_.try_emplace(wish.number);
-    }
     fetcher_.fetch(wish.id, std::move(request));
-  }
-
-  void forget(std::uint64_t number, bool is_answered) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (asked_.erase(number) == 0) return;
-    }
-    if (!is_answered) fetcher_.cancel(number);
-  }
-
-  // thread: the fetcher's
-  void keep(ReplyQueue::Item&& reply) {
-    const std::uint64_t number = reply.reply.id;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto asked = asked_.find(number);
-      if (asked == asked_.end()) return;
-      asked->second = std::move(reply);
-    }
-    desk_.resume(number);
+    return std::nullopt;
   }
 
   Encoded answer(const TileId& id, HttpReply&& reply) {
@@ -177,8 +145,6 @@ class RemoteSource : public TileSource {
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;
-  std::mutex mutex_;                                                          ///< guards asked_
-  std::unordered_map<std::uint64_t, std::optional<ReplyQueue::Item>> asked_;  ///< by the wish's number; with the reply
   RequestDesk desk_;
   ReplyQueue replies_;
   TileFetcher fetcher_;  ///< the last member, because it calls the others

@@ -19,6 +19,8 @@ namespace {
 /// Threads that look up blocks, keep answers and pass them on. One of them at most looks up, which may wait for the
 /// network.
 constexpr int kThreads = 3;
+/// Spans of a wish with the number n have the numbers from n · kMostSpans on. A block has hundreds at most.
+constexpr std::uint64_t kMostSpans = 1UL << 20;
 
 using Encoded = Result<EncodedTile, TileFailure>;
 using Bytes = std::shared_ptr<const std::vector<std::byte>>;
@@ -28,7 +30,6 @@ struct WishedBlock {
   double priority = 0.0;
   std::vector<FilePiece> pieces{};             ///< those that are there
   std::map<std::uint64_t, ByteRange> spans{};  ///< in flight, by number
-  std::vector<HttpReply> came{};               ///< answers that were not worked on yet
 };
 
 /// Lets spans that do not decode be requested again. An earlier version, or a fault of the disk, may have put them
@@ -44,12 +45,17 @@ class RemoteTiffSource : public RemoteTiff {
       : file_(std::move(file)),
         tables_(std::move(tables)),
         decoder_(std::move(decoder)),
-        desk_({.work = [this](const TileWish& wish) { return work(wish); },
+        desk_({.work = [this](const TileWish& wish) { return look_up(wish); },
                .moved = [this](const TileWish& wish) { move(wish); },
                .ended = [this](const TileWish& wish, bool) { forget(wish.number); },
                .threads = kThreads,
                .beginners = 1}),
-        answers_([this](ReplyQueue::Item&& answer) { take(std::move(answer.reply)); }) {
+        answers_([this](HttpReply&& answer) {
+          const std::uint64_t wish = answer.id / kMostSpans;
+          desk_.resume(wish, [this, answer = std::move(answer)](const TileWish& asked) mutable {
+            return keep(asked, std::move(answer));
+          });
+        }) {
     if (!file_->offline()) fetcher_ = std::make_unique<SpanFetcher>(file_->address(), file_->http(), answers_);
   }
   ~RemoteTiffSource() override {
@@ -163,48 +169,14 @@ class RemoteTiffSource : public RemoteTiff {
     const std::lock_guard lock(mutex_);
     const auto block = blocks_.extract(wish);
     if (block.empty()) return;
-    for (const auto& [number, range] : block.mapped().spans) {
-      if (asked_.erase(number) > 0) fetcher_->cancel(number);
-    }
-  }
-
-  // thread: the fetcher's
-  void take(HttpReply&& answer) {
-    std::uint64_t wish = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto asked = asked_.extract(answer.id);
-      if (asked.empty()) return;
-      wish = asked.mapped();
-      blocks_.at(wish).came.push_back(std::move(answer));
-    }
-    desk_.resume(wish);
+    for (const auto& [number, range] : block.mapped().spans) fetcher_->cancel(number);
   }
 
   // thread: the desk's ------------------------------------------------------------------------------------------------
 
-  std::optional<Encoded> work(const TileWish& wish) {
-    WishedBlock& block = block_of(wish);
-    if (wish.is_new) {
-      if (auto failure = look_up(wish, block)) return *std::move(failure);
-    }
-    std::vector<HttpReply> came;
-    {
-      const std::lock_guard lock(mutex_);
-      came.swap(block.came);
-    }
-    for (HttpReply& answer : came) {
-      if (auto failure = keep(block, std::move(answer))) return *std::move(failure);
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      if (!block.spans.empty()) return std::nullopt;
-    }
-    return tile_of(wish.id, std::move(block.pieces));
-  }
-
   /// Takes the bytes that the cache has, and asks for the others. Waits for the network or the cache.
-  std::optional<TileFailure> look_up(const TileWish& wish, WishedBlock& block) {
+  std::optional<Encoded> look_up(const TileWish& wish) {
+    WishedBlock& block = block_of(wish);
     const auto ranges = spans(wish.id);
     if (!ranges) return ranges.error();
     std::vector<ByteRange> missing;
@@ -213,40 +185,43 @@ class RemoteTiffSource : public RemoteTiff {
       if (!bytes) missing.push_back(range);
       if (bytes) block.pieces.push_back({range.offset, std::move(bytes)});
     }
-    if (!desk_.is_wanted(wish.number)) return TileFailure{MissingKind::failed, "given up"};
+    if (missing.empty()) return tile_of(wish.id, std::move(block.pieces));
+    if (!desk_.is_wanted(wish.number)) return std::nullopt;
     const std::lock_guard lock(mutex_);
-    for (const ByteRange& range : missing) {
-      block.spans.emplace(++last_number_, range);
-      asked_.emplace(last_number_, wish.number);
-      fetcher_->fetch(last_number_, range, block.priority, check_of(wish.id));
+    for (std::uint64_t number = wish.number * kMostSpans; const ByteRange& range : missing) {
+      block.spans.emplace(number, range);
+      fetcher_->fetch(number++, range, block.priority, check_of(wish.id));
     }
     return std::nullopt;
   }
 
-  std::optional<TileFailure> keep(WishedBlock& block, HttpReply&& answer) {
-    ByteRange range;
-    {
-      const std::lock_guard lock(mutex_);
-      range = block.spans.extract(answer.id).mapped();
-    }
+  /// Takes the bytes that came.
+  std::optional<Encoded> keep(const TileWish& wish, HttpReply&& answer) {
     if (answer.outcome != HttpOutcome::content) {
       if (answer.status == 412) file_->doubt_version();
       const bool broken = answer.outcome == HttpOutcome::broken;
       return TileFailure{broken ? MissingKind::broken : MissingKind::failed, std::move(answer.why)};
     }
+    WishedBlock& block = block_of(wish);
+    ByteRange range;
+    bool complete = false;
+    {
+      const std::lock_guard lock(mutex_);
+      range = block.spans.extract(answer.id).mapped();
+      complete = block.spans.empty();
+    }
     const auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(answer.body));
     block.pieces.push_back({range.offset, bytes});
     if (file_->cache() != nullptr && !answer.no_store) file_->cache()->keep_span(range, *bytes);
-    return std::nullopt;
+    if (!complete) return std::nullopt;
+    return tile_of(wish.id, std::move(block.pieces));
   }
 
   const std::shared_ptr<RemoteFile> file_;
-  const std::unique_ptr<TiffSource> tables_;                ///< looks up the bytes of blocks, waiting for the network
-  const std::unique_ptr<TiffSource> decoder_;               ///< decodes the blocks whose bytes are there
-  std::mutex mutex_;                                        ///< guards the next three members
-  std::unordered_map<std::uint64_t, WishedBlock> blocks_;   ///< by the wish's number
-  std::unordered_map<std::uint64_t, std::uint64_t> asked_;  ///< the wish's number, by that of a span in flight
-  std::uint64_t last_number_ = 0;
+  const std::unique_ptr<TiffSource> tables_;               ///< looks up the bytes of blocks, waiting for the network
+  const std::unique_ptr<TiffSource> decoder_;              ///< decodes the blocks whose bytes are there
+  std::mutex mutex_;                                       ///< guards blocks_
+  std::unordered_map<std::uint64_t, WishedBlock> blocks_;  ///< by the wish's number
   RequestDesk desk_;
   ReplyQueue answers_;
   std::unique_ptr<SpanFetcher> fetcher_;  ///< null: offline. The last member, because it calls the others

@@ -61,14 +61,15 @@ void look(TileLoader& loader, const TileGrid& grid, Chance& chance) {
   }
 }
 
-/// An answer has the last owner; or the source has ended before.
+/// An answer has the last owner. A late worker of the loader may want the same tile; the answer then goes uncalled.
 void end_in_an_answer(std::shared_ptr<TileSource> source, const TileId& id) {
   const auto ended = std::make_shared<std::promise<void>>();
   RemoteTiles* const tiles = source->remote();
-  tiles->fetch(id, 9.0, [owner = std::move(source), ended](const auto&) mutable {
-    owner.reset();
+  std::shared_ptr<void> owner(nullptr, [source = std::move(source), ended](void*) mutable {
+    source.reset();
     ended->set_value();
   });
+  tiles->fetch(id, 9.0, [owner = std::move(owner)](const auto&) mutable { owner.reset(); });
   EXPECT_EQ(ended->get_future().wait_for(kPatience), std::future_status::ready);
 }
 

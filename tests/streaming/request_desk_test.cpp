@@ -8,6 +8,7 @@
 #include <future>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace terrella {
@@ -44,7 +45,7 @@ class Door {
   int waiting_ = 0;
 };
 
-/// What happened, in order.
+/// Events in their order.
 class Notes {
  public:
   void add(std::int64_t x) {
@@ -165,18 +166,19 @@ TEST(RequestDesk, FewerThreadsBeginThanGoOn) {
 }
 
 TEST(RequestDesk, AnAnswerMayEndTheDeskWhileAnotherThreadWorks) {
-  Door door, worked;
+  Door in_work;
+  RequestDesk* tiles = nullptr;
   auto desk = std::make_unique<RequestDesk>(RequestDesk::Parts{.work = [&](const TileWish& wish) -> Answer {
-    if (wish.id == tile(2)) worked.open();
-    if (wish.id == tile(2)) door.pass();
+    if (wish.id == tile(2)) in_work.open();
+    // Until the desk closes.
+    while (wish.id == tile(2) && tiles->is_wanted(wish.number)) std::this_thread::yield();
     return EncodedTile{};
   }});
+  tiles = desk.get();
   std::promise<void> ended;
-  RequestDesk& tiles = *desk;
-  tiles.fetch(tile(2), 0.0, [](const Answer&) { ADD_FAILURE() << "its desk is gone"; });
-  worked.pass();
-  tiles.fetch(tile(1), 0.0, [&](const Answer&) {
-    std::jthread opener([&] { door.open(); });
+  tiles->fetch(tile(2), 0.0, [](const Answer&) { ADD_FAILURE() << "its desk is gone"; });
+  in_work.pass();
+  tiles->fetch(tile(1), 0.0, [&](const Answer&) {
     desk.reset();
     ended.set_value();
   });
