@@ -4,6 +4,7 @@
 
 #include "render/gl/stencil_bits.h"
 #include "render/globe_renderer.h"
+#include "surface/far_side_curtain.h"
 
 // The eyes of a picture, and the sight of one eye: the objects, labels and limb that the surface or the inner sphere
 // hides, and the near plane. Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/hash_mix.h"
+#include "surface/plan/tile_coverage.h"
 
 namespace terrella {
 namespace {

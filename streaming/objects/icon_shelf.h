@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/result.h"
 #include "geo/objects.h"
 #include "streaming/objects/object_style.h"
 

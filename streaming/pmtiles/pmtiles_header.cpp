@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kPmtilesVersion = 3;
 constexpr std::string_view kMagic = "PMTiles";
-constexpr std::string_view kOldMagic = "PM\1";  // versions 1 and 2: "PM", the version in two bytes
 
 std::uint64_t number_at(std::span<const std::byte> head, std::size_t at, std::size_t bytes) {
   std::uint64_t number = 0;
