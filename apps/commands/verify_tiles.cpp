@@ -105,7 +105,11 @@ class Verifier {
     return options;
   }
 
+  // A damaged set may list a tile twice, and the loader delivers the tile once.
   void flush() {
+    std::ranges::sort(batch_, {}, &TileRequest::id);
+    const auto repeated = std::ranges::unique(batch_, {}, &TileRequest::id);
+    batch_.erase(repeated.begin(), repeated.end());
     load(loader_, batch_, report_);
     done_ += static_cast<std::int64_t>(batch_.size());
     batch_.clear();

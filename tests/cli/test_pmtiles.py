@@ -51,6 +51,14 @@ class ArchiveTest(ProgramTest):
 
 
 class LocalTest(ArchiveTest):
+    def test_an_mbtiles_file_that_stores_a_tile_twice(self):
+        """info --verify waited for ever for the second one."""
+        name = self.mbtiles()
+        with sqlite3.connect(self.folder / name) as base:
+            base.execute("INSERT INTO tiles SELECT * FROM tiles")
+        base.close()
+        self.assert_done("info", name, "--verify")
+
     def test_every_layout_shows_the_same(self):
         truth = self.pixels(self.mbtiles())
         layouts = {"flat": {}, "leaves": {"leaf_size": 3}, "deep": {"leaf_size": 2, "depth": 3},
