@@ -14,8 +14,7 @@ namespace terrella {
 namespace {
 
 constexpr double kPlaced_px = 0.01;
-/// Number of pixel corners transformed along each side. Projections are smooth between them.
-constexpr int kProbes = 17;
+constexpr int kProbes = 17;  ///< pixel corners transformed along each side; projections are smooth between them
 /// Largest plausible longitude: an extra turn.
 constexpr double kMostLongitude_deg = 540.0;
 /// Largest plausible latitude of numbers without a system: half a pixel of a coarse picture beyond the pole.
@@ -156,11 +155,13 @@ Status place_transform(Case& of, const Crs& crs) {
     if (!is_plausible(of.picture, *place)) return implausible(of.picture, case_text(of, crs.facts()) + ", and", *place);
     return Done{};
   }
-  if (warp_extent(of.picture, of.said, crs)) return Done{};
+  const bool fits = !crs.facts().geographic || are_degrees(*of.said.transform, of.picture);  // even if turned
+  if (fits && warp_extent(of.picture, of.said, crs)) return Done{};
   return Error{fmt::format(
-      "{}, and no pixel of it has a place on the planet by that; say what is right with --crs CRS or --bounds W,S,E,N, "
-      "or write it into a copy: {}",
-      case_text(of, crs.facts()), assign_command(of.picture))};
+      "{}, and {} by that; say what is right with --crs CRS or --bounds W,S,E,N, or write it into a copy: {}",
+      case_text(of, crs.facts()),
+      fits ? "no pixel of it has a place on the planet" : "its corners are at more than a planet has",
+      assign_command(of.picture))};
 }
 
 /// Place that the user gives in degrees.

@@ -278,6 +278,11 @@ class Refused(GeoreferenceTest):
         self.picture("in.tif", "-a_srs", "EPSG:4326", "-a_ullr", -180, 120, 180, -60)
         self.assert_refused("in.tif", "more than a planet", "--bounds")
 
+    def test_turned_more_than_a_planet(self):
+        self.picture("in.png", "-of", "PNG", "-a_srs", "EPSG:4326")
+        self.write("in.pgw", b"1.40625\n0\n255\n-1.40625\n-179.296875\n89.296875\n")
+        self.assert_refused("in.png", "more than a planet", "--bounds")
+
 
 class Words(GeoreferenceTest):
     """The user's words win, and a message says so if the picture says otherwise."""
