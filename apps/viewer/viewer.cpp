@@ -3,10 +3,8 @@
 #include <epoxy/gl.h>
 // epoxy before GLFW, which otherwise includes its own gl.h
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <iterator>
@@ -23,9 +21,8 @@ constexpr std::chrono::seconds kHintTime(30);
 constexpr const char* kHint = "Drag to turn the globe, use the wheel to zoom. P opens settings, F1 lists shortcuts.";
 constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived tiles
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
+constexpr double kShareOfWait = 0.1;            // a pause, as a share of the time waited so far
 constexpr double kTinyWindow = 22.0;            // height, in text heights
-constexpr double kScaleBar_px = 150.0;          // at 96 dots per inch
-constexpr double kScaleBarShare = 0.5;          // largest share of the window's width
 
 }  // namespace
 
@@ -145,15 +142,21 @@ bool Viewer::work() const {
     return true;
   if (std::ranges::any_of(parts_, [](const Part* part) { return part->changed(); })) return true;
   if (!pictures_.is_drawing() && globe_.needs_frame()) return true;
-  return messages_.is_due() || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE;
+  return messages_.is_due() || messages_.has_waiting() || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE;
+}
+
+// The longer tiles have not come, the longer the pause: a slow server must not keep the processor busy.
+double Viewer::pause_s(Seconds waited) const {
+  if (globe_.settled() && job().empty()) return kIdlePause_s;
+  return std::clamp(kShareOfWait * waited.count(), kLoadingPause_s, kIdlePause_s);
 }
 
 void Viewer::wait_for_work() {
   if (work()) return input_.listen();
   keep_settings();
-  const double pause_s = globe_.settled() && job().empty() ? kIdlePause_s : kLoadingPause_s;
+  const Seconds start = Input::now();
   do {
-    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s)));
+    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s(Input::now() - start))));
   } while (!work());
 }
 
@@ -174,18 +177,20 @@ void Viewer::draw_frame(Viewport framebuffer) {
   } else {
     frame_.draw(globe_, framebuffer);
     if (!globe_.status()) messages_.say(globe_.status().error().message);
+    layers_.watch_tiles(frame_.stats());
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
   draw_panels(framebuffer);
   if (panel_frames_ == 0) pictures_.after_frame(framebuffer);  // a newly opened panel is not drawn yet
   glfwSwapBuffers(window_.handle());
+  messages_.end_frame();
   frame_graph_.note(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 }
 
 void Viewer::draw_panels(Viewport framebuffer) {
   const View view = globe_.view(framebuffer);
-  messages_.drop_due();
+  messages_.begin_frame();
   job_text_ = job();
   labels_.clear();
   map_.update(frame_graph_.last_ms());
@@ -197,7 +202,7 @@ void Viewer::draw_panels(Viewport framebuffer) {
     const bool alone = front_panel() != nullptr && window_height() < kTinyWindow * Ui::text_height();
     const float foot = alone ? 0.0F : draw_texts(status(view));
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
-    if (!alone) layers_.draw_legend(foot, false);
+    if (!alone) draw_legend(foot, false);
     if (!pictures_.is_drawing()) draw_over_panels(view, foot);
     cover_panels(framebuffer);
   }
@@ -211,21 +216,31 @@ void Viewer::draw_over_panels(const View& view, float foot) {
   const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
   button_held_ = column.held;
   if (column.clicked != nullptr) column.clicked->run(*this);
-  // Lines first. Names keep off panels and the graticule's labels.
+  // Lines first. Names keep off panels, objects' labels and the graticule's labels.
   map_.draw_lines(view);
-  labels_ = graticule_.draw_over(view, double(foot));
-  std::vector<UiBox> taken = Ui::panel_boxes();
-  taken.insert(taken.end(), labels_.begin(), labels_.end());
-  std::ranges::move(map_.draw_names(view, taken), std::back_inserter(labels_));
+  const std::vector<UiBox> panels = Ui::panel_boxes();
+  const auto taken = [&] {
+    std::vector<UiBox> boxes = panels;
+    boxes.insert(boxes.end(), labels_.begin(), labels_.end());
+    return boxes;
+  };
+  labels_ = object_labels(globe_, window_.pixels_per_unit().x);
+  std::ranges::move(graticule_.draw_over(view, double(foot), taken()), std::back_inserter(labels_));
+  std::ranges::move(map_.draw_names(view, taken()), std::back_inserter(labels_));
 }
 
 // Draws the texts that the panels leave room. Returns the height of those at the lower edge.
 float Viewer::draw_texts(const PanelStatus& status) {
   const float foot = frame_graph_.draw_above(draw_status(status, window_.pixels_per_unit().x), frame_.stats());
-  layers_.draw_legend(foot, true);
+  draw_legend(foot, true);
   draw_message(status, foot);
   draw_head(status);
   return foot;
+}
+
+// A picture that is being saved brings its own legend.
+void Viewer::draw_legend(float foot, bool before_panels) const {
+  if (!pictures_.is_drawing()) layers_.draw_legend(foot, before_panels);
 }
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
@@ -244,41 +259,6 @@ void Viewer::cover_panels(Viewport framebuffer) {
     panel->cover(covered);
     if (!covered) front.push_back(*box);
   }
-}
-
-PanelStatus Viewer::status(const View& view) {
-  const Ground ground = globe_.ground();
-  PanelStatus status;
-  const auto cursor = input_.cursor_px();
-  if (const auto place = cursor ? pick(view, ground, *cursor) : std::nullopt) {
-    status.cursor = place_text(*place, pixel_step_deg(view, ground));
-    if (const std::string value = layers_.value_at(*place); !value.empty()) status.cursor += "   " + value;
-    const auto elevation_m = globe_.elevation_m(place->lat, place->lon);
-    if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
-  }
-  status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m);
-  const int loading = frame_.stats().tiles_pending;
-  if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
-  if (const auto& time = globe_.options().time) status.time = time_text(*time);
-  status.message = messages_.text();
-  status.job = job_text_;
-  status.attribution = fmt::format("{}", fmt::join(credits(), "   "));
-  if (!status.attribution.empty()) last_attribution_ = status.attribution;
-  status.last_attribution = last_attribution_;
-  const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
-  status.scale = scale_bar(view, ground, most_px);
-  return status;
-}
-
-// Sources of the last frame.
-std::vector<std::string> Viewer::credits() const {
-  std::vector<std::string> credits = globe_.attributions();
-  std::ranges::move(map_.attributions(), std::back_inserter(credits));
-  return credits;
-}
-
-PictureOverlay Viewer::overlay() {
-  return {.graticule = graticule_.is_on(), .map = map_.painter(), .legend = layers_.legend(), .credits = credits()};
 }
 
 void Viewer::print_at_rest() {

@@ -79,6 +79,7 @@ class Viewer {
   void follow_panels();
   [[nodiscard]] Part* front_panel() const;
   [[nodiscard]] bool work() const;
+  [[nodiscard]] double pause_s(Seconds waited) const;
   void wait_for_work();
   [[nodiscard]] std::string job() const;
   void tell_of_finest_texels();
@@ -86,6 +87,7 @@ class Viewer {
   void draw_panels(Viewport framebuffer);
   void draw_over_panels(const View& view, float foot);
   [[nodiscard]] float draw_texts(const PanelStatus& status);
+  void draw_legend(float foot, bool before_panels) const;
   void cover_panels(Viewport framebuffer);
   [[nodiscard]] PictureOverlay overlay();
   [[nodiscard]] std::vector<std::string> credits() const;
@@ -132,7 +134,7 @@ class Viewer {
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels
   bool was_at_texels_ = false;
-  std::vector<UiBox> labels_;  ///< boxes of the graticule's and the map's labels in the last frame
+  std::vector<UiBox> labels_;  ///< boxes of the labels of objects, graticule and map in the last frame
   std::string last_attribution_;
   std::string panels_text_;  ///< Ui::boxes_text() of the last frame
   std::string job_text_;     ///< job() in the last frame

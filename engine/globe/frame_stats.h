@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <optional>
 
 #include "geo/coordinates.h"
@@ -36,6 +37,11 @@ struct FrameStats {
   std::size_t height_bytes = 0;  ///< elevation tiles
   std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
   std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state
+};
+
+/// A rectangle of a picture, pixels from the upper left corner.
+struct PictureBox {
+  glm::vec2 low_px, high_px;
 };
 
 /// A missing tile, and the reason.

@@ -249,6 +249,13 @@ std::optional<double> Globe::finest_texel_m() const {
   return impl_->may_call("Globe::finest_texel_m") ? impl_->first().finest_texel_m() : std::nullopt;
 }
 
+std::vector<PictureBox> Globe::label_boxes() const {
+  std::vector<PictureBox> boxes;
+  if (!impl_->may_call("Globe::label_boxes")) return boxes;
+  for (const auto& label : impl_->first().memory.labels.labels) boxes.push_back({label.box.low_px, label.box.high_px});
+  return boxes;
+}
+
 View Globe::view(Viewport viewport) const { return impl_->first().eye_view(viewport); }
 
 GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {

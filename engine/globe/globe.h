@@ -93,6 +93,8 @@ class Globe {
   /// Returns the side of the finest texels of the image layers that the last frame showed, in metres along the
   /// equator; none if it showed no imagery.
   [[nodiscard]] std::optional<double> finest_texel_m() const;
+  /// Returns the boxes of the objects' labels that the last frame showed; in stereo, in the left eye's picture.
+  [[nodiscard]] std::vector<PictureBox> label_boxes() const;
   /// Replaces the elevation; none: the ellipsoid. A Ground returned earlier keeps its heights.
   Status set_elevation(std::optional<ElevationSource> elevation);
   [[nodiscard]] bool has_relief() const;  ///< true if the globe has elevation

@@ -98,6 +98,7 @@ class Viewer:
         )
         self.lines = queue.Queue()
         self.layout = Layout({"panels": {}, "labels": [], "cut": []})
+        self.layouts = []  # all so far
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
         self.camera = None
@@ -108,6 +109,7 @@ class Viewer:
         for line in self.program.stdout:
             if line.startswith("{"):
                 self.layout = Layout(json.loads(line))
+                self.layouts.append(self.layout)
             else:
                 self.lines.put(line.strip())
 

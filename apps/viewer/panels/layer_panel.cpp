@@ -9,6 +9,7 @@ namespace terrella {
 namespace {
 
 constexpr float kLayersWidth = 21.0F;  // in text heights
+const ImVec4 kProblemInk(1.0F, 0.66F, 0.45F, 1.0F);
 
 const char* word_of(LayerKind kind) {
   switch (kind) {
@@ -84,12 +85,20 @@ void draw_attribution(const LayerRow& row) {
   ImGui::PopTextWrapPos();
 }
 
+void draw_problem(const LayerRow& row) {
+  if (row.problem.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, kProblemInk);
+  ImGui::TextWrapped("Last failure: %s", row.problem.c_str());
+  ImGui::PopStyleColor();
+}
+
 LayerAsk draw_row(LayerRow& row) {
   ImGui::Checkbox("##shown", &row.look.shown);
   tip("Shows or hides the layer.");
   ImGui::SameLine();
   const bool open = ImGui::TreeNodeEx(row.name.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
   if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
+  draw_problem(row);
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);
   if (row.numbers && row.read_facts) row.numbers->lines.clear();

@@ -25,6 +25,7 @@ struct LayerRow {
   int finest_level = 0;                                     ///< imagery only
   std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
   std::string attribution = {};                             ///< may be empty
+  std::string problem = {};                                 ///< last failure of a tile, while tiles are missing
   ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
   FactsReader read_facts = {};                              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open

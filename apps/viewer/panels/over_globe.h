@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "apps/viewer/panels/ui.h"
 #include "geo/camera.h"
 #include "globe/globe.h"
 
@@ -12,11 +13,13 @@ struct ImVec2;
 
 namespace terrella {
 
+inline constexpr unsigned kRedChannel = 1, kGreenChannel = 2, kBlueChannel = 4, kAllChannels = 7;
+
 /// Part of the picture in framebuffer pixels, to which lines and labels over the globe are clipped.
 struct PicturePart {
   int left_px = 0;
   Viewport size;
-  glm::vec3 tint{1.0F};  ///< colour of lines and labels
+  unsigned channels = kAllChannels;  ///< those that the eye sees; in anaglyph not all
 };
 
 /// One eye's picture.
@@ -30,12 +33,15 @@ struct EyePart {
 
 /// The pictures of both eyes in stereo, else one. Interlaced pictures have too few rows for two sets of lines.
 [[nodiscard]] std::vector<EyePart> eye_parts(const Globe& globe, const View& view);
+/// Boxes of the objects' labels that no panel of this frame so far covers. Names over the globe keep off them.
+[[nodiscard]] std::vector<UiBox> object_labels(const Globe& globe, double unit_px);
 [[nodiscard]] ImVec2 to_ui(glm::dvec2 px, double unit_px);
-/// Returns ImGui's form of `color`, 0 to 255, multiplied by `tint`.
-[[nodiscard]] unsigned tinted(glm::vec3 color, const glm::vec3& tint, int alpha);
+/// Returns ImGui's form of `color`, 0 to 255.
+[[nodiscard]] unsigned ink(const glm::vec3& color, int alpha);
 /// Draws a text with a dark edge, which is legible on snow too. A thin edge costs half.
 void shaded_text(ImDrawList* list, ImVec2 at, const char* text, unsigned ink, bool thin = false);
-/// Limits drawing to a part of the picture, until ImDrawList::PopClipRect().
-void push_clip(ImDrawList* list, const PicturePart& part, double unit_px);
+/// Limits drawing to a part of the picture and to its channels, until end_part().
+void begin_part(ImDrawList* list, const PicturePart& part, double unit_px);
+void end_part(ImDrawList* list);
 
 }  // namespace terrella

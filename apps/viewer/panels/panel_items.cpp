@@ -28,6 +28,11 @@ namespace {
 
 bool cross_clicked = false;  // by the cross of the panel that is being drawn; there is one mouse
 
+bool pressed_enter() {
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+  return pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter);
+}
+
 }  // namespace
 
 void begin_panel(const char* title) {
@@ -108,11 +113,9 @@ void tip(const char* text) {
   ImGui::EndTooltip();
 }
 
-bool entered() {
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
-  return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible &&
-         (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
-}
+bool entered() { return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible && pressed_enter(); }
+
+bool entered_panel() { return ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) && pressed_enter(); }
 
 void group(const char* name) {
   ImGui::Spacing();

@@ -46,6 +46,8 @@ void beside_if_room(const char* text);
 void tip(const char* text);
 /// True if the Enter key was pressed on the preceding item. ImGui itself takes the space bar alone.
 [[nodiscard]] bool entered();
+/// True if the Enter key was pressed while the panel that is being drawn has the keyboard.
+[[nodiscard]] bool entered_panel();
 /// Draws the title of a group and a line below.
 void group(const char* name);
 void slide(const char* name, double& value, double from, double to, const char* format,

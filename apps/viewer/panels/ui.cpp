@@ -120,7 +120,7 @@ void Ui::take_events(bool on) {
 // Looks at the last frame's panels. ImGui's own answer is about the pointer's place in the last frame.
 bool Ui::is_over_panel(glm::dvec2 at) {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
-  if (context.OpenPopupStack.Size > 0) return true;
+  if (has_open_list()) return true;
   return std::ranges::any_of(context.Windows, [at](const ImGuiWindow* window) {
     if (!window->Active || window->Hidden || window->IsFallbackWindow) return false;
     if ((window->Flags & ImGuiWindowFlags_NoMouseInputs) != 0) return false;
@@ -134,6 +134,8 @@ glm::dvec2 Ui::size_of(const char* title) {
 }
 
 bool Ui::has_text_field() { return ImGui::GetIO().WantTextInput; }
+
+bool Ui::has_open_list() { return ImGui::GetCurrentContext()->OpenPopupStack.Size > 0; }
 
 void Ui::show_focus() { ImGui::GetCurrentContext()->NavDisableHighlight = false; }
 

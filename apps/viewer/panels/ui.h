@@ -42,6 +42,8 @@ class Ui {
   [[nodiscard]] static glm::dvec2 size_of(const char* title);
   /// True if a text field has the keyboard.
   [[nodiscard]] static bool has_text_field();
+  /// True while a list of choices or a colour picker is open, which Esc closes first.
+  [[nodiscard]] static bool has_open_list();
   /// Marks the item that has the keyboard, before the first key.
   static void show_focus();
   /// Moves the keyboard from the globe to the panel with this title, or from any panel to the globe.

@@ -13,9 +13,10 @@ namespace terrella {
 std::vector<UiBox> draw_graticule(const Graticule& graticule, const PicturePart& part, double unit_px,
                                   const std::vector<UiBox>& taken);
 
-/// The same for the globe of a view, with labels around the panels of the frame so far and above `foot` units of the
-/// window at the lower edge. In stereo for both eyes. thread: main
-std::vector<UiBox> draw_graticule(const Globe& globe, const View& view, double unit_px, double foot);
+/// The same for the globe of a view, with labels above `foot` units of the window at the lower edge. In stereo for both
+/// eyes. thread: main
+std::vector<UiBox> draw_graticule(const Globe& globe, const View& view, double unit_px, double foot,
+                                  const std::vector<UiBox>& taken);
 
 /// Lines of latitude and longitude over the globe, with labels. Owns the switch. thread: main for every call
 class GraticuleLines : public Part {
@@ -24,8 +25,8 @@ class GraticuleLines : public Part {
 
   [[nodiscard]] bool& is_on() { return on_; }
   /// Draws the lines under the panels, if on, and returns the boxes of their labels. Call this after the frame's
-  /// panels. Labels keep `foot` free at the lower edge, in units of the window.
-  [[nodiscard]] std::vector<UiBox> draw_over(const View& view, double foot) const;
+  /// panels. Labels keep off the boxes of `taken`, and `foot` free at the lower edge, in units of the window.
+  [[nodiscard]] std::vector<UiBox> draw_over(const View& view, double foot, const std::vector<UiBox>& taken) const;
 
  private:
   bool on_ = false;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "apps/setup/console.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/tools/recent_files.h"
@@ -141,6 +142,25 @@ void Layers::remove(std::size_t row) {
   if (heights) heights_.reset();
   say("Removed " + layer.name);
   rows_.erase(rows_.begin() + std::ptrdiff_t(row));
+}
+
+void Layers::watch_tiles(const FrameStats& stats) {
+  const int missing = stats.tiles_missing + stats.heights_missing,
+            pending = stats.tiles_pending + stats.heights_pending;
+  for (LayerRow& row : rows_) {
+    if (missing + pending == 0) row.problem.clear();
+    if (missing == 0) continue;
+    const bool is_new = row.problem.empty();
+    const Globe& globe = context_.globe;
+    const auto& tiles = row.kind == LayerKind::heights ? globe.missing_heights() : globe.missing_tiles();
+    const auto last = std::find_if(tiles.rbegin(), tiles.rend(), [&row](const MissingTile& tile) {
+      const MissingKind kind = tile.failure.kind;
+      return tile.layer == row.id && kind != MissingKind::absent && kind != MissingKind::blank;
+    });
+    if (last == tiles.rend()) continue;
+    row.problem = one_line(last->failure.why);
+    if (is_new) context_.messages.report(fmt::format("{}; L shows the layer, which tries again", row.problem));
+  }
 }
 
 void Layers::look_at(const GeoRect& bounds) {

@@ -26,6 +26,8 @@ class Layers : public Panel {
   /// Adds the files that are open by now as layers. Call this once per frame. Returns the cuts of their pictures.
   [[nodiscard]] std::vector<std::shared_ptr<GrowingCut>> take_opened();
 
+  /// Shows the failures of tiles in their rows, and reports the first of each row. Call this once per frame.
+  void watch_tiles(const FrameStats& stats);
   /// True once after a click on the button that opens a file.
   [[nodiscard]] bool take_open_wish() { return std::exchange(open_wish_, false); }
 

@@ -21,14 +21,24 @@ void Messages::say(std::string text, Clock::duration time) {
   until_ = Clock::now() + time;
 }
 
+void Messages::say_then(std::string text, std::function<void()> act) {
+  say(std::move(text));
+  act_ = std::move(act);
+}
+
 void Messages::report(const std::string& problem) {
   const bool more = !problems_.empty() && text_ == problems_;
   problems_ = more ? problems_ + "\n" + problem : problem;
   say(problems_);
 }
 
-void Messages::drop_due() {
+void Messages::begin_frame() {
   if (is_due()) text_.clear();
+  act_shown_ = has_waiting();
+}
+
+void Messages::end_frame() {
+  if (std::exchange(act_shown_, false)) std::exchange(act_, nullptr)();
 }
 
 double Messages::seconds_left(double most_s) const {

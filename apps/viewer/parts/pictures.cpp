@@ -35,10 +35,12 @@ void Pictures::draw_open(float foot) {
   ImGui::PushItemWidth(0.55F * kPictureWidth * unit);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_fields(largest_picture_side_px());
-  const bool save = ImGui::Button("Save");
-  tip("Loads all tiles of the picture, then saves a PNG in the folder where the program was started.");
+  bool save = ImGui::Button("Save");
+  tip("Enter: loads all tiles of the picture, then saves a PNG in the folder where the program was started.");
   ImGui::SameLine();
-  const bool leave = ImGui::Button("Close");
+  bool leave = ImGui::Button("Close");
+  leave = entered() || leave;
+  save = (entered_panel() && !leave) || save;
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextDisabled("F12 saves the window with its panels.");
   ImGui::PopTextWrapPos();

@@ -20,15 +20,16 @@ UtcTime present_time() { return std::chrono::floor<std::chrono::minutes>(std::ch
 double TimePlay::step_s() const { return std::clamp(kSkyStep_s / speed_, kFastest_s, kSlowest_s); }
 
 void TimePlay::play(bool on) {
-  Globe& globe = context_.globe;
-  if (on && !globe.options().time) {
-    Status set = globe.set_time(present_time());
-    if (set) set = globe.set_night_lights(true);
-    if (!set) return say(set.error().message);
-  }
+  if (on && !context_.globe.options().time) return context_.messages.say_then(kTimeMessage, [this] { start(); });
   playing_ = on;
   stepped_ = Input::now();
   say(on ? fmt::format("Time runs at {:.0f}x", speed_) : "Time paused");
+}
+
+void TimePlay::start() {
+  Status set = context_.globe.set_time(present_time());
+  if (set) set = context_.globe.set_night_lights(true);
+  set ? play(true) : say(set.error().message);
 }
 
 void TimePlay::advance(Seconds now) {

@@ -26,12 +26,16 @@ class TimePlay : public Part {
   [[nodiscard]] double seconds_left(double most_s) const;
 
  private:
+  void start();
   [[nodiscard]] double step_s() const;
 
   bool playing_ = false;
   double speed_ = 600.0;
   Seconds stepped_{0.0};  ///< time of the last step
 };
+
+/// Shown before a time is first set: the next frame makes shader programs, which may take seconds.
+inline constexpr const char* kTimeMessage = "Preparing Sun, Moon and stars ...";
 
 /// The present, in whole minutes.
 [[nodiscard]] UtcTime present_time();

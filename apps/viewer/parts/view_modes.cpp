@@ -53,7 +53,15 @@ void ViewModes::apply(const ViewSettings& settings) {
     if (const Status lit = globe.set_night_lights(settings.night_lights); !lit) say(lit.error().message);
   }
   if (settings.time == options.time) return;
-  const Status set = globe.set_time(settings.time);
+  if (options.time || !settings.time) return set_time(settings.time);
+  context_.messages.say_then(kTimeMessage, [this, time = settings.time] {
+    say("Date and time are on");
+    set_time(time);
+  });
+}
+
+void ViewModes::set_time(std::optional<UtcTime> time) {
+  const Status set = context_.globe.set_time(time);
   settings_.time_problem = set ? "" : set.error().message;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "apps/viewer/action.h"
@@ -31,6 +32,7 @@ class ViewModes : public Panel {
  private:
   void draw_open(float foot) override;
   void apply(const ViewSettings& settings);
+  void set_time(std::optional<UtcTime> time);
   [[nodiscard]] ViewSettings modes() const;
 
   std::span<const Action> actions_;

@@ -53,10 +53,10 @@ void draw_line(ImDrawList* list, const std::vector<ImVec2>& points, ImU32 color,
   }
 }
 
-void draw_dot(ImDrawList* list, ImVec2 at, const glm::vec3& tint) {
+void draw_dot(ImDrawList* list, ImVec2 at) {
   const float radius = line_width(kDot_px);
-  list->AddCircleFilled(at, radius + line_width(1.0F), tinted(kEdge, tint, 200), 12);
-  list->AddCircleFilled(at, radius, tinted(kPlace, tint, 255), 12);
+  list->AddCircleFilled(at, radius + line_width(1.0F), ink(kEdge, 200), 12);
+  list->AddCircleFilled(at, radius, ink(kPlace, 255), 12);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void MapPainter::draw_lines(const Globe& globe, const View& view, double unit_px
   const Ground ground = globe.ground();
   const bool moves = detail == MapDetail::in_motion;
   for (const auto& [eye, part] : eye_parts(globe, view)) {
-    push_clip(list, part, unit_px);
+    begin_part(list, part, unit_px);
     std::vector<std::pair<MapLineKind, std::vector<ImVec2>>> lines;
     for (const MapPiece& piece : lines_.trace(eye, ground, moves ? kErrorInMotion_px : kError_px)) {
       std::vector<ImVec2> points;
@@ -81,15 +81,15 @@ void MapPainter::draw_lines(const Globe& globe, const View& view, double unit_px
       lines.emplace_back(piece.kind, std::move(points));
     }
     const double strength = strength_at(ellipsoid_.to_geodetic(eye.eye).height_m / eye.pixels_per_radian());
-    const ImU32 edge = tinted(kEdge, part.tint, int(strength * kEdgeAlpha));
+    const ImU32 edge = ink(kEdge, int(strength * kEdgeAlpha));
     for (const auto& line : lines) {
       if (!moves) draw_line(list, line.second, edge, line_width(kEdge_px));
     }
-    const ImU32 coast = tinted(kCoast, part.tint, int(strength * kCoastAlpha));
-    const ImU32 border = tinted(kBorder, part.tint, int(strength * kBorderAlpha));
+    const ImU32 coast = ink(kCoast, int(strength * kCoastAlpha));
+    const ImU32 border = ink(kBorder, int(strength * kBorderAlpha));
     for (const auto& [kind, points] : lines)
       draw_line(list, points, kind == MapLineKind::coast ? coast : border, line_width(kLine_px));
-    list->PopClipRect();
+    end_part(list);
   }
 }
 
@@ -124,20 +124,20 @@ std::vector<UiBox> MapPainter::draw_names(const Globe& globe, const View& view, 
   const std::vector<ShownName> shown = labels_->place(eyes.front().view, ground, page);
   std::vector<UiBox> boxes;
   for (const auto& [eye, part] : eyes) {
-    push_clip(list, part, unit_px);
+    begin_part(list, part, unit_px);
     for (const ShownName& name : shown) {
       const MapName& what = labels_->names()[name.name];
       const auto px = labels_->place_px(name.name, eye, ground);
       if (!px) continue;
       const ImVec2 at = to_ui(glm::dvec2(part.left_px, 0) + *px, unit_px), text = to_ui(name.text_px, unit_px);
-      if (!what.is_area) draw_dot(list, at, part.tint);
+      if (!what.is_area) draw_dot(list, at);
       const ImVec2 from{std::round(at.x + text.x), std::round(at.y + text.y)};
       const ImVec2 size = ImGui::CalcTextSize(what.text.c_str());
       boxes.push_back({from.x, from.y, from.x + size.x, from.y + size.y});
-      shaded_text(list, from, what.text.c_str(), tinted(what.is_area ? kCountry : kPlace, part.tint, 255),
+      shaded_text(list, from, what.text.c_str(), ink(what.is_area ? kCountry : kPlace, 255),
                   detail == MapDetail::in_motion);
     }
-    list->PopClipRect();
+    end_part(list);
   }
   return boxes;
 }

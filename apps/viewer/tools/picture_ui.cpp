@@ -7,7 +7,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "apps/viewer/panels/over_globe.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/graticule_lines.h"
@@ -57,8 +59,9 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
   status.attribution = fmt::format("{}", fmt::join(overlay.credits, "   "));
   draw_head(status);
   std::vector<UiBox> taken = Ui::panel_boxes();
+  std::ranges::move(object_labels(globe, 1.0), std::back_inserter(taken));
   if (overlay.graticule) {
-    const std::vector<UiBox> labels = draw_graticule(globe, view, 1.0, 0.0);
+    const std::vector<UiBox> labels = draw_graticule(globe, view, 1.0, 0.0, taken);
     taken.insert(taken.end(), labels.begin(), labels.end());
   }
   if (overlay.map != nullptr) overlay.map->draw_names(globe, view, 1.0, MapDetail::full, taken);
