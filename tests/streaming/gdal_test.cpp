@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,8 +11,6 @@
 
 namespace terrella {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Colours grow by 255 over 360° or 180°: half a pixel of the coarsest level is a level or two, and GDAL 3.6's
 /// overviews of PNG tiles are themselves off by up to four. A row or column of tiles in the wrong place is off by 30
