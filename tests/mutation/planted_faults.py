@@ -102,6 +102,21 @@ FAULTS = [
     Fault("objects: a change of colour cuts an area anew", "engine/objects/layer_cuts.cpp",
           "if ((!fill || area.asked_fill) && (!outline || area.asked_outline)) return;", "",
           "facade_tests", "LivingObjects.OnlyAShape*"),
+    Fault("threads: a map that a further thread cannot open makes a transparent tile", "streaming/warp/make_warp_source.cpp",
+          "if (!opened) return TileFailure{MissingKind::failed,", "if (!opened) return TileFailure{MissingKind::blank,",
+          "terrella_warp_tests", "MapsOfThreads.*"),
+    Fault("caches: a span that does not decode is kept", "streaming/remote_tiff/span_fetcher.cpp",
+          "if (Status good = span.check(span.range, bytes); !good) {", "if (Status good = span.check(span.range, bytes); !good && bytes.empty()) {",
+          "terrella_remote_tiff_tests", "SpanFetcherTest.ASpanThatDoesNot*"),
+    Fault("archives: a damaged leaf counts as read", "streaming/pmtiles/pmtiles_index.cpp",
+          "if (!parsed) return parsed.error();", "if (!parsed) return Done{};",
+          "terrella_containers_tests", "PmtilesIndexTest.NothingIsKept*"),
+    Fault("window: a slow action does not wait until its message is shown", "apps/viewer/parts/messages.cpp",
+          "act_ = std::move(act);", "act_ = std::move(act);\n  act_shown_ = true;",
+          "viewer_tests", "Messages.*"),
+    Fault("anaglyph: the texts of one eye cover those of the other", "apps/viewer/panels/over_globe.cpp",
+          "limit_channels(list, part.channels);", "limit_channels(list, kAllChannels);",
+          "viewer_tests", "Sizes/PanelBoxes.AnEye*"),
 ]
 
 

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,19 @@ TEST_P(PanelBoxes, ALabelUnderAPanelIsLeftOut) {
   EXPECT_FALSE(drawn({40.0, 40.0}));
   EXPECT_FALSE(drawn({118.0, 40.0}));
   EXPECT_TRUE(drawn({130.0, 100.0}));
+}
+
+TEST_P(PanelBoxes, AnEyeOfAnAnaglyphWritesItsChannelsAlone) {
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const PicturePart part{.size = {int(GetParam().width), int(GetParam().height)}, .channels = kRedChannel};
+  begin_part(list, part, 1.0);
+  list->AddLine({0.0F, 0.0F}, {9.0F, 9.0F}, ink({255.0F, 255.0F, 255.0F}, 255));
+  end_part(list);
+  std::vector<std::uintptr_t> channels;
+  for (const ImDrawCmd& command : list->CmdBuffer) {
+    if (command.UserCallback != nullptr) channels.push_back(reinterpret_cast<std::uintptr_t>(command.UserCallbackData));
+  }
+  EXPECT_EQ(channels, (std::vector<std::uintptr_t>{kRedChannel, kAllChannels}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PanelBoxes,
