@@ -108,8 +108,8 @@ class Verifier {
   // A damaged set may list a tile twice, and the loader delivers the tile once.
   void flush() {
     std::ranges::sort(batch_, {}, &TileRequest::id);
-    const auto repeated = std::ranges::unique(batch_, {}, &TileRequest::id);
-    batch_.erase(repeated.begin(), repeated.end());
+    const auto same = [](const TileRequest& a, const TileRequest& b) { return a.id == b.id; };
+    batch_.erase(std::unique(batch_.begin(), batch_.end(), same), batch_.end());
     load(loader_, batch_, report_);
     done_ += static_cast<std::int64_t>(batch_.size());
     batch_.clear();
