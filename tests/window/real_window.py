@@ -207,14 +207,14 @@ class Viewer:
             time.sleep(still_s)
             return one if differing(one, self.grab(), rows) == 0 else None
 
-        return wait_until("a picture at rest", same, 20)
+        return wait_until("a picture at rest", same)
 
     def open_menu(self, x, y):
         """By a right click; waits until the menu is there and stands still."""
         self.move(x, y)
         before = self.settled()
         self.xdotool("click", "3")
-        wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS, 20)
+        wait_until("the menu", lambda: differing(before, self.grab()) > MENU_PIXELS)
         self.settled()
 
     def unfocus(self):

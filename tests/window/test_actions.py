@@ -79,33 +79,33 @@ class Walk(WindowTest):
     def shown(self, act):
         before = self.viewer.settled(ROWS)
         act()
-        wait_until("a change in the picture", lambda: differing(before, self.viewer.grab(), ROWS) > SHOWN, 10)
+        wait_until("a change in the picture", lambda: differing(before, self.viewer.grab(), ROWS) > SHOWN)
 
     def said(self, act):
         before = self.viewer.grab()[ROWS:]
         act()
-        wait_until("another text", lambda: differing(before, self.viewer.grab()[ROWS:]) > 100, 10)
+        wait_until("another text", lambda: differing(before, self.viewer.grab()[ROWS:]) > 100)
 
     def filed(self, pattern, act):
         before = set(self.folder.glob(pattern))
         act()
-        wait_until(f"a new {pattern}", lambda: set(self.folder.glob(pattern)) - before, 20)
+        wait_until(f"a new {pattern}", lambda: set(self.folder.glob(pattern)) - before)
 
     def copied(self, act):
         self.viewer.set_clipboard("nothing")
         act()
-        wait_until("the clipboard", lambda: "Length" in self.viewer.clipboard(), 10)
+        wait_until("the clipboard", lambda: "Length" in self.viewer.clipboard())
 
     def stored(self, act):
         file = self.kept / "terrella" / "bookmarks.json"
         before = file.read_text() if file.exists() else ""
         act()
-        wait_until("the file", lambda: file.exists() and file.read_text() != before, 10)
+        wait_until("the file", lambda: file.exists() and file.read_text() != before)
 
     def resized(self, act):
         before = self.viewer.geometry()[2:]
         act()
-        wait_until("another size", lambda: self.viewer.geometry()[2:] != before, 10)
+        wait_until("another size", lambda: self.viewer.geometry()[2:] != before)
 
     def measured(self):
         """Ends a measurement that there may be, and starts one with two places."""

@@ -165,7 +165,8 @@ class Time(Feedback):
 
 class Labels(Feedback):
     def test_names_keep_off_the_labels_of_a_measurement(self):
-        viewer = self.start("--camera", "47,10,3000000", "--unlit", "--map", "on", bare=False)
+        """Their text lies over the map's places; an unlit picture has no labels."""
+        viewer = self.start("--camera", "47,10,3000000", "--map", "on", bare=False)
         wait_until("the map's names", lambda: len(viewer.layout.labels) > 5)
         for _ in range(2):
             self.press(viewer, "m")

@@ -22,7 +22,7 @@ class Hands(WindowTest):
         time.sleep(0.3)
 
     def copied(self, viewer, before="nothing"):
-        return wait_until("the clipboard", lambda: viewer.clipboard() if viewer.clipboard() != before else None, 10)
+        return wait_until("the clipboard", lambda: viewer.clipboard() if viewer.clipboard() != before else None)
 
     def test_the_compass_turns_north_up_and_then_looks_straight_down(self):
         viewer = self.start("--camera", "46,7,300000,130,-40")
@@ -74,12 +74,12 @@ class Hands(WindowTest):
         plain = viewer.grab()
         for _ in range(2):
             viewer.right_click(200, 60)
-            wait_until("the menu", lambda: differing(plain, viewer.grab(), ROWS) > 10000, 10)
+            wait_until("the menu", lambda: differing(plain, viewer.grab(), ROWS) > 10000)
             viewer.click(60, 300)
-            wait_until("the globe alone", lambda: differing(plain, viewer.grab(), ROWS) < 100, 10)
+            wait_until("the globe alone", lambda: differing(plain, viewer.grab(), ROWS) < 100)
         viewer.right_click(200, 60)
         viewer.key("Escape")
-        wait_until("the globe alone", lambda: differing(plain, viewer.grab(), ROWS) < 100, 10)
+        wait_until("the globe alone", lambda: differing(plain, viewer.grab(), ROWS) < 100)
         self.assertIsNone(viewer.program.poll(), "Esc closed the menu alone")
         self.assertTrue(viewer.camera_stays(0.3))
 
@@ -88,14 +88,14 @@ class Hands(WindowTest):
         self.menu_item(viewer, 220, 100, 3)  # measure from here
         plain = viewer.settled()
         viewer.move(420, 240)
-        wait_until("the band to the cursor", lambda: differing(plain, viewer.grab(), ROWS) > 300, 10)
+        wait_until("the band to the cursor", lambda: differing(plain, viewer.grab(), ROWS) > 300)
         self.screenshot(viewer, "band")
         viewer.click(420, 240)
         viewer.click(300, 330)
         for count in (1, 2):
             viewer.key("ctrl+s")
             files = wait_until("a file", lambda: len(list(self.folder.glob("*.geojson"))) == count and
-                               list(self.folder.glob("*.geojson")), 20)
+                               list(self.folder.glob("*.geojson")))
         self.screenshot(viewer, "measured")
         way, area = json.loads(files[0].read_text())["features"]
         self.assertEqual(files[0].read_text(), files[1].read_text())
@@ -122,26 +122,26 @@ class Hands(WindowTest):
         self.screenshot(viewer, "empty")
         viewer.click(80, 94)  # Save this view
         viewer.click(80, 94)
-        wait_until("two bookmarks", lambda: set(kept().get("bookmarks", {})) == {"1", "2"}, 10)
+        wait_until("two bookmarks", lambda: set(kept().get("bookmarks", {})) == {"1", "2"})
         viewer.click(298, 115)  # Edit of the first
         time.sleep(0.4)
         viewer.xdotool("type", "--delay", "30", "Home")
         viewer.key("Return")
-        wait_until("the name", lambda: kept()["names"] == {"1": "Home"}, 10)
+        wait_until("the name", lambda: kept()["names"] == {"1": "Home"})
         self.screenshot(viewer, "named")
         viewer.click(298, 115)
         time.sleep(0.4)
         self.screenshot(viewer, "edited")
         viewer.click(80, 161)  # Down
-        wait_until("the order", lambda: kept()["names"] == {"2": "Home"}, 10)
+        wait_until("the order", lambda: kept()["names"] == {"2": "Home"})
         time.sleep(0.4)
         self.screenshot(viewer, "moved")
         viewer.click(140, 181)  # Delete, in the second row now
-        wait_until("one bookmark", lambda: set(kept()["bookmarks"]) == {"1"}, 10)
+        wait_until("one bookmark", lambda: set(kept()["bookmarks"]) == {"1"})
         time.sleep(0.4)
         self.screenshot(viewer, "deleted")
         viewer.click(168, 94)  # Restore
-        wait_until("the restored one", lambda: kept()["names"] == {"2": "Home"}, 10)
+        wait_until("the restored one", lambda: kept()["names"] == {"2": "Home"})
 
     def test_the_buttons_of_the_mouse_go_back_and_forward(self):
         viewer = self.start("--camera", "46,7,3000000")

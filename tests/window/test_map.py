@@ -22,7 +22,7 @@ class Map(WindowTest):
                    for a, b in zip(picture[60:380], self.globe[60:380]) for x in range(SIZE[0] // 2 - 20))
 
     def settle_until(self, viewer, wanted, name):
-        wait_until(f"the map {'on' if wanted else 'off'}", lambda: self.shown(viewer, name) == wanted, 20.0)
+        wait_until(f"the map {'on' if wanted else 'off'}", lambda: self.shown(viewer, name) == wanted)
 
     def test_it_is_on_at_first_and_has_a_key_and_a_tick_box(self):
         bare = self.start(*CAMERA)

@@ -81,7 +81,7 @@ class Twice(WindowTest):
                     shots.append(viewer.settled(PANEL_ROWS, still_s=0.4))
                     self.do(viewer, undo)
                     self.assertIsNone(viewer.program.poll(), "the window is open")
-                    wait_until(f"{time_done} time: taken back", lambda: changed() < SAME, 20)
+                    wait_until(f"{time_done} time: taken back", lambda: changed() < SAME)
                 self.assertLess(differing(*shots, PANEL_ROWS), SAME, "the second time is as the first")
 
     def test_every_move_is_made_twice(self):
