@@ -98,8 +98,7 @@ class Signals(ProgramTest):
                 with self.subTest(signal.Signals(number).name):
                     cache = self.folder / f"cache{number}.gpkg"
                     process = self.start("preload", server.template, "--levels", "0-6", "--rate", "20", "-o", cache)
-                    self.wait_until(cache.exists)
-                    time.sleep(0.5)  # into the first tiles
+                    self.wait_until(lambda: cache.exists() and server.counts())  # into the first tiles
                     self.assert_ends(process, number, DONE_IN_PART, "same command goes on")
 
     def test_nohup(self):
