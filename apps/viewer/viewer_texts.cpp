@@ -6,7 +6,7 @@
 
 #include "apps/viewer/viewer.h"
 
-// What the window says of the view: readout, credits, scale bar.
+// Texts of the window about the view: readout, credits, scale bar.
 namespace terrella {
 namespace {
 

@@ -8,14 +8,14 @@ import unittest
 from real_window import PATIENCE_S, WindowTest, differing, wait_until
 from test_idle import processor_s
 
-PROBLEM_INK = (255, 168, 115)  # of the line in a layer's row
-INK_PIXELS = 60  # of that colour, antialiased text left aside
+PROBLEM_INK = (255, 168, 115)  # colour of the line in the row of a layer
+INK_PIXELS = 60  # pixels of that colour, without antialiased edges
 NOWHERE = "http://127.0.0.1:9/{z}/{x}/{y}.png"  # the port "discard", where nobody listens
-MOST_SHARE = 0.05  # of a core; looking for tiles 60 times a second took 0.1
+MOST_SHARE = 0.05  # share of a core; looking for tiles 60 times a second took 0.1
 NUMBERS = "ncols 64\nnrows 32\nxllcorner -180\nyllcorner -90\ncellsize 5.625\n" + (" ".join(map(str, range(64))) + "\n") * 32
 END_OF_PNG = b"IEND\xaeB`\x82"
 NAMES = 15  # labels in a picture with more than the graticule
-SAME_PIXELS = 300  # of 300,000: rounding at the globe's edge
+SAME_PIXELS = 300  # rounding at the edge of the globe, among 300,000
 
 
 def rgb(pixel):
