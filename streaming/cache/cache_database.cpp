@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "streaming/cache/cache_part.h"
 #include "streaming/cache/cache_schema.h"
 #include "streaming/sets/geopackage_source.h"
 #include "streaming/sets/tileset_json.h"
@@ -175,9 +176,10 @@ bool same_source(const std::string& a, const std::string& b) {
 
 Error cache_error(const fs::path& path, const WriteError& error) {
   const char* advice = "";
-  if (error.problem == WriteProblem::full) advice = "; make space, later tiles are tried again";
-  if (error.problem == WriteProblem::busy) advice = "; close what holds it, later tiles are tried again";
-  if (error.problem == WriteProblem::damaged) advice = "; start again, it is set aside then";
+  if (error.problem == WriteProblem::full) advice = "; make space; what was stored before is safe";
+  if (error.problem == WriteProblem::busy) advice = "; close what holds it; what was stored before is safe";
+  if (error.problem == WriteProblem::damaged) advice = "; what was stored may be lost; a new run sets the file aside";
+  if (error.problem == WriteProblem::other) advice = "; `terrella info --verify` tells what is left of it";
   return Error{fmt::format("{}: the cache cannot be written: {}{}", path.string(), error.message, advice)};
 }
 
@@ -185,6 +187,7 @@ Result<OpenedCache, CacheOpenError> open_cache_database(const fs::path& path, co
                                                         const std::string& source_key,
                                                         const std::function<void()>& on_locked) {
   fs::path aside;
+  remove_dead_parts(path);
   for (int round = 0; round < kMaxRounds; ++round) {
     std::error_code error;
     if (fs::is_directory(path, error)) {

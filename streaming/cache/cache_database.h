@@ -37,7 +37,7 @@ struct OpenedCache {
 /// True if two keys (source_key()) belong to one source: they are equal, or one lists more levels than the other.
 [[nodiscard]] bool same_source(const std::string& a, const std::string& b);
 
-/// "PATH: the cache cannot be written: No space left on device; make space, …"
+/// "PATH: the cache cannot be written: No space left on device; make space; …". Says if earlier tiles are safe.
 [[nodiscard]] Error cache_error(const std::filesystem::path& path, const WriteError& error);
 
 }  // namespace terrella

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
+#include "streaming/cache/cache_part.h"
 #include "streaming/sets/gpkg_schema.h"
 #include "streaming/sets/tileset_json.h"
 
@@ -83,6 +83,16 @@ WriteStatus write_file(const fs::path& part, const TileSetInfo& info, const std:
   WriteResult<SqliteWriter> database = SqliteWriter::open(part, SqliteWriter::Mode::create);
   if (!database) return database.error();
   return write_cache_schema(*database, info, source_key);
+}
+
+/// Deletes the log of a file that somebody deleted without it. SQLite would write that log's pages into the new file.
+void remove_old_log(const fs::path& path) {
+  // In this order: a log that another process has just begun has its file.
+  for (const char* ending : {"-wal", "-shm", "-journal"}) {
+    std::error_code failed;
+    const fs::path log = path.string() + ending;
+    if (fs::exists(log, failed) && !fs::exists(path, failed) && !failed) fs::remove(log, failed);
+  }
 }
 
 /// Gives the file its name unless that name exists. Returns 0 or errno.
@@ -158,12 +168,12 @@ Status create_cache_file(const fs::path& path, const TileSetInfo& info, const st
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  static std::atomic<unsigned> calls{0};
-  const fs::path part = folder / fmt::format(".{}.{}-{}.part", path.filename().string(), getpid(), calls++);
+  const fs::path part = cache_part_name(path);
   const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) return cannot(std::strerror(errno));
   close(file);
   const WriteStatus written = write_file(part, info, source_key);
+  remove_old_log(path);
   const int named = written ? give_name(part, path) : 0;
   remove_database(part);
   if (!written) return cannot(written.error().message);

@@ -77,6 +77,8 @@ Status CacheWriter::write(const CacheBatch& batch, std::vector<bool>& no_room) {
     // SQLite has already rolled back after some errors. A second rollback does no harm.
     if (!done) static_cast<void>(rollback_->run());
   }
+  const Status in_place = check_place();
+  if (!in_place) return in_place;
   if (!done) return cache_error(path_, done.error());
   for (std::size_t i = 0; i < batch.changes.size(); ++i) stored_ += batch.changes[i].record && !no_room[i] ? 1 : 0;
   evicted_ += evicted_now_;
@@ -176,16 +178,22 @@ bool CacheWriter::checkpoint(const char* mode, std::chrono::milliseconds patienc
   // The checkpoint may fail (another process does it, the disk is full). The next one succeeds and nothing is lost.
   const WriteResult<std::int64_t> busy = database_.integer(fmt::format("PRAGMA wal_checkpoint({})", mode));
   database_.wait_for_locks(kPatience);
+  place_.note_size();
   return busy && *busy == 0;
 }
 
 void CacheWriter::tidy() {
-  if (log_bytes(path_) > 0) checkpoint("TRUNCATE", std::chrono::milliseconds(100));
+  if (check_place() && log_bytes(path_) > 0) checkpoint("TRUNCATE", std::chrono::milliseconds(100));
 }
 
 void CacheWriter::close() {
   rows_.reset();
   for (auto* statement : {&begin_, &commit_, &rollback_, &page_count_, &free_count_}) statement->reset();
+  if (!check_place()) {
+    // SQLite deletes the log by its name, which may be the log of a file that took the name.
+    database_.leave_log_on_close(true);
+    return;
+  }
   checkpoint("TRUNCATE", std::chrono::milliseconds(1000));
   database_.wait_for_locks(std::chrono::milliseconds(0));
   static_cast<void>(database_.run("PRAGMA journal_mode = DELETE"));

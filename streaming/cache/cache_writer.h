@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "streaming/cache/cache_limit.h"
+#include "streaming/cache/cache_place.h"
 #include "streaming/cache/cache_rows.h"
 #include "streaming/cache/sqlite_writer.h"
 #include "streaming/cache/write_queue.h"
@@ -21,6 +22,8 @@ class CacheWriter {
   /// Writes a batch in one transaction; after an error nothing of the batch is written. `no_room` has one entry for
   /// each change. An entry is set if its tile was not written because the limit is reached and nothing may be evicted.
   [[nodiscard]] Status write(const CacheBatch& batch, std::vector<bool>& no_room);
+  /// Fails if the file is not under its name any more, or was damaged by another program.
+  [[nodiscard]] Status check_place() { return place_.check(); }
   /// Gives free space back and empties the log. Called after some idle time.
   void tidy();
   /// Leaves one plain file without a log if no other connection has it open. The file can then be read from read-only
@@ -35,7 +38,7 @@ class CacheWriter {
 
  private:
   CacheWriter(SqliteWriter database, std::filesystem::path path)
-      : database_(std::move(database)), path_(std::move(path)) {}
+      : database_(std::move(database)), path_(std::move(path)), place_(path_) {}
   [[nodiscard]] WriteStatus write_rows(const CacheBatch& batch, std::int64_t now_unix_s, std::vector<bool>& no_room);
   [[nodiscard]] WriteStatus write_row(const CacheChange& change, std::int64_t now_unix_s);
   /// Evicts tiles until this many pages fit. Returns false if they do not fit and nothing more may be evicted.
@@ -51,6 +54,7 @@ class CacheWriter {
 
   SqliteWriter database_;
   const std::filesystem::path path_;
+  CachePlace place_;
   CacheBudget budget_;
   std::int64_t page_bytes_ = 0;
   std::optional<CacheRows> rows_;

@@ -12,10 +12,10 @@
 #include <string>
 
 #include "streaming/cache/cache_database.h"
+#include "streaming/cache/cache_part.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_rows.h"
 #include "streaming/cache/cache_schema.h"
-#include "streaming/cache/merge_part.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sqlite_reader.h"
 
@@ -70,7 +70,7 @@ Row row_of(const SqliteQuery& query) {
 /// The result while it is made. The destructor deletes the file unless it got its final name.
 class MergedFile {
  public:
-  explicit MergedFile(const fs::path& output) : output_(output), part_(merge_part_name(output)) {
+  explicit MergedFile(const fs::path& output) : output_(output), part_(cache_part_name(output)) {
     std::error_code ignored;
     fs::create_directories(part_.parent_path(), ignored);
     remove_dead_parts(output);
@@ -231,6 +231,8 @@ Result<MergeSummary> merge_caches(const std::vector<fs::path>& caches, const fs:
       if (Status copied = copy_rows(cache, sql, merged, summary, rows); !copied) return copied.error();
     }
   }
+  // Merging takes time; another file may have taken the name meanwhile.
+  if (Status free = check_output(caches, output); !free) return free.error();
   if (Status finished = merged.finish(); !finished) return finished.error();
   if (progress) progress(rows.total, rows.total);
   return summary;

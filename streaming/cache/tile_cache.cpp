@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -59,6 +60,7 @@ class SqliteTileCache : public TileCache {
       : path_(std::move(path)),
         info_(std::move(info)),
         set_aside_(std::move(aside)),
+        on_failed_(options.on_failed),
         writer_(std::move(writer)),
         queue_(limits_of(options, writer_->budget())),
         readers_(path_),
@@ -108,7 +110,11 @@ class SqliteTileCache : public TileCache {
     queue_.push({.id = first, .record = nullptr, .renewal = {}, .on_durable = {}, .pin = PinRun{last_y, pinned}});
   }
 
-  [[nodiscard]] Status flush() override { return queue_.flush(); }
+  [[nodiscard]] Status flush() override {
+    Status flushed = queue_.flush();
+    const std::lock_guard lock(writing_);
+    return flushed ? writer_->check_place() : flushed;
+  }
 
   [[nodiscard]] CacheCounts counts() const override {
     CacheCounts counts{.file_bytes = 0,
@@ -158,15 +164,23 @@ class SqliteTileCache : public TileCache {
         write(batch);
         tidied = false;
       } else if (!last) {
+        const std::lock_guard lock(writing_);
         writer_->tidy();
         tidied = true;
       }
     }
   }
 
+  [[nodiscard]] Status write_rows(const CacheBatch& batch, std::vector<bool>& no_room) {
+    const std::lock_guard lock(writing_);
+    Status status = writer_->write(batch, no_room);
+    if (!status && on_failed_) std::exchange(on_failed_, {})(status.error());
+    return status;
+  }
+
   void write(CacheBatch& batch) {
     std::vector<bool> no_room(batch.changes.size());
-    const Status status = writer_->write(batch, no_room);
+    const Status status = write_rows(batch, no_room);
     for (std::size_t i = 0; i < batch.changes.size(); ++i) {
       if (!batch.changes[i].on_durable) continue;
       if (!status) {
@@ -183,6 +197,8 @@ class SqliteTileCache : public TileCache {
   const fs::path path_;
   const TileSetInfo info_;
   const fs::path set_aside_;
+  std::function<void(const Error&)> on_failed_;  ///< thread: the writer
+  std::mutex writing_;                           ///< guards the use of writer_
   const std::unique_ptr<CacheWriter> writer_;
   WriteQueue queue_;
   CacheReaders readers_;

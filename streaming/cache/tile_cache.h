@@ -47,6 +47,9 @@ struct CacheOptions {
   /// Called once for each wait of more than a second for another program's lock: on the caller's thread during opening,
   /// later on the writer's thread. No wait is longer than a minute.
   std::function<void()> on_locked{};
+  /// Called once, when records cannot be written for the first time: disk full, the file removed or damaged by another
+  /// program. thread: the writer
+  std::function<void(const Error&)> on_failed{};
   std::size_t batch_tiles = 256;              ///< most tiles in one transaction
   std::size_t max_queued_bytes = 64UL << 20;  ///< store() blocks while more is queued
 };
@@ -103,7 +106,8 @@ class TileCache {
   /// Queues the pinning or release of the stored tiles from `first` down to row `last_y`. Tiles of the coarsest level
   /// stay pinned. thread: any
   virtual void pin(const TileId& first, std::int64_t last_y, bool pinned) = 0;
-  /// Blocks until all queued records are durable. Returns the first error since the last flush, if any.
+  /// Blocks until all queued records are durable, and checks that the file is still there under its name. Returns the
+  /// first error since the last flush, if any.
   /// thread: any but the writer
   [[nodiscard]] virtual Status flush() = 0;
   [[nodiscard]] virtual CacheCounts counts() const = 0;  ///< thread: any

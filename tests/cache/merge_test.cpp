@@ -184,6 +184,41 @@ TEST_F(Merge, InterruptedItLeavesNothingAndCanBeRunAgain) {
   EXPECT_EQ(again->tiles, 2000);
 }
 
+TEST_F(Merge, AFileThatTookTheNameMeanwhileStays) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 600; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 100));
+  }
+  const auto take_the_name = [&](std::int64_t, std::int64_t) {
+    std::ofstream(out_) << "of another program";
+    return true;
+  };
+  const auto merged = merge_caches({a_}, out_, take_the_name);
+  ASSERT_FALSE(merged);
+  EXPECT_NE(merged.error().message.find("out.gpkg: is there already"), std::string::npos) << merged.error().message;
+  EXPECT_EQ(fs::file_size(out_), 18U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 2);
+}
+
+TEST_F(Merge, APartThatIsRemovedMeanwhileIsNoSuccess) {
+  {
+    const auto cache = open_cache(a_);
+    for (int n = 0; n < 600; ++n) cache->store(nth_tile(8, n), tile_record(nth_tile(8, n), 100));
+  }
+  const auto remove_parts = [&](std::int64_t, std::int64_t) {
+    std::vector<fs::path> parts;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      if (entry.path().extension() == ".part") parts.push_back(entry.path());
+    }
+    for (const fs::path& part : parts) fs::remove(part);
+    return true;
+  };
+  const auto merged = merge_caches({a_}, out_, remove_parts);
+  ASSERT_FALSE(merged);
+  EXPECT_NE(merged.error().message.find("out.gpkg"), std::string::npos) << merged.error().message;
+  EXPECT_FALSE(fs::exists(out_));
+}
+
 /// Merges in a process of its own that is killed -9 after its first rows.
 void merge_and_be_killed(const fs::path& cache, const fs::path& output) {
   const pid_t child = fork();

@@ -1,10 +1,11 @@
-#include "streaming/cache/merge_part.h"
+#include "streaming/cache/cache_part.h"
 
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <optional>
@@ -38,10 +39,13 @@ std::optional<pid_t> part_owner(std::string_view name, std::string_view prefix) 
   name.remove_prefix(prefix.size());
   name.remove_suffix(kPartEnding.size());
   pid_t process = 0;
-  const auto [end, failed] = std::from_chars(name.data(), name.data() + name.size(), process);
+  const char* const name_end = name.data() + name.size();
+  auto [end, failed] = std::from_chars(name.data(), name_end, process);
   // Numbers of zero and below are process groups, not processes.
-  if (failed != std::errc() || end != name.data() + name.size() || process <= 0) return std::nullopt;
-  return process;
+  if (failed != std::errc() || process <= 0) return std::nullopt;
+  unsigned call = 0;
+  if (end != name_end && *end == '-') end = std::from_chars(end + 1, name_end, call).ptr;
+  return end == name_end ? std::optional(process) : std::nullopt;
 }
 
 /// Treats a process of another user (EPERM) as alive.
@@ -49,8 +53,9 @@ bool is_dead(pid_t process) { return kill(process, 0) != 0 && errno == ESRCH; }
 
 }  // namespace
 
-fs::path merge_part_name(const fs::path& output) {
-  return part_folder(output) / fmt::format("{}{}{}", part_prefix(output), getpid(), kPartEnding);
+fs::path cache_part_name(const fs::path& output) {
+  static std::atomic<unsigned> calls{0};
+  return part_folder(output) / fmt::format("{}{}-{}{}", part_prefix(output), getpid(), calls++, kPartEnding);
 }
 
 void remove_dead_parts(const fs::path& output) {
