@@ -36,6 +36,7 @@ struct InfoOptions {
   DescribedBand band;
   bool verify = false;
   bool json = false;
+  double timeout_s = 600.0;
 };
 
 constexpr const char* kInfoExamples =
@@ -106,11 +107,13 @@ int run_picture_info(const InfoOptions& options, const Result<PictureFacts>& fac
 
 Result<PictureFacts> look_at_address(const InfoOptions& options) {
   const auto tiff = open_remote_picture({.url = options.tile_set});
-  return tiff ? look_at(*tiff, options.place, options.band) : Result<PictureFacts>(tiff.error());
+  const auto facts = tiff ? look_at(*tiff, options.place, options.band) : Result<PictureFacts>(tiff.error());
+  return facts ? facts : Error{facts.error().message + WaitLimit::advice()};
 }
 
 int run_info(const InfoOptions& options) {
   const StopSignals signals;
+  const WaitLimit limit(options.timeout_s);
   // Pictures are cut only for --verify.
   if (!options.verify && is_picture(options.tile_set.with_secrets())) {
     return run_picture_info(options, look_at(options.tile_set.with_secrets(), options.place, options.band));
@@ -121,6 +124,7 @@ int run_info(const InfoOptions& options) {
   SceneOptions scene;
   scene.tile_set = options.tile_set;
   scene.place = options.place;
+  scene.timeout_s = options.timeout_s;
   scene.numbers.band = options.band.band;
   scene.numbers.nodata = options.band.nodata;
   const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
@@ -170,6 +174,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
       ->type_name("VALUE");
   command->add_flag("--verify", options->verify,
                     "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");
+  add_timeout_option(*command, options->timeout_s, "Wait at most this many seconds for a server");
   command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_info(*options); });
 }

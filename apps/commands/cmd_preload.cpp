@@ -22,6 +22,7 @@
 #include "apps/setup/open_files.h"
 #include "apps/setup/stop_signals.h"
 #include "apps/setup/tile_list_file.h"
+#include "streaming/preload/one_column.h"
 #include "streaming/preload/wanted_tiles.h"
 
 namespace terrella {
@@ -66,7 +67,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
 
 Result<std::shared_ptr<TileCache>> cache_of(const PreloadCommand& command, const PreloadSource& source) {
   if (source.cache) return source.cache;
-  auto cache = open_cache("terrella preload", command.output, source.cache_info, source.key, command.cache_size_mb);
+  auto cache = open_cache("terrella preload", command.output, source.cache_info, source.key, command.cache_size_mb, {});
   if (!cache) return cache.error();
   return *std::move(cache);
 }
@@ -91,7 +92,14 @@ Result<Held> count_held(const PreloadCommand& command, const PreloadSource& sour
 }
 
 SizeSample take_sample(const PreloadSource& source, const TilePlan& plan) {
-  return sample_sizes(plan, kMostSampled, source.make_origin, [] { return !StopSignals::came(); });
+  return sample_sizes(plan, kMostSampled, source.make_origin, may_wait);
+}
+
+/// Space that a plan needs. Pinned tiles of a cache that is open already are not counted: to look at its file would end
+/// SQLite's locks on it.
+RoomNeed need_of(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan, const Held& held) {
+  if (source.cache) return {.tiles = plan.total() - held.settled};
+  return room_need(command, plan, held.settled);
 }
 
 /// Checks that the plan fits into the cache, before any request except the sample's.
@@ -99,7 +107,7 @@ Status check_room(const PreloadCommand& command, const PreloadSource& source, co
   if (command.cache_size_mb == 0) return Done{};
   const auto held = count_held(command, source, plan);
   if (!held) return held.error();
-  const RoomNeed need = room_need(command, plan, held->settled);
+  const RoomNeed need = need_of(command, source, plan, *held);
   if (surely_fits(command, need, source.cache_info.grid.tile_px)) return Done{};
   if (auto no_room = find_no_room(command, plan, need, take_sample(source, plan))) return *std::move(no_room);
   return Done{};
@@ -129,10 +137,19 @@ int forecast(const PreloadCommand& command, const PreloadSource& source, const T
   forecast.jobs = command.http.connections_per_host;
   if (!command.offline) {
     forecast.sample = take_sample(source, plan);
-    forecast.no_room = find_no_room(command, plan, room_need(command, plan, held->settled), forecast.sample);
+    forecast.no_room = find_no_room(command, plan, need_of(command, source, plan, *held), forecast.sample);
   }
   print_result("{}", command.json ? to_json(forecast) : to_text(forecast));
   return kDone;
+}
+
+/// True if a complete run of a URL template shows that its grid is not the server's. A template states no grid.
+bool has_wrong_grid(const PreloadSource& source, const TilePlan& plan, TileCache& cache, const PreloadResult& result) {
+  const TileGrid& grid = source.set.info.grid;
+  const bool two_columns = grid.projection == Projection::equirectangular && grid.root_span_deg == 180.0;
+  if (!source.remote || !two_columns || result.end != PreloadEnd::complete || result.counts.missing() > 0) return false;
+  const auto one_column = looks_like_one_column(plan, grid, cache);
+  return one_column && *one_column;
 }
 
 /// Reports an incomplete run to the user and returns the exit code.
@@ -171,7 +188,6 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
 }
 
 int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
-  if (const Status room = check_room(command, source, plan); !room) return fail("preload", room.error().message);
   auto missing = MissingReport::open(command.missing_file);
   if (!missing) return fail("preload", missing.error().message);
   auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
@@ -193,13 +209,20 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
     };
     result = preload(plan, **cache, source.make_origin, options);
   }
-  if (!result)
-    return fail("preload", result.error().message + "; what was stored before is safe, and the same command goes on");
+  if (!result) return fail("preload", result.error().message + "; the same command goes on");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   const PreloadReport report{command.output, *result, missing->groups(), seconds};
   print_result("{}", command.json ? to_json(report) : to_text(report));
   for (const Status& listed : {missing->close(), stored->close()}) {
     if (!listed) return fail("preload", listed.error().message);
+  }
+  if (has_wrong_grid(source, plan, **cache, *result)) {
+    print_message(
+        "terrella preload: {}: the server has no tile in the eastern half of the planet, and all in the western; most "
+        "likely its level 0 has one column, as Web Mercator has: preload into another file with --projection "
+        "web-mercator (or --root-span 360)\n",
+        command.source.redacted());
+    return kDoneInPart;
   }
   return conclude(command, *result);
 }
@@ -220,6 +243,7 @@ int run(PreloadCommand& command) {
   fit_jobs(command);
   if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
   const StopSignals signals;
+  std::optional<WaitLimit> limit(command.timeout_s);
   HttpOptions http = network_options(command);
   if (command.dry_run) {
     const double rate = http.rate_per_host;
@@ -231,14 +255,17 @@ int run(PreloadCommand& command) {
   // A dry run makes no file.
   if (!command.dry_run || std::filesystem::exists(command.output, unknown)) tiff.cache = command.output;
   const auto source = open_preload_source(command.source, command.remote, http, tiff);
-  if (!source) return fail("preload", source.error().message);
+  if (!source) return fail("preload", source.error().message + WaitLimit::advice());
   if (!source->set.refuse_bulk.empty())
     return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
   auto plan = make_preload_plan(command, source->set.info);
   if (plan && source->plan_parts) plan = source->plan_parts(**plan);
-  if (!plan) return fail("preload", plan.error().message);
+  if (!plan) return fail("preload", plan.error().message + WaitLimit::advice());
   if (command.release) return release(command, *source, **plan);
-  return command.dry_run ? forecast(command, *source, **plan) : bring(command, *source, **plan);
+  if (command.dry_run) return forecast(command, *source, **plan);
+  if (const Status room = check_room(command, *source, **plan); !room) return fail("preload", room.error().message);
+  limit.reset();
+  return bring(command, *source, **plan);
 }
 
 }  // namespace

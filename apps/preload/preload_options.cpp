@@ -103,6 +103,7 @@ void add_network_options(CLI::App& app, PreloadCommand& command) {
   app.add_option("--rate", command.http.rate_per_host,
                  "Limit the requests per second to one host, retries included (default: no limit)")
       ->check(number_in(0.01, 1e6));
+  add_timeout_option(app, command.timeout_s, "Wait at most this many seconds for a server until the tiles are planned");
   app.add_option_function<int>(
          "--retries", [&command](int retries) { command.http.attempts = retries + 1; },
          "Retry a failed request this often, with growing pauses (default: 4)")

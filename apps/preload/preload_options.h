@@ -32,6 +32,7 @@ struct PreloadCommand {
   std::optional<Shard> shard;
   RemoteOptions remote;
   HttpOptions http;
+  double timeout_s = 600.0;  ///< longest wait for a server before the first tile is requested
   std::optional<double> refresh_older_than_days;
   std::size_t cache_size_mb = 0;
   std::string missing_file;

@@ -56,7 +56,7 @@ struct PlannedTiff {
 
 Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const TilePlan& tiles) {
   const auto find = [&tiff](const TilePlan& plan) {
-    return spans_of_tiles(*tiff.raster, tiff.figure, tiff.grid, plan, [] { return !StopSignals::came(); });
+    return spans_of_tiles(*tiff.raster, tiff.figure, tiff.grid, plan, may_wait);
   };
   auto spans = find(tiles);
   // A viewer stretches numbers by these tiles, wherever it looks.

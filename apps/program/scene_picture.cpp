@@ -53,8 +53,8 @@ void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chro
 /// Renders until all tiles are loaded or time is up. The eye rises with the ground as heights arrive.
 void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
   constexpr int kMostMoves = 4;  // finer heights move the ground less and less
-  const auto limit =
-      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(command.timeout_s));
+  const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(command.scene.timeout_s));
   const auto deadline = std::chrono::steady_clock::now() + limit;
   const bool may_be_under = may_be_underground(command.scene);
   Camera camera = out_of_ground(wanted, 0.0, may_be_under);

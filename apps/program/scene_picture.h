@@ -15,7 +15,6 @@ namespace terrella {
 struct RenderCommand {
   SceneOptions scene;
   std::string output;  ///< empty: no file is written
-  double timeout_s = 600.0;
   bool json = false;
   bool legend = false;
   bool graticule = false;

@@ -61,6 +61,10 @@ Result<std::optional<double>> parse_length_or_off(std::string_view text) {
   return length;
 }
 
+void add_timeout_option(CLI::App& app, double& seconds, const char* help) {
+  app.add_option("--timeout", seconds, help)->check(number_in(0.0, 1e6))->capture_default_str();
+}
+
 Result<Viewport> parse_size(std::string_view text) {
   const std::size_t x = text.find('x');
   const auto width = read_number(text.substr(0, x));

@@ -17,6 +17,9 @@ namespace terrella {
 [[nodiscard]] CLI::Validator number_in(double low, double high);
 [[nodiscard]] CLI::Validator whole_number_in(long low, long high);
 
+/// Adds `--timeout`, seconds.
+void add_timeout_option(CLI::App& app, double& seconds, const char* help);
+
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
 [[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 

@@ -63,9 +63,10 @@ struct SceneOptions {
   std::optional<UtcTime> time;       ///< time of the sky
   std::string cache;                 ///< value of --cache; empty: the default file; "off": none
   std::size_t cache_size_mb = 4096;  ///< limit of the cache's file, in 10^6 bytes
-  std::size_t memory_mb = 512;       ///< limit for decoded tiles, in 2^20 bytes
-  bool offline = false;              ///< use the cache only
-  RemoteOptions remote;              ///< options of a remote TILESET
+  double timeout_s = 600.0;     ///< longest wait for the descriptions of a remote input, and for the tiles of a picture
+  std::size_t memory_mb = 512;  ///< limit for decoded tiles, in 2^20 bytes
+  bool offline = false;         ///< use the cache only
+  RemoteOptions remote;         ///< options of a remote TILESET
   /// Receives the cuts that go on in the background; null: a picture is cut before it shows.
   std::vector<std::shared_ptr<GrowingCut>>* cuts = nullptr;
   OpenedRasters* opened = nullptr;  ///< receives rasters that are read in place; may be null

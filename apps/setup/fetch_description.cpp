@@ -13,7 +13,7 @@ namespace terrella {
 
 Result<RemoteTileSet> fetch_description(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   if (is_pmtiles_address(source)) {
-    RangeReader reader(source, remote.headers, http, [] { return !StopSignals::came(); });
+    RangeReader reader(source, remote.headers, http, may_wait);
     return describe_remote_pmtiles(source, remote, reader);
   }
   return describe_remote(source, remote, [&](const Url& url, const std::vector<std::string>& headers) {
@@ -38,7 +38,7 @@ Result<std::vector<std::byte>> fetch_document(const HttpOptions& http, const Url
   constexpr std::chrono::milliseconds kBetweenLooks{100};
   std::vector<HttpReply> answer;
   while (answer.empty()) {
-    if (StopSignals::came()) return Error{"stopped before it answered"};
+    if (!may_wait()) return Error{"stopped before it answered"};
     answer = replies.take_all(kBetweenLooks);
   }
   HttpReply& reply = answer.front();

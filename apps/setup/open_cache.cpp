@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include "apps/setup/console.h"
 
@@ -12,11 +13,13 @@ namespace terrella {
 
 Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who, const std::filesystem::path& file,
                                                               const TileSetInfo& info, const std::string& source_key,
-                                                              std::size_t max_mb) {
+                                                              std::size_t max_mb,
+                                                              std::function<void(const Error&)> on_failed) {
   CacheOptions options{.max_bytes = megabytes(max_mb)};
   options.on_locked = [who, name = file.string()] {
     print_message("{}: {} is locked by another program; waiting for it, a minute at most\n", who, name);
   };
+  options.on_failed = std::move(on_failed);
   auto cache = TileCache::open(file, info, source_key, options);
   if (cache && !(*cache)->set_aside().empty()) {
     print_message("{}: {} was damaged; it was renamed to {}, and a new file was started\n", who, file.string(),

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,13 +16,11 @@ namespace terrella {
 [[nodiscard]] constexpr std::uint64_t megabytes(std::size_t mb) { return std::uint64_t{mb} * 1'000'000; }
 
 /// Opens a cache of at most `max_mb` megabytes (0: no limit), as TileCache::open() does. Reports a lock
-/// that it waits for, and a damaged file that was set aside, on standard error; `who` begins these messages. thread:
-/// any
-[[nodiscard]] Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string& who,
-                                                                            const std::filesystem::path& file,
-                                                                            const TileSetInfo& info,
-                                                                            const std::string& source_key,
-                                                                            std::size_t max_mb);
+/// that it waits for, and a damaged file that was set aside, on standard error; `who` begins these messages.
+/// `on_failed`: see CacheOptions. thread: any
+[[nodiscard]] Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(
+    const std::string& who, const std::filesystem::path& file, const TileSetInfo& info, const std::string& source_key,
+    std::size_t max_mb, std::function<void(const Error&)> on_failed);
 
 /// Reports on standard error, once per run, why the program continues without a cache. thread: any
 void say_without_cache(const Error& why);

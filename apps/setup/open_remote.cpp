@@ -13,6 +13,7 @@
 #include "apps/setup/open_cache.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/open_remote_tiff.h"
+#include "apps/setup/stop_signals.h"
 #include "base/hash_mix.h"
 #include "codecs/image.h"
 #include "streaming/cache/cache_report.h"
@@ -66,6 +67,7 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const
   }
   wish.may_replace_cache = options.cache.empty();
   wish.cache_size_mb = options.cache_size_mb;
+  wish.on_cache_failed = say_without_cache;
   wish.offline = options.offline;
   wish.direct = direct_options(options);
   wish.numbers = options.numbers;
@@ -116,7 +118,7 @@ Result<std::shared_ptr<TileCache>> cache_of(const SceneOptions& options, const R
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file(options);
   if (!file) return go_without(file.error());
-  auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb);
+  auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb, say_without_cache);
   if (!cache && cache.error().cannot_write) return go_without(cache.error());
   if (!cache) return cache.error();
   return *std::move(cache);
@@ -147,10 +149,7 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
   return Error{fmt::format("{}: {}", set.info.name, check->advice)};
 }
 
-}  // namespace
-
-Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
-  if (options.offline) return open_offline(options);
+Result<std::shared_ptr<TileSource>> open_online(const SceneOptions& options) {
   HttpOptions http = network_options();
   if (leads_to_tiff(options.tile_set, options.remote.headers, http)) return open_tiff(options, http);
   RemoteOptions remote = options.remote;
@@ -168,6 +167,16 @@ Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
   auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
+  if (options.offline) return open_offline(options);
+  const WaitLimit limit(options.timeout_s);
+  auto opened = open_online(options);
+  if (!opened) return Error{opened.error().message + WaitLimit::advice()};
+  return opened;
 }
 
 }  // namespace terrella

@@ -45,7 +45,7 @@ Result<std::shared_ptr<TileCache>> cache_of_tiff(const RemoteTiffWish& wish, con
   if (key != held_key && version_in_key(held_key, wish.url)) {
     if (Status discarded = discard_old_version(wish); !discarded) return discarded.error();
   }
-  auto cache = open_cache("terrella", wish.cache, range_cache_info(), key, wish.cache_size_mb);
+  auto cache = open_cache("terrella", wish.cache, range_cache_info(), key, wish.cache_size_mb, wish.on_cache_failed);
   if (cache) return *std::move(cache);
   if (!cache.error().cannot_write) return cache.error();
   say_without_cache(cache.error());
@@ -54,7 +54,7 @@ Result<std::shared_ptr<TileCache>> cache_of_tiff(const RemoteTiffWish& wish, con
 
 Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish) {
   RemoteFileOptions options{.url = wish.url, .headers = wish.headers, .http = wish.http, .offline = wish.offline};
-  options.go_on = [] { return !StopSignals::came(); };
+  options.go_on = may_wait;
   if (!wish.cache.empty()) {
     options.held_key = read_cache_source(wish.cache);
     options.open_cache = [&wish, held = options.held_key](const std::string& key) {
@@ -82,7 +82,7 @@ bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, cons
   if (is_pmtiles_address(url)) return false;
   const auto address = parse_address(url);
   if (!address || (address->scheme != "http" && address->scheme != "https") || names_its_kind(url)) return false;
-  RangeReader reader(url, headers, http, [] { return !StopSignals::came(); });
+  RangeReader reader(url, headers, http, may_wait);
   const auto head = reader.read({.offset = 0, .length = 8});
   return head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()});
 }

@@ -21,9 +21,10 @@ struct RemoteTiffWish {
   Url url;
   std::vector<std::string> headers{};  ///< may be secret
   HttpOptions http{};
-  std::filesystem::path cache{};   ///< file of the cache; empty: none
-  bool may_replace_cache = false;  ///< the cache of an earlier version of the TIFF may be deleted
-  std::size_t cache_size_mb = 0;   ///< 0: no limit
+  std::filesystem::path cache{};                        ///< file of the cache; empty: none
+  bool may_replace_cache = false;                       ///< the cache of an earlier version of the TIFF may be deleted
+  std::size_t cache_size_mb = 0;                        ///< 0: no limit
+  std::function<void(const Error&)> on_cache_failed{};  ///< see CacheOptions::on_failed
   bool offline = false;
   DirectOptions direct{};
   bool any_body = false;  ///< the TIFF's own body counts, not that of `direct`

@@ -1,9 +1,14 @@
 #include "apps/setup/stop_signals.h"
 
+#include <utility>
+
 namespace terrella {
 namespace {
 
 volatile std::sig_atomic_t g_came = 0;
+
+using Clock = std::chrono::steady_clock;
+thread_local std::optional<Clock::time_point> wait_until;
 
 }  // namespace
 
@@ -24,5 +29,17 @@ StopSignals::~StopSignals() {
 }
 
 bool StopSignals::came() { return g_came != 0; }
+
+WaitLimit::WaitLimit(double seconds)
+    : before_(std::exchange(wait_until, Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                           std::chrono::duration<double>(seconds)))) {}
+
+WaitLimit::~WaitLimit() { wait_until = before_; }
+
+bool WaitLimit::passed() { return wait_until && Clock::now() >= *wait_until; }
+
+std::string WaitLimit::advice() { return passed() ? "; --timeout gives the server longer" : ""; }
+
+bool may_wait() { return !StopSignals::came() && !WaitLimit::passed(); }
 
 }  // namespace terrella

@@ -78,8 +78,9 @@ struct PreloadResult {
 /// requested once more. Tiles that stay missing (PreloadMissing) are not recorded, so that the next run requests them
 /// again. They never replace an older tile. All tiles of the plan are pinned: nothing evicts them. Once the cache has
 /// no room for a tile, tiles that it does not have are not requested any more and count as missing. `make_origin` gets
-/// the queue that takes the answers. Fails only if the cache cannot be read or written (disk full); tiles stored before
-/// stay. Blocks. thread: any but the cache's writer
+/// the queue that takes the answers. Fails only if the cache cannot be read or written: disk full, or the file was
+/// removed or damaged by another program; the error says if tiles stored before are safe. Blocks. thread: any but the
+/// cache's writer
 [[nodiscard]] Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
                                             const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                                             const PreloadOptions& options);
