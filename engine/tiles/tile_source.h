@@ -88,7 +88,7 @@ struct TileFailure {
   std::string why;
 };
 
-/// The exception that is being caught, as a failed tile. An exception that left a thread would end the program.
+/// The exception being caught, as a failed tile: one that left a thread would end the program. thread: any
 [[nodiscard]] TileFailure caught_failure();
 
 /// The bytes of one tile as stored, or a function that makes its picture.
