@@ -266,6 +266,16 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   return globe;
 }
 
+// A layer of small tiles has few bytes of slots in any driver; the default asks for no certain number.
+std::string memory_note(const SceneOptions& options, const FrameStats& stats) {
+  const std::size_t granted_mb = stats.gpu_bytes_granted >> 20;
+  const bool is_less = options.memory_mb > SceneOptions().memory_mb && granted_mb < options.memory_mb;
+  if (stats.gpu_bytes_granted == 0 || (!is_less && !stats.gpu_memory_refused)) return {};
+  return fmt::format(
+      "--memory {}: the driver gives {} MB for tiles{}", options.memory_mb, granted_mb,
+      stats.gpu_memory_refused ? ", and has no memory for more" : ", as many as its array textures hold");
+}
+
 void set_paper_texturing(Globe& globe, const SceneOptions& options) {
   Experiments& experiments = Experiments::of(globe);
   experiments.paper_a = options.paper_a;

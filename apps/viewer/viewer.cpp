@@ -178,6 +178,8 @@ void Viewer::draw_frame(Viewport framebuffer) {
     frame_.draw(globe_, framebuffer);
     if (!globe_.status()) messages_.say(globe_.status().error().message);
     layers_.watch_tiles(frame_.stats());
+    const std::string note = memory_note(options_.files, globe_.last_frame());
+    if (!note.empty() && !std::exchange(said_memory_, true)) messages_.say(note);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);

@@ -100,6 +100,7 @@ class Viewer {
   Window& window_;
   Globe& globe_;
   ViewerOptions options_;
+  bool said_memory_ = false;  ///< the user knows that the driver gives less than --memory
   Ui ui_;
   Navigator navigator_;
   Input input_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/range_check.h"
 #include "codecs/image_limits.h"
 #include "codecs/jpeg_codec.h"
 #include "codecs/png_codec.h"
@@ -78,6 +79,22 @@ Status check_size(std::uint64_t width_px, std::uint64_t height_px, const DecodeL
                              bytes, limits.max_bytes)};
   }
   return Done{};
+}
+
+Status check_image(const Image& image) {
+  if (image.width_px < 1 || image.height_px < 1) {
+    return Error{fmt::format("a picture of {}×{} pixels; give at least one", image.width_px, image.height_px)};
+  }
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(image.width_px) * static_cast<std::uint64_t>(image.height_px) * kBytesPerPixel;
+  if (image.rgba.size() == bytes) return Done{};
+  return Error{fmt::format("a picture of {}×{} pixels with {} bytes; RGBA has {}", image.width_px, image.height_px,
+                           image.rgba.size(), bytes)};
+}
+
+Status check_encoding(const Image& image, int quality) {
+  if (Status good = check_image(image); !good) return good;
+  return RangeCheck().in("the quality", quality, 1, 100).result();
 }
 
 Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits) {

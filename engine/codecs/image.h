@@ -18,6 +18,9 @@ struct Image {
   std::vector<std::uint8_t> rgba;  ///< width · height · 4 bytes
 };
 
+/// Fails if a picture has no pixels, or if `rgba` has not width · height · 4 bytes. thread: any
+[[nodiscard]] Status check_image(const Image& image);
+
 /// Limits of a decoder's memory. A picture over a limit is refused before its pixels are read.
 struct DecodeLimits {
   int max_side_px = 8192;
@@ -46,7 +49,8 @@ struct PictureSize {
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
 
 /// Encodes a picture. JPEG: quality 1…100, alpha dropped, 4:2:0. PNG: RGB if every alpha is 255, else RGBA. WebP: lossy
-/// colours of quality 1…100, lossless alpha if any is below 255; sides up to kMaxWebpSide_px. thread: any
+/// colours of quality 1…100, lossless alpha if any is below 255; sides up to kMaxWebpSide_px. Fails if the picture does
+/// not pass check_image(), or the quality or a side is out of range. thread: any
 [[nodiscard]] Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality);
 [[nodiscard]] Result<std::vector<std::byte>> encode_png(const Image& image);
 inline constexpr int kMaxWebpSide_px = 16383;

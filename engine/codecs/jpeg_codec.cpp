@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <turbojpeg.h>
 
-#include <cassert>
 #include <memory>
 
 #include "codecs/image_limits.h"
@@ -71,8 +70,7 @@ Result<PictureSize> jpeg_size(std::span<const std::byte> bytes) {
 }
 
 Result<std::vector<std::byte>> encode_jpeg(const Image& image, int quality) {
-  assert(quality >= 1 && quality <= 100);
-  assert(image.rgba.size() == rgba_size(image.width_px, image.height_px));
+  if (Status good = check_encoding(image, quality); !good) return Error{"JPEG: " + good.error().message};
   const Handle handle(tjInitCompress());
   if (!handle) return Error{"JPEG: out of memory"};
   unsigned char* buffer = nullptr;

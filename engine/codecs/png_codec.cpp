@@ -182,7 +182,7 @@ bool write_png(Encoder& encoder, const Image& image, bool opaque, int strategy) 
 }
 
 Result<std::vector<std::byte>> encode(const Image& image, int strategy) {
-  assert(image.rgba.size() == static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * 4);
+  if (Status good = check_image(image); !good) return png_failure(good.error().message);
   Encoder encoder;
   encoder.png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, static_cast<Failure*>(&encoder), on_png_error, ignore_png_warning);

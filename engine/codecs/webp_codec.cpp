@@ -1,5 +1,6 @@
 #include "codecs/webp_codec.h"
 
+#include <fmt/format.h>
 #include <webp/decode.h>
 #include <webp/encode.h>
 
@@ -79,9 +80,11 @@ Result<Image> decode_webp(std::span<const std::byte> bytes, const DecodeLimits& 
 }
 
 Result<std::vector<std::byte>> encode_webp(const Image& image, int quality) {
-  assert(quality >= 1 && quality <= 100);
-  assert(image.width_px <= kMaxWebpSide_px && image.height_px <= kMaxWebpSide_px);
-  assert(image.rgba.size() == static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) * 4);
+  if (Status good = check_encoding(image, quality); !good) return Error{"WebP: " + good.error().message};
+  if (image.width_px > kMaxWebpSide_px || image.height_px > kMaxWebpSide_px) {
+    return Error{fmt::format("WebP: a picture of {}×{} pixels; a side has at most {}, so use PNG", image.width_px,
+                             image.height_px, kMaxWebpSide_px)};
+  }
   std::uint8_t* buffer = nullptr;
   const std::size_t size = WebPEncodeRGBA(image.rgba.data(), image.width_px, image.height_px, image.width_px * 4,
                                           static_cast<float>(quality), &buffer);

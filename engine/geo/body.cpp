@@ -7,13 +7,10 @@
 #include <vector>
 
 #include "base/number.h"
+#include "geo/ranges.h"
 
 namespace terrella {
 namespace {
-
-constexpr double kSmallestAxisM = 1.0;
-constexpr double kLargestAxisM = 1.0e10;
-constexpr double kFlatteningLimit = 0.5;
 
 Body from_axes(std::string name, double equatorial_m, double polar_m) {
   return {.name = std::move(name), .ellipsoid = Ellipsoid(equatorial_m, (equatorial_m - polar_m) / equatorial_m)};
@@ -80,9 +77,9 @@ Result<Body> parse_figure(std::string_view text, std::string_view axis, std::str
   const std::optional<double> f = read_number(flattening);
   if (!a_m) return bad_body(text, "A, " + in_quotes(axis) + ", is not a number");
   if (!f) return bad_body(text, "F, " + in_quotes(flattening) + ", is not a number");
-  if (*a_m < kSmallestAxisM || *a_m > kLargestAxisM) return bad_body(text, "A must be from 1 to 1e10 metres");
-  if (*f < 0.0 || *f >= kFlatteningLimit) return bad_body(text, "F must be from 0 to less than 0.5");
-  return Body{.name = std::string(text), .ellipsoid = Ellipsoid(*a_m, *f)};
+  const Ellipsoid figure(*a_m, *f);
+  if (const Status good = check_ellipsoid(figure); !good) return bad_body(text, good.error().message);
+  return Body{.name = std::string(text), .ellipsoid = figure};
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ struct Body {
   Ellipsoid ellipsoid;
 };
 
-/// All presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn and more. body.cpp gives the
-/// source of each figure.
+/// All presets: earth (WGS 84), moon, mars, sphere (Earth's mean radius), phobos, saturn and more. Figures are
+/// those of WGS 84 and of the report of the IAU of 2015.
 [[nodiscard]] std::span<const Body> body_presets();
 
 /// Earth, WGS 84: a = 6378137 m, f = 1/298.257223563.

@@ -1,7 +1,7 @@
 #include "geo/camera.h"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -72,7 +72,7 @@ Result<Camera> parse_camera(std::string_view text) {
 }
 
 View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport) {
-  assert(viewport.width_px >= 1 && viewport.height_px >= 1);
+  viewport = {std::max(viewport.width_px, 1), std::max(viewport.height_px, 1)};
   // East, north and up follow from latitude and longitude, not from the position: at a pole only the longitude defines
   // where north is.
   const double sin_lon = std::sin(camera.eye.lon.rad());

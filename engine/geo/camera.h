@@ -17,18 +17,18 @@ namespace terrella {
 /// picture. The functions of this header are pure. thread: any
 struct Camera {
   Geodetic eye{.lat = {}, .lon = {}, .height_m = 1.0e7};
-  Angle heading{};
-  Angle pitch = Angle::degrees(-90.0);
-  Angle fov_y = Angle::degrees(40.0);  ///< vertical field of view, (0°, 170°]
+  Angle heading{};                      ///< any finite number of turns
+  Angle pitch = Angle::degrees(-90.0);  ///< [-90°, 90°]
+  Angle fov_y = Angle::degrees(40.0);   ///< vertical field of view, (0°, 170°]
   bool operator==(const Camera&) const = default;
 };
 
-/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. The place may also be written as geo/place_text.h
-/// says, "30N,20E,1000km". Refuses values that are not finite, |LAT| > 90,
+/// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. The place may also be written as people do,
+/// "30N,20E,1000km". Refuses values that are not finite, |LAT| > 90,
 /// |PITCH| > 90, FOV outside [0.01, 170] and ALT outside ±1e12. The error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
 
-/// Picture size in pixels, each ≥ 1.
+/// Picture size in pixels, each ≥ 1; make_view() takes smaller ones for 1.
 struct Viewport {
   int width_px = 1;
   int height_px = 1;

@@ -19,12 +19,12 @@
 /// tile       columns run east from -180°, rows run south from +90° (TileGrid); uv inside a tile likewise in [0,1].
 namespace terrella {
 
-/// A place by latitude, longitude and height. Always name the fields when making one, so that their order cannot be
-/// mixed up.
+/// A place by latitude, longitude and height, all finite (check_place() in geo/ranges.h). Always name the fields when
+/// making one, so that their order cannot be mixed up.
 struct Geodetic {
   Angle lat;              ///< geodetic, [-90°, 90°]
   Angle lon;              ///< east positive; input may have any number of turns, results are in (-180°, 180°]
-  double height_m = 0.0;  ///< over the ellipsoid, along the surface normal
+  double height_m = 0.0;  ///< over the ellipsoid, along the surface normal, [-1e12, 1e12]
   bool operator==(const Geodetic&) const = default;
 };
 

@@ -4,7 +4,6 @@
 #include <GeographicLib/GeodesicLineExact.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace terrella {
@@ -34,7 +33,7 @@ double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places) {
 }
 
 std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to, int count) {
-  assert(count >= 2);
+  count = std::max(count, 2);
   const auto line =
       geodesics_of(ellipsoid).InverseLine(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg());
   std::vector<Geodetic> places;

@@ -19,8 +19,8 @@ namespace terrella {
 /// Length of the way from the first place through all others to the last, metres; 0 for fewer than two places.
 [[nodiscard]] double path_m(const Ellipsoid& ellipsoid, std::span<const Geodetic> places);
 
-/// Returns places at equal distances on the shortest way between two places, `count` >= 2 with both ends. The height
-/// changes evenly.
+/// Returns places at equal distances on the shortest way between two places, `count` with both ends, at least 2. The
+/// height changes evenly.
 [[nodiscard]] std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic& from,
                                                     const Geodetic& to, int count);
 

@@ -64,11 +64,14 @@ enum class HeightMode {
   relative_to_ground,  ///< metres over the ground under each place
 };
 
+// Globe::add_objects() refuses objects with a value out of its range. Places are those of check_place(), sizes are from
+// 0 to 1e6 px, radii and lengths at most 1e12 m.
+
 /// A point, drawn as a sphere with a radius in metres, or as a disc or an icon of constant size on the screen.
 struct PointObject {
   Geodetic place = {};
-  double radius_m = 0.0;           ///< > 0: a sphere around `place`; 0: a marker of `size_px`
-  float size_px = 10.0F;           ///< diameter of a disc, the longer side of an icon
+  double radius_m = 0.0;           ///< not negative; > 0: a sphere around `place`; 0: a marker of `size_px`
+  float size_px = 10.0F;           ///< diameter of a disc, the longer side of an icon, then positive
   ObjectColor color{230, 60, 50};  ///< colour of a sphere or a disc
   PointIcon icon = {};             ///< icon of a marker
   bool through_surface = false;    ///< visible from below through a surface that is translucent for selected objects
@@ -111,13 +114,13 @@ struct LabelObject {
   float size_px = 10.0F;  ///< size of the marker
   double radius_m = 0.0;  ///< radius of the sphere
   /// If two labels would overlap, only the label with the higher priority is shown; on a tie, the first.
-  double priority = 0.0;
+  double priority = 0.0;  ///< not NaN
   bool through_surface = false;
   ObjectIdentity of = {};
   HeightMode heights = HeightMode::absolute;
 };
 
-/// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0).
+/// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0). All finite.
 struct MeshVertex {
   glm::vec3 position_m{0.0F};
   glm::vec3 normal{0.0F};        ///< unit; 0: use the normal of the triangle
@@ -127,8 +130,8 @@ struct MeshVertex {
 
 /// A texture of mesh parts: RGBA8, sRGB, first row at the top.
 struct MeshTexture {
-  int width_px = 0, height_px = 0;
-  std::vector<std::uint8_t> rgba = {};
+  int width_px = 0, height_px = 0;      ///< positive
+  std::vector<std::uint8_t> rgba = {};  ///< width · height · 4 bytes
 };
 
 /// Triangles with one material.
@@ -148,7 +151,7 @@ struct MeshModel {
 
 /// A model that stands upright at a place. Objects that share a model are drawn together.
 struct MeshObject {
-  std::shared_ptr<const MeshModel> model = {};
+  std::shared_ptr<const MeshModel> model = {};  ///< never null
   Geodetic place = {};
   Angle heading = {};  ///< direction of the model's forward axis, clockwise from north
   double scale = 1.0;  ///< > 0

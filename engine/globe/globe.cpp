@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "geo/ranges.h"
 #include "globe/globe_impl.h"
 
 // Making a globe, its settings and its frames. Each call first checks thread and context.
@@ -39,26 +40,6 @@ Status check_context() {
   return Done{};
 }
 
-// Conditions are written so that NaN is out of range too.
-Status check_ranges(const GlobeOptions& o) {
-  if (!(o.texels_per_pixel >= 0.125 && o.texels_per_pixel <= 8.0)) {
-    return Error{"a globe's texels_per_pixel is from 0.125 to 8, not " + std::to_string(o.texels_per_pixel)};
-  }
-  if (!(o.max_error_px >= 0.01 && o.max_error_px <= 16.0)) {
-    return Error{"a globe's max_error_px is from 0.01 to 16, not " + std::to_string(o.max_error_px)};
-  }
-  if (o.segments < 2 || o.segments > 128 || o.segments % 2 != 0) {
-    return Error{"a globe's segments are an even number from 2 to 128, not " + std::to_string(o.segments)};
-  }
-  if (o.gutter_px < 0 || o.gutter_px > 64) {
-    return Error{"a globe's gutter_px is from 0 to 64, not " + std::to_string(o.gutter_px)};
-  }
-  if (o.retry_after.count() <= 0) {
-    return Error{"a globe's retry_after is positive, not " + std::to_string(o.retry_after.count()) + " ms"};
-  }
-  return Done{};
-}
-
 // Sets the GL state that drawing depends on.
 GlScope enter(GlContract contract) {
   if (contract == GlContract::restore) return std::make_unique<GlState>();
@@ -78,7 +59,7 @@ Error misuse(const char* call, const char* why) {
 
 Status Globe::Impl::may_call(const char* call) const {
   if (std::this_thread::get_id() == thread) return Done{};
-  return misuse(call, "called from another thread than the one that the globe was made on");
+  return misuse(call, kOtherThread);
 }
 
 Result<GlScope> Globe::Impl::may_draw(const char* call) const {
@@ -103,7 +84,7 @@ Result<std::unique_ptr<Globe>> Globe::create(const GlobeOptions& options) { retu
 
 Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
                                            const std::optional<ElevationSource>& elevation) {
-  if (const Status ranges = check_ranges(options); !ranges) return ranges.error();
+  if (const Status good = check_options(options); !good) return refusal("Globe::create", good);
   if (const Status context = check_context(); !context) return context.error();
   const GlScope scope = enter(options.gl_contract);
   gl::find_deletes();
@@ -135,11 +116,15 @@ Result<std::unique_ptr<Globe>> Globe::make(const GlobeOptions& options,
 GlobeView& Globe::main_view() { return *impl_->main; }
 
 void Globe::set_camera(const Camera& camera) {
-  if (impl_->may_call("Globe::set_camera")) impl_->first().set_camera(camera);
+  if (impl_->first().may_set("Globe::set_camera", check_camera(camera))) impl_->first().set_camera(camera);
 }
 
-const Camera& Globe::camera() const { return impl_->first().camera; }
-const GlobeOptions& Globe::options() const { return impl_->options; }
+const Camera& Globe::camera() const {
+  return if_allowed(impl_->first().on_thread("Globe::camera"), impl_->first().camera);
+}
+const GlobeOptions& Globe::options() const {
+  return if_allowed(impl_->first().on_thread("Globe::options"), impl_->options);
+}
 
 void Globe::set_unlit(bool unlit) {
   if (!impl_->may_call("Globe::set_unlit")) return;
@@ -148,13 +133,13 @@ void Globe::set_unlit(bool unlit) {
 }
 
 void Globe::set_surface(const SurfaceLook& surface) {
-  if (!impl_->may_call("Globe::set_surface")) return;
+  if (!impl_->first().may_set("Globe::set_surface", check_surface(surface))) return;
   impl_->options.surface = surface;
   impl_->restore_detail();
 }
 
 void Globe::set_stereo(const StereoLook& stereo) {
-  if (!impl_->may_call("Globe::set_stereo")) return;
+  if (!impl_->first().may_set("Globe::set_stereo", check_stereo(stereo))) return;
   impl_->options.stereo = stereo;
   impl_->first().set_stereo(stereo);
 }
@@ -166,7 +151,7 @@ void Globe::set_sky(bool on) {
 }
 
 void Globe::set_exaggeration(double exaggeration) {
-  if (!impl_->may_call("Globe::set_exaggeration")) return;
+  if (!impl_->first().may_set("Globe::set_exaggeration", check_exaggeration(exaggeration))) return;
   impl_->options.exaggeration = exaggeration;
   if (impl_->heights) impl_->relief()->set_exaggeration(exaggeration);
   impl_->changed = true;
@@ -192,11 +177,13 @@ Status Globe::set_night_lights(bool on) {
   return impl_->renderer->set_night_lights(on ? options.night_lights : GreyPicture{});
 }
 
-bool Globe::has_night_lights() const { return impl_->renderer->has_night_lights(); }
+bool Globe::has_night_lights() const {
+  return impl_->may_call("Globe::has_night_lights") && impl_->renderer->has_night_lights();
+}
 
 void Globe::set_budget(const GlobeBudget& budget) {
   const auto call = impl_->may_draw("Globe::set_budget");
-  if (!call) return;
+  if (!call || !impl_->first().may_set("Globe::set_budget", check_budget(budget))) return;
   impl_->options.gpu_bytes = budget.gpu_bytes;
   impl_->options.upload_bytes_per_frame = budget.upload_bytes_per_frame;
   impl_->options.upload_time_per_frame = budget.upload_time_per_frame;
@@ -221,24 +208,30 @@ bool Globe::render_until_settled(unsigned framebuffer, Viewport viewport,
   return impl_->first().render_until_settled("Globe::render_until_settled", framebuffer, viewport, deadline);
 }
 
-const FrameStats& Globe::last_frame() const { return impl_->first().stats; }
-const Status& Globe::status() const { return impl_->first().status; }
-bool Globe::settled() const { return impl_->first().settled(); }
-void Globe::on_settled(std::function<void()> told) { impl_->first().on_settled = std::move(told); }
+const FrameStats& Globe::last_frame() const {
+  return if_allowed(impl_->first().on_thread("Globe::last_frame"), impl_->first().stats);
+}
+const Status& Globe::status() const { return impl_->first().last_status("Globe::status"); }
+bool Globe::settled() const { return impl_->may_call("Globe::settled") && impl_->first().settled(); }
+void Globe::on_settled(std::function<void()> told) {
+  if (impl_->may_call("Globe::on_settled")) impl_->first().on_settled = std::move(told);
+}
 
 void Globe::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {
   if (impl_->may_call("Globe::on_draw")) impl_->first().set_on_draw(std::move(draw));
 }
 
-unsigned Globe::depth_texture() const { return impl_->first().depth_texture(); }
+unsigned Globe::depth_texture() const {
+  return impl_->may_call("Globe::depth_texture") ? impl_->first().depth_texture() : 0;
+}
 
 Status Globe::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
   return impl_->first().copy_depth("Globe::copy_depth", framebuffer, corner_px);
 }
 
-bool Globe::needs_frame() const { return impl_->first().needs_frame(); }
+bool Globe::needs_frame() const { return impl_->may_call("Globe::needs_frame") && impl_->first().needs_frame(); }
 bool Globe::needs_frame(unsigned framebuffer, Viewport viewport) const {
-  return impl_->first().needs_frame(framebuffer, viewport);
+  return impl_->may_call("Globe::needs_frame") && impl_->first().needs_frame(framebuffer, viewport);
 }
 
 std::vector<std::string> Globe::attributions() const {
@@ -256,7 +249,7 @@ std::vector<PictureBox> Globe::label_boxes() const {
   return boxes;
 }
 
-View Globe::view(Viewport viewport) const { return impl_->first().eye_view(viewport); }
+View Globe::view(Viewport viewport) const { return impl_->first().eye_view("Globe::view", viewport); }
 
 GlobePick Globe::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   return impl_->may_call("Globe::pick") ? impl_->first().pick(pixel_px, viewport) : GlobePick{};
@@ -268,11 +261,16 @@ std::optional<glm::dvec2> Globe::project(const Geodetic& place, Viewport viewpor
 
 // The calls of data that all views share.
 
-const std::deque<MissingTile>& Globe::missing_tiles() const { return impl_->missing; }
-const std::deque<MissingTile>& Globe::missing_heights() const { return impl_->missing_heights; }
+const std::deque<MissingTile>& Globe::missing_tiles() const {
+  return if_allowed(impl_->first().on_thread("Globe::missing_tiles"), impl_->missing);
+}
+const std::deque<MissingTile>& Globe::missing_heights() const {
+  return if_allowed(impl_->first().on_thread("Globe::missing_heights"), impl_->missing_heights);
+}
 
 LoaderCounts Globe::loading() const {
   LoaderCounts all;
+  if (!impl_->may_call("Globe::loading")) return all;
   for (const auto& layer : impl_->images) {
     const LoaderCounts counts = layer->loading();
     all.waiting += counts.waiting;

@@ -36,14 +36,18 @@ namespace terrella {
 /// (globe/globe_view.h) share the globe's layers, tiles, textures and objects.
 ///
 /// thread: main for every call and the destructor: the thread on which the globe was made, with its context current. A
-/// call that breaks this rule is reported by an assertion that names the call. Without assertions, calls that return a
-/// Status or a Result return an error, render() draws nothing, and other calls do nothing. The context must be current
-/// in the destructor. If no context is current, the GL objects are taken to be gone with their context.
+/// call that breaks this rule is reported by an assertion that names the call. Without assertions, as in the packages,
+/// calls that return a Status or a Result return an error, render() draws nothing, and other calls do nothing and
+/// return an empty value. The context must be current in the destructor. If no context is current, the GL objects are
+/// taken to be gone with their context.
+///
+/// Each value has the range that its header states; NaN is never in range. A call that returns a Status or a Result
+/// fails for a value out of range. Another setting is refused: it stays as it was, status() is an error that names call
+/// and value, and the next frame draws nothing. Other calls return an empty value. No such value is an assertion.
 class Globe {
  public:
   /// Makes a globe without layers, a body in a plain colour. Fails if no context is current or the context is older
-  /// than 4.5. Also fails if the time is outside the almanac's years, or if detail, error, segments or gutter are out
-  /// of range.
+  /// than 4.5. Also fails if the time is outside the almanac's years, or if another option is out of range.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options);
   /// Makes a globe with a base layer and, optionally, heights. Fails as above.
   [[nodiscard]] static Result<std::unique_ptr<Globe>> create(const GlobeOptions& options,
@@ -54,22 +58,25 @@ class Globe {
   Globe& operator=(const Globe&) = delete;
 
   /// Adds an image layer over the existing ones. The lowest image layer is the base layer, the others are upper layers.
-  /// Fails if the source is null, or if its description of its grid is invalid.
+  /// Fails if the source is null, if its description of its grid is invalid, or if the driver has no memory for tiles.
   Result<LayerId> add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look = {});
-  /// Replaces the look of an image layer. Fails if `imagery` is not an image layer of this globe.
+  /// Replaces the look of an image layer. Fails if `imagery` is not an image layer of this globe, or if a value is out
+  /// of range.
   Status set_look(LayerId imagery, const ImageLook& look);
   [[nodiscard]] Result<ImageLook> look(LayerId imagery) const;
   /// Moves a layer so that `position` other layers of its kind (imagery or objects) lie under it; to the top if there
   /// are fewer. Objects of one kind at the same place are drawn in the order of their layers.
   Status move(LayerId layer, std::size_t position);
   [[nodiscard]] std::vector<LayerId> imagery() const;  ///< lowest first
-  /// Adds an object layer over the existing ones. Fails if its shader programs cannot be made.
+  /// Adds an object layer over the existing ones. Fails if a value of an object is out of range, such as a place that
+  /// is not finite or an index beyond a mesh's vertices, or if the shader programs cannot be made.
   Result<LayerId> add_objects(ObjectScene objects, bool shown = true);
   /// Replaces the objects of a layer. Many lines and areas are cut by a worker; until then the layer shows the earlier
   /// objects, and settled() is false.
   Status set_objects(LayerId layer, ObjectScene objects);
   /// Adds, moves, changes and removes single objects of a layer by their ids. The cost depends on the edits alone.
-  /// Fails if an id is not in the layer, or if a size is not positive; all other edits are made.
+  /// Fails if an id is not in the layer, or if a move or a change has a value out of range; all other edits are made.
+  /// Fails and makes no edit if an added object has a value out of range.
   Status edit_objects(LayerId layer, ObjectEdits edits);
   Status show_objects(LayerId layer, bool shown);
   /// Multiplies the alpha of a layer's objects by `opacity`, [0, 1]. At 0 the objects are neither drawn nor picked.
@@ -117,22 +124,25 @@ class Globe {
   Status set_night_lights(bool on);
   [[nodiscard]] bool has_night_lights() const;  ///< true if city lights are drawn at a time
   /// Sets the budget from the next frame on. Image layers share the GPU memory evenly. Each layer has room for at least
-  /// 16 tiles.
+  /// 16 tiles. FrameStats::gpu_bytes_granted is what the driver gives.
   void set_budget(const GlobeBudget& budget);
 
-  /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`. `framebuffer` is a GL name, 0 the
-  /// window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns the frame's statistics. Draws
-  /// nothing if status() is an error, such as a number of samples that the driver's textures do not have.
+  /// Draws one frame into `framebuffer`, with its lower left corner at `corner_px`, [-1e6, 1e6]. `framebuffer` is a GL
+  /// name, 0 the window; it may be sRGB or not. Uploads arrived tiles within the budget. Returns the frame's
+  /// statistics. Draws nothing if status() is an error: the framebuffer is absent, incomplete or without colours; the
+  /// viewport is empty or beyond the driver's limits; there is no memory for it; textures have not as many samples; a
+  /// setting was refused.
   FrameStats render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px = {0, 0});
   [[nodiscard]] const FrameStats& last_frame() const;  ///< counts of the last frame
-  /// The error of the last frame. A frame draws nothing if it cannot make a shader program that no earlier frame
-  /// needed. The next frame tries again.
+  /// The error of the last frame, or of a setting that was refused since then. A frame draws nothing if it cannot make
+  /// a shader program that no earlier frame needed. The next frame tries again.
   [[nodiscard]] const Status& status() const;
 
   /// Sets a callback that draws for the application inside each frame, once for each stage and eye; empty: none. It
   /// draws into the bound framebuffer, in the set viewport. Depth test, culling and colour mask are set as for the
-  /// globe's own passes; it may leave any state but the stencil's. Vertices go through `matrices`, or through the
-  /// functions of render/caller_glsl.h, which stay exact near the ground. It must not call the globe.
+  /// globe's own passes. No sampler and no vertex array is bound. It may leave any state but the stencil's. Vertices go
+  /// through `matrices`, or through the functions of render/caller_glsl.h, which stay exact near the ground. It must
+  /// not call the globe.
   void on_draw(std::function<void(DrawStage stage, const FrameMatrices& matrices)> draw);
   /// Returns the GL name of the texture with the depth of the last frame, in the format of `GlobeOptions::depth`, 0
   /// before the first; rows from the bottom. Valid until the next frame of any view of the globe.
@@ -162,7 +172,8 @@ class Globe {
   /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
   [[nodiscard]] const std::deque<MissingTile>& missing_heights() const;
 
-  /// Returns the place, layers and object that a pixel of the mono picture shows (geo/coordinates.h).
+  /// Returns the place, layers and object that a pixel of the mono picture shows (geo/coordinates.h); nothing if a
+  /// value is out of range.
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
   /// Returns the value at a place of a layer of numbers, from the nearest texel of the finest loaded tile; none if no
   /// tile is loaded there. Exact for numbers that a float holds exactly, if `level` is the source's finest. Waits for
@@ -175,7 +186,7 @@ class Globe {
   /// or hidden by the ground.
   [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
   /// Returns the camera's view for a picture size, as the functions for picking and projecting take it: geo/camera.h
-  /// for the ellipsoid, view/ground.h for the ground.
+  /// for the ellipsoid, view/ground.h for the ground. Sides below 1 count as 1.
   [[nodiscard]] View view(Viewport viewport) const;
   /// Returns the ground as it is drawn. The value stays valid after the globe or its elevation is gone.
   [[nodiscard]] Ground ground() const;

@@ -148,6 +148,8 @@ void GlobeView::Impl::count() {
   stats.height_bytes = globe->heights ? globe->relief()->bytes() : 0;
   for (const LayerView* layer : stack) {
     stats.gpu_bytes += layer->layer().gpu_bytes();
+    stats.gpu_bytes_granted += layer->layer().gpu_bytes_granted();
+    stats.gpu_memory_refused = stats.gpu_memory_refused || layer->layer().tiles().memory_refused();
     stats.patches_held += layer->tree().size();
     stats.tiles_known += layer->layer().tiles_known();
     if (&layer->layer() == globe->plain.get()) continue;

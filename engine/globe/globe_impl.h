@@ -75,10 +75,13 @@ struct Globe::Impl {
 
 /// Misuse: an assertion, and an error if assertions are off. thread: any
 [[nodiscard]] Error misuse(const char* call, const char* why);
+inline constexpr const char* kOtherThread = "called from another thread than the one that the globe was made on";
+/// The error of a call with a value out of range: the call's name, then `wrong`. thread: any
+[[nodiscard]] inline Error refusal(const char* call, const Status& wrong) {
+  return Error{std::string(call) + ": " + wrong.error().message};
+}
 /// Returns the error of a call that names a layer which the globe does not have. thread: any
 [[nodiscard]] Error no_layer(const char* call, const char* kind, LayerId id);
-/// Fails if an opacity is not from 0 to 1. thread: any
-[[nodiscard]] Status check_opacity(const char* call, double opacity);
 
 /// Moves the element at `from` so that `position` others are before it, or to the end.
 template <class T>

@@ -2,37 +2,39 @@
 
 #include <algorithm>
 
+#include "base/range_check.h"
 #include "globe/globe_impl.h"
+#include "tiles/grid_ranges.h"
 
 // The image layers and the heights of a globe, and the state that all layers share.
 namespace terrella {
 namespace {
 
-Status check_grid(const TileGrid& grid) {
-  const auto wrong = [](std::string what) {
-    return Error{"Globe::add_imagery: the description of the source's grid is wrong: " + what};
-  };
-  if (!(grid.root_span_deg > 0.0 && grid.root_span_deg <= 1e4)) {
-    return wrong(fmt::format("tiles of level 0 that span {}°", grid.root_span_deg));
-  }
-  if (grid.tile_px < 16 || grid.tile_px > 4096) return wrong(fmt::format("tiles of {} pixels", grid.tile_px));
-  if (grid.min_level < 0 || grid.max_level < grid.min_level || grid.max_level > kMaxTileLevel) {
-    return wrong(fmt::format("levels from {} to {}", grid.min_level, grid.max_level));
-  }
-  return Done{};
+// The projections of tiles as stored are never drawn.
+Status check_source(const TileSetInfo& info) {
+  constexpr std::int64_t kMostRoots = 1'000'000'000;  // each is looked at
+  const TileGrid& grid = info.grid;
+  const Projection projection = grid.projection;
+  const Status good = check_grid(grid, "grid");
+  return RangeCheck()
+      .that(projection == Projection::equirectangular || projection == Projection::equal_area,
+            "its tiles are in a projection that is not drawn; open the set by open_tile_set()")
+      .part("its description is wrong", good)
+      .that(!good || columns(grid, grid.min_level) * rows(grid, grid.min_level) <= kMostRoots,
+            "its coarsest level has more than a thousand million tiles; add coarser levels")
+      .part("its numbers", info.numbers ? check_numbers(*info.numbers) : Status(Done{}))
+      .result();
 }
 
 /// A layer of numbers needs a stretch and a colour map, a layer of pictures has none.
-Status check_numbers(const std::string& call, bool has_numbers, const ImageLook& look) {
-  if (has_numbers && !look.numbers) {
-    return Error{call + ": the tiles are numbers; give their stretch and colour map (ImageLook::numbers)"};
-  }
-  if (!has_numbers && look.numbers) {
-    return Error{call + ": the tiles are pictures, which have no stretch; leave ImageLook::numbers empty"};
-  }
-  if (!look.numbers) return Done{};
-  const Status good = check_look(*look.numbers);
-  return good ? good : Error{call + ": " + good.error().message};
+Status check_look(bool has_numbers, const ImageLook& look) {
+  return RangeCheck()
+      .that(!has_numbers || look.numbers,
+            "the tiles are numbers; give their stretch and colour map (ImageLook::numbers)")
+      .that(has_numbers || !look.numbers,
+            "the tiles are pictures, which have no stretch; leave ImageLook::numbers empty")
+      .part("the look", check_look(look))
+      .result();
 }
 
 }  // namespace
@@ -40,11 +42,6 @@ Status check_numbers(const std::string& call, bool has_numbers, const ImageLook&
 Error no_layer(const char* call, const char* kind, LayerId id) {
   return Error{fmt::format("{}: the globe has no {} {} (removed before, or another globe's)", call, kind,
                            static_cast<std::uint64_t>(id))};
-}
-
-Status check_opacity(const char* call, double opacity) {
-  if (opacity >= 0.0 && opacity <= 1.0) return Done{};
-  return Error{fmt::format("{}: an opacity of {}; give one from 0 to 1", call, opacity)};
 }
 
 ImageLayer* Globe::Impl::image(LayerId id) const {
@@ -66,16 +63,23 @@ std::vector<LayerId> Globe::imagery() const {
 Result<LayerId> Globe::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
   const auto call = impl_->may_draw("Globe::add_imagery");
   if (!call) return call.error();
-  if (!source) return Error{"Globe::add_imagery: there is no source; open one first (open_tile_set())"};
-  if (Status good = check_grid(source->info().grid); !good) return good.error();
-  if (Status good = check_opacity("Globe::add_imagery", look.opacity); !good) return good.error();
+  if (!source) {
+    return Error{
+        "Globe::add_imagery: there is no source; open one first (open_tile_set()), or give painted_tiles() a function"};
+  }
+  if (Status good = check_source(source->info()); !good) return refusal("Globe::add_imagery: the source", good);
   const bool has_numbers = source->info().numbers.has_value();
-  if (Status good = check_numbers("Globe::add_imagery", has_numbers, look); !good) return good.error();
+  if (Status good = check_look(has_numbers, look); !good) return refusal("Globe::add_imagery", good);
   auto& images = impl_->images;
   const LayerId id = impl_->next_id();
   const std::size_t share = impl_->options.gpu_bytes / (images.size() + 1);
   for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new layer takes its share
-  images.push_back(std::make_unique<ImageLayer>(id, impl_->setup(), std::move(source), look, share));
+  auto layer = std::make_unique<ImageLayer>(id, impl_->setup(), std::move(source), look, share);
+  if (layer->gpu_bytes() == 0) {
+    impl_->share_gpu();
+    return Error{"Globe::add_imagery: the driver has no memory for tiles; remove a layer, or give a smaller gpu_bytes"};
+  }
+  images.push_back(std::move(layer));
   impl_->restore_detail();
   return id;
 }
@@ -84,8 +88,7 @@ Status Globe::set_look(LayerId imagery, const ImageLook& look) {
   if (Status call = impl_->may_call("Globe::set_look"); !call) return call;
   ImageLayer* layer = impl_->image(imagery);
   if (layer == nullptr) return no_layer("Globe::set_look", "image layer", imagery);
-  if (Status good = check_opacity("Globe::set_look", look.opacity); !good) return good;
-  if (Status good = check_numbers("Globe::set_look", layer->has_numbers(), look); !good) return good;
+  if (Status good = check_look(layer->has_numbers(), look); !good) return refusal("Globe::set_look", good);
   layer->set_look(look);
   impl_->changed = true;
   return Done{};
@@ -178,6 +181,6 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   return Done{};
 }
 
-bool Globe::has_relief() const { return impl_->heights != nullptr; }
+bool Globe::has_relief() const { return impl_->may_call("Globe::has_relief") && impl_->heights != nullptr; }
 
 }  // namespace terrella

@@ -2,18 +2,28 @@
 
 #include <algorithm>
 
+#include "base/range_check.h"
 #include "globe/globe_impl.h"
 #include "globe/object_checks.h"
+#include "globe/object_ranges.h"
 
 // The object layers of a globe.
 namespace terrella {
 namespace {
 
-bool is_positive(const ObjectChange& change) { return !change.size_px || *change.size_px > 0.0F; }
-
-Error refusal(const char* call, const Status& wrong) {
-  return Error{fmt::format("Globe::{}: {}", call, wrong.error().message)};
+/// Removes the edits with a value out of range. Returns the first error.
+template <class Edit>
+Status take_faulty(std::vector<Edit>& edits) {
+  Status first = Done{};
+  std::erase_if(edits, [&first](const Edit& edit) {
+    const Status good = check_values(edit);
+    if (first && !good) first = good;
+    return !good;
+  });
+  return first;
 }
+
+Status check_opacity(double opacity) { return RangeCheck().in("the opacity", opacity, 0.0, 1.0).result(); }
 
 Status report(const std::vector<ObjectId>& unknown) {
   if (unknown.empty()) return Done{};
@@ -40,7 +50,7 @@ std::vector<LayerId> Globe::objects() const {
 Result<LayerId> Globe::add_objects(ObjectScene objects, bool shown) {
   const auto call = impl_->may_draw("Globe::add_objects");
   if (!call) return call.error();
-  if (Status good = check_objects(objects); !good) return refusal("add_objects", good);
+  if (Status good = check_objects(objects); !good) return refusal("Globe::add_objects", good);
   const LayerId id = impl_->next_id();
   ObjectLayer& layer = impl_->objects.emplace_back(id, shown, impl_->bell);
   impl_->objects_cut += layer.set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
@@ -57,7 +67,7 @@ Status Globe::set_objects(LayerId layer, ObjectScene objects) {
   if (!call) return call.error();
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::set_objects", "object layer", layer);
-  if (Status good = check_objects(objects); !good) return refusal("set_objects", good);
+  if (Status good = check_objects(objects); !good) return refusal("Globe::set_objects", good);
   impl_->objects_cut += changed->set(std::move(objects), impl_->options.body.ellipsoid, impl_->shared_relief());
   return impl_->show_layers();
 }
@@ -68,11 +78,10 @@ Status Globe::edit_objects(LayerId layer, ObjectEdits edits) {
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::edit_objects", "object layer", layer);
   if (Status good = check_objects(edits.add, changed->newest(), edits.remove); !good) {
-    return Error{refusal("edit_objects", good).message + ". No edit is made"};
+    return Error{refusal("Globe::edit_objects", good).message + ". No edit is made"};
   }
-  const auto wrong = std::ranges::find_if_not(edits.changes, is_positive);
-  const float wrong_px = wrong == edits.changes.end() ? 1.0F : *wrong->size_px;
-  std::erase_if(edits.changes, [](const ObjectChange& change) { return !is_positive(change); });
+  const Status values =
+      RangeCheck().part("moves", take_faulty(edits.moves)).part("changes", take_faulty(edits.changes)).result();
   std::vector<ObjectId> unknown;
   const bool was_drawn = changed->is_drawn();
   impl_->objects_cut += changed->edit(std::move(edits), unknown);
@@ -82,10 +91,7 @@ Status Globe::edit_objects(LayerId layer, ObjectEdits edits) {
     if (!call) return call.error();
     if (Status shown = impl_->show_layers(); !shown) return shown;
   }
-  if (!(wrong_px > 0.0F)) {
-    return Error{
-        fmt::format("Globe::edit_objects: a size of {} px; give a positive one. The other edits are made", wrong_px)};
-  }
+  if (!values) return Error{refusal("Globe::edit_objects", values).message + ". The other edits are made"};
   return report(unknown);
 }
 
@@ -103,7 +109,7 @@ Status Globe::fade_objects(LayerId layer, double opacity) {
   if (!call) return call.error();
   ObjectLayer* changed = impl_->object(layer);
   if (changed == nullptr) return no_layer("Globe::fade_objects", "object layer", layer);
-  if (Status good = check_opacity("Globe::fade_objects", opacity); !good) return good;
+  if (Status good = check_opacity(opacity); !good) return refusal("Globe::fade_objects", good);
   if (changed->opacity() == opacity) return Done{};
   changed->set_opacity(opacity);
   return impl_->show_layers();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/result.h"
 #include "geo/body.h"
 #include "sky/cube_picture.h"
 #include "sky/star_catalogue.h"
@@ -19,6 +20,7 @@ enum class GlContract {
   leave,    ///< a call asks for no state and restores none; the caller sets what it needs itself afterwards
 };
 
+/// Settings of a globe. Globe::create() fails if a value is out of its range (check_options()).
 struct GlobeOptions {
   Body body = earth();
   Texturing texturing = Texturing::automatic;
@@ -49,18 +51,18 @@ struct GlobeOptions {
   std::vector<Star> stars{};  ///< stars of the sky
   /// City lights on the Earth's night side, drawn only with a sky and a time (Globe::set_night_lights()); may be empty.
   GreyPicture night_lights{};
-  std::vector<std::byte> label_font{};     ///< bytes of a font file for the labels of objects; empty: no labels
-  std::size_t gpu_bytes = 512UL << 20;     ///< texture slots for tiles, all image layers together
-  std::size_t height_bytes = 256UL << 20;  ///< elevation tiles in main memory; at least 64 tiles always fit
-  std::size_t upload_bytes_per_frame = 8UL << 20;
-  std::chrono::microseconds upload_time_per_frame{4000};
+  std::vector<std::byte> label_font{};             ///< bytes of a font file for the labels of objects; empty: no labels
+  std::size_t gpu_bytes = 512UL << 20;             ///< texture slots for tiles, all image layers together
+  std::size_t height_bytes = 256UL << 20;          ///< elevation tiles in main memory; at least 64 tiles always fit
+  std::size_t upload_bytes_per_frame = 8UL << 20;  ///< positive; a frame uploads at least one tile
+  std::chrono::microseconds upload_time_per_frame{4000};  ///< [0, 24 h]
   /// Patches whose relief may be rebuilt per frame, about 0.3 ms each. Patches without which the frame cannot be drawn
-  /// do not count. The other height tiles wait, and mountains become finer frame by frame.
+  /// do not count. The other height tiles wait, and mountains become finer frame by frame. Positive.
   int relief_meshes_per_frame = 24;
-  int workers = 0;                               ///< decoder threads of an image layer, up to 64; 0: decoder_threads()
+  int workers = 0;                               ///< decoder threads of an image layer, [0, 64]; 0: decoder_threads()
   GlContract gl_contract = GlContract::restore;  ///< the picture is the same with both
   /// A tile of imagery or heights that failed for now (MissingKind::failed) is requested again after this time, if it
-  /// is still wanted. Positive.
+  /// is still wanted. Positive, at most 365 days.
   std::chrono::milliseconds retry_after{30'000};
 };
 
@@ -71,5 +73,14 @@ struct GlobeBudget {
   std::chrono::microseconds upload_time_per_frame;
   int relief_meshes_per_frame;
 };
+[[nodiscard]] inline GlobeBudget budget_of(const GlobeOptions& options) {
+  return {options.gpu_bytes, options.upload_bytes_per_frame, options.upload_time_per_frame,
+          options.relief_meshes_per_frame};
+}
+
+/// Fails if a value is out of its range, and names the value. thread: any
+[[nodiscard]] Status check_options(const GlobeOptions& options);
+[[nodiscard]] Status check_budget(const GlobeBudget& budget);
+[[nodiscard]] Status check_exaggeration(double exaggeration);
 
 }  // namespace terrella

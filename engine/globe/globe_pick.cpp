@@ -1,6 +1,8 @@
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "geo/longitudes.h"
+#include "geo/ranges.h"
 #include "globe/globe_impl.h"
 #include "surface/daylight.h"
 
@@ -28,8 +30,13 @@ View GlobeView::Impl::eye_view(Viewport viewport) const {
   return make_view(camera, globe != nullptr ? globe->options.body.ellipsoid : earth().ellipsoid, viewport);
 }
 
+View GlobeView::Impl::eye_view(const char* call, Viewport viewport) const {
+  return on_thread(call) ? eye_view(viewport) : make_view(Camera{}, earth().ellipsoid, Viewport{});
+}
+
 GlobePick GlobeView::Impl::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   GlobePick found;
+  if (!check_viewport(viewport) || !std::isfinite(pixel_px.x + pixel_px.y)) return found;
   const View eye = eye_view(viewport);
   const Ground drawn_ground = globe->ground();
   found.place = terrella::pick(eye, drawn_ground, pixel_px);
@@ -51,6 +58,7 @@ GlobePick GlobeView::Impl::pick(glm::dvec2 pixel_px, Viewport viewport) const {
 Result<std::optional<LayerValue>> Globe::value_at(LayerId imagery, const Geodetic& place) const {
   const auto call = impl_->may_draw("Globe::value_at");
   if (!call) return call.error();
+  if (const Status good = check_place(place); !good) return refusal("Globe::value_at", good);
   const ImageLayer* layer = impl_->image(imagery);
   if (layer == nullptr || !layer->has_numbers()) return no_layer("Globe::value_at", "layer of numbers", imagery);
   return layer->value_at(place);
@@ -58,9 +66,10 @@ Result<std::optional<LayerValue>> Globe::value_at(LayerId imagery, const Geodeti
 
 std::future<Result<double, TileFailure>> Globe::stored_value(LayerId imagery, const Geodetic& place) const {
   const ImageLayer* layer = impl_->may_call("Globe::stored_value") ? impl_->image(imagery) : nullptr;
-  if (layer == nullptr) {
+  const Status good = check_place(place);
+  if (layer == nullptr || !good) {
     std::promise<Result<double, TileFailure>> none;
-    none.set_value(TileFailure{MissingKind::absent, "the globe has no such image layer"});
+    none.set_value(TileFailure{MissingKind::absent, good ? "the globe has no such image layer" : good.error().message});
     return none.get_future();
   }
   return std::async(std::launch::async, [source = layer->source(), place, figure = impl_->options.body.ellipsoid] {
@@ -69,6 +78,7 @@ std::future<Result<double, TileFailure>> Globe::stored_value(LayerId imagery, co
 }
 
 std::optional<glm::dvec2> GlobeView::Impl::project(const Geodetic& place, Viewport viewport) const {
+  if (!check_viewport(viewport) || !check_place(place)) return std::nullopt;
   const View eye = eye_view(viewport);
   const Ecef at = globe->options.body.ellipsoid.to_ecef(place);
   const auto pixel = terrella::project(eye, at);
@@ -78,12 +88,15 @@ std::optional<glm::dvec2> GlobeView::Impl::project(const Geodetic& place, Viewpo
   return hidden_by_ground(eye, globe->ground(), at) ? std::nullopt : pixel;
 }
 
-Ground Globe::ground() const { return impl_->ground(); }
+Ground Globe::ground() const { return impl_->may_call("Globe::ground") ? impl_->ground() : earth().ellipsoid; }
 
-double Globe::ground_height_m(Angle lat, Angle lon) const { return ground().height_m(lat, lon); }
+double Globe::ground_height_m(Angle lat, Angle lon) const {
+  const bool may = impl_->may_call("Globe::ground_height_m") && check_place({lat, lon});
+  return may ? impl_->ground().height_m(lat, lon) : 0.0;
+}
 
 std::optional<double> Globe::elevation_m(Angle lat, Angle lon) const {
-  if (!impl_->heights) return std::nullopt;
+  if (!impl_->may_call("Globe::elevation_m") || !impl_->heights || !check_place({lat, lon})) return std::nullopt;
   return impl_->relief()->field().height_m(lat, lon);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/range_check.h"
+#include "geo/ranges.h"
 #include "globe/globe_impl.h"
 
 // Views of a globe: the calls that Globe makes for its main view, and GlobeView for others.
@@ -14,6 +16,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kNoGlobe = "the view's globe is gone";
 // Longest wait for a tile before checking for due retries.
 constexpr std::chrono::milliseconds kLook{100};
+// Far beyond every framebuffer, and far from the end of the integers.
+constexpr double kMostCorner_px = 1e6;
 
 }  // namespace
 
@@ -36,6 +40,39 @@ Result<GlScope> GlobeView::Impl::may_draw(const char* call) const {
   return misuse(call, kNoGlobe);
 }
 
+bool GlobeView::Impl::on_thread(const char* call) const {
+  if (std::this_thread::get_id() == thread) return true;
+  static_cast<void>(misuse(call, kOtherThread));
+  return false;
+}
+
+bool GlobeView::Impl::may_set(const char* call, const Status& good) {
+  if (!may_call(call)) return false;
+  if (good) return true;
+  refused = status = refusal(call, good);
+  changed = true;
+  return false;
+}
+
+Status GlobeView::Impl::may_begin(const char* call, Viewport viewport, glm::ivec2 corner_px) {
+  if (!refused) return std::exchange(refused, Done{});
+  const int most_px = globe->renderer->longest_side_px();  // of this driver
+  const Status good = RangeCheck()
+                          .in("the width of the picture", viewport.width_px, 1, most_px, " px")
+                          .in("the height of the picture", viewport.height_px, 1, most_px, " px")
+                          .in("corner_px.x", corner_px.x, -kMostCorner_px, kMostCorner_px)
+                          .in("corner_px.y", corner_px.y, -kMostCorner_px, kMostCorner_px)
+                          .result();
+  return good ? good : refusal(call, good);
+}
+
+const Status& GlobeView::Impl::last_status(const char* call) const {
+  if (std::this_thread::get_id() == thread) return status;
+  thread_local Status elsewhere = Done{};
+  elsewhere = misuse(call, kOtherThread);
+  return elsewhere;
+}
+
 void GlobeView::Impl::set_camera(const Camera& to) {
   if (to == camera) return;  // callers set the camera every frame; this keeps the reduced detail
   camera = to;
@@ -56,7 +93,8 @@ FrameStats GlobeView::Impl::render(const char* call, unsigned framebuffer, Viewp
       if (std::this_thread::get_id() == thread) status = scope.error();
       return drawn_stats;
     }
-    drawn_stats = draw(framebuffer, viewport, corner_px, when);
+    status = may_begin(call, viewport, corner_px);
+    if (status) drawn_stats = draw(framebuffer, viewport, corner_px, when);
   }
   tell_settled();
   return drawn_stats;
@@ -83,7 +121,8 @@ Status GlobeView::Impl::copy_depth(const char* call, unsigned framebuffer, glm::
     return Error{std::string(call) +
                  ": another view of the globe has been drawn since; copy the depth right after the view's own frame"};
   }
-  return globe->renderer->copy_depth(*memory.targets, framebuffer, corner_px);
+  const Status copied = globe->renderer->copy_depth(*memory.targets, framebuffer, corner_px);
+  return copied ? copied : refusal(call, copied);
 }
 
 void GlobeView::Impl::set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draws) {
@@ -169,37 +208,49 @@ GlobeView::~GlobeView() {
 }
 
 void GlobeView::set_camera(const Camera& camera) {
-  if (impl_->may_call("GlobeView::set_camera")) impl_->set_camera(camera);
+  if (impl_->may_set("GlobeView::set_camera", check_camera(camera))) impl_->set_camera(camera);
 }
 
-const Camera& GlobeView::camera() const { return impl_->camera; }
+const Camera& GlobeView::camera() const { return if_allowed(impl_->on_thread("GlobeView::camera"), impl_->camera); }
 
 void GlobeView::set_stereo(const StereoLook& stereo) {
-  if (impl_->may_call("GlobeView::set_stereo")) impl_->set_stereo(stereo);
+  if (impl_->may_set("GlobeView::set_stereo", check_stereo(stereo))) impl_->set_stereo(stereo);
 }
 
 FrameStats GlobeView::render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {
   return impl_->render("GlobeView::render", framebuffer, viewport, corner_px);
 }
 
-const FrameStats& GlobeView::last_frame() const { return impl_->stats; }
-const Status& GlobeView::status() const { return impl_->status; }
+const FrameStats& GlobeView::last_frame() const {
+  return if_allowed(impl_->on_thread("GlobeView::last_frame"), impl_->stats);
+}
+const Status& GlobeView::status() const { return impl_->last_status("GlobeView::status"); }
 
 void GlobeView::on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw) {
   if (impl_->may_call("GlobeView::on_draw")) impl_->set_on_draw(std::move(draw));
 }
 
-unsigned GlobeView::depth_texture() const { return impl_->depth_texture(); }
+unsigned GlobeView::depth_texture() const {
+  return impl_->on_thread("GlobeView::depth_texture") ? impl_->depth_texture() : 0;
+}
 
 Status GlobeView::copy_depth(unsigned framebuffer, glm::ivec2 corner_px) {
   return impl_->copy_depth("GlobeView::copy_depth", framebuffer, corner_px);
 }
 
-bool GlobeView::settled() const { return impl_->globe != nullptr && impl_->settled(); }
-void GlobeView::on_settled(std::function<void()> told) { impl_->on_settled = std::move(told); }
-bool GlobeView::needs_frame() const { return impl_->needs_frame(); }
+bool GlobeView::settled() const {
+  return impl_->on_thread("GlobeView::settled") && impl_->globe != nullptr && impl_->settled();
+}
+
+void GlobeView::on_settled(std::function<void()> told) {
+  if (impl_->on_thread("GlobeView::on_settled")) impl_->on_settled = std::move(told);
+}
+
+bool GlobeView::needs_frame() const { return impl_->on_thread("GlobeView::needs_frame") && impl_->needs_frame(); }
+
 bool GlobeView::needs_frame(unsigned framebuffer, Viewport viewport) const {
-  return impl_->globe != nullptr && impl_->needs_frame(framebuffer, viewport);
+  return impl_->on_thread("GlobeView::needs_frame") && impl_->globe != nullptr &&
+         impl_->needs_frame(framebuffer, viewport);
 }
 
 bool GlobeView::render_until_settled(unsigned framebuffer, Viewport viewport, Clock::time_point deadline) {
@@ -222,6 +273,6 @@ std::optional<glm::dvec2> GlobeView::project(const Geodetic& place, Viewport vie
   return impl_->may_call("GlobeView::project") ? impl_->project(place, viewport) : std::nullopt;
 }
 
-View GlobeView::view(Viewport viewport) const { return impl_->eye_view(viewport); }
+View GlobeView::view(Viewport viewport) const { return impl_->eye_view("GlobeView::view", viewport); }
 
 }  // namespace terrella

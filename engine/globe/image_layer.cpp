@@ -61,7 +61,7 @@ void ImageLayer::invalidate(const std::optional<TileId>& tile) {
     entry.is_outdated = entry.state == TileState::resident;
   }
   was_invalidated_ = true;
-  start_stream();
+  tile ? stream_->reread(*tile) : start_stream();
 }
 
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {

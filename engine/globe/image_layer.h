@@ -44,7 +44,8 @@ class ImageLayer {
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
-  /// See Globe::invalidate(). Tiles in flight are dropped: they may have been read before the change.
+  /// See Globe::invalidate(). What is in flight of the tile, or of all, is dropped: it may have been read before the
+  /// change.
   void invalidate(const std::optional<TileId>& tile);
   [[nodiscard]] bool was_invalidated() const { return was_invalidated_; }
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
@@ -95,6 +96,9 @@ class ImageLayer {
   void stop_asking();
 
   [[nodiscard]] std::size_t gpu_bytes() const { return tiles_.bytes(); }
+  [[nodiscard]] std::size_t gpu_bytes_granted() const {
+    return static_cast<std::size_t>(tiles_.capacity()) * tiles_.slot_bytes();
+  }
   [[nodiscard]] std::size_t tiles_known() { return tiles_.residency().entries().size(); }
   [[nodiscard]] LoaderCounts loading() const { return stream_ ? stream_->counts() : LoaderCounts{}; }
 

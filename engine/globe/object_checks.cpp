@@ -5,34 +5,19 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "globe/object_ranges.h"
 #include "objects/layer_objects.h"
 
 namespace terrella {
 namespace {
 
-Status check_icon(const IconImage& icon) {
-  const bool has_size = icon.width_px > 0 && icon.height_px > 0;
-  if (!has_size || icon.width_px > kMostIconSide_px || icon.height_px > kMostIconSide_px) {
-    return Error{
-        fmt::format("an icon of {}x{} pixels; a side has 1 to {}", icon.width_px, icon.height_px, kMostIconSide_px)};
-  }
-  const std::size_t bytes = 4 * static_cast<std::size_t>(icon.width_px) * static_cast<std::size_t>(icon.height_px);
-  if (icon.rgba.size() == bytes) return Done{};
-  return Error{fmt::format("an icon of {}x{} pixels with {} bytes; RGBA has {}", icon.width_px, icon.height_px,
-                           icon.rgba.size(), bytes)};
-}
-
-Status check_icons(const std::vector<PointObject>& points, const LayerObjects* there) {
+Status count_icons(const std::vector<PointObject>& points, const LayerObjects* there) {
   std::unordered_set<const IconImage*> icons;
   if (there != nullptr) {
     for (const auto& image : there->batches().icon_images) icons.insert(image.get());
   }
   for (const PointObject& point : points) {
-    const IconImage* icon = point.icon.image.get();
-    if (icon == nullptr) continue;
-    if (!(point.size_px > 0.0F)) return Error{fmt::format("an icon of {} px; give a positive size", point.size_px)};
-    if (!icons.insert(icon).second) continue;
-    if (Status good = check_icon(*icon); !good) return good;
+    if (point.icon.image) icons.insert(point.icon.image.get());
   }
   if (icons.size() <= kMostIcons) return Done{};
   return Error{
@@ -78,7 +63,8 @@ Status check_ids(const Objects& objects, FeatureNames& names) {
 }  // namespace
 
 Status check_objects(const ObjectScene& added, const LayerObjects* there, std::span<const ObjectId> removed) {
-  if (Status good = check_icons(added.points, there); !good) return good;
+  if (Status good = check_values(added); !good) return good;
+  if (Status good = count_icons(added.points, there); !good) return good;
   FeatureNames names(there, removed);
   if (Status good = check_ids(added.points, names); !good) return good;
   if (Status good = check_ids(added.lines, names); !good) return good;

@@ -44,6 +44,8 @@ class TileStream {
     wants_ = !wanted.empty();
     loader_.request(wanted);
   }
+  /// See Loader::reread().
+  void reread(const TileId& id) { loader_.reread(id); }
   void stop() {
     if (std::exchange(wants_, false)) loader_.request({});
   }

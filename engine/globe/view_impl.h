@@ -32,6 +32,13 @@ struct GlobeView::Impl {
   [[nodiscard]] Status may_call(const char* call) const;
   /// The same for a call that uses OpenGL; see Globe::Impl::may_draw().
   [[nodiscard]] Result<GlScope> may_draw(const char* call) const;
+  /// True on the globe's thread, also if the globe is gone. Else reports the misuse.
+  [[nodiscard]] bool on_thread(const char* call) const;
+  /// True if a call may set a value; `good` is the check of the value. A value that is out of range is refused: the
+  /// next frame draws nothing, and status() is the error.
+  [[nodiscard]] bool may_set(const char* call, const Status& good);
+  /// Fails if a setting was refused since the last frame, or if the frame's own values are out of range.
+  [[nodiscard]] Status may_begin(const char* call, Viewport viewport, glm::ivec2 corner_px);
 
   void set_camera(const Camera& to);
   void set_stereo(const StereoLook& look);
@@ -42,12 +49,14 @@ struct GlobeView::Impl {
   Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);
   [[nodiscard]] unsigned depth_texture() const { return memory.has_picture() ? memory.targets->depth() : 0; }
   void set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw);
+  [[nodiscard]] const Status& last_status(const char* call) const;
   [[nodiscard]] bool settled() const;
   [[nodiscard]] bool needs_frame() const;
   [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
   [[nodiscard]] std::vector<std::string> attributions() const;
   [[nodiscard]] std::optional<double> finest_texel_m() const;
   [[nodiscard]] View eye_view(Viewport viewport) const;
+  [[nodiscard]] View eye_view(const char* call, Viewport viewport) const;
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;
   [[nodiscard]] std::optional<glm::dvec2> project(const Geodetic& place, Viewport viewport) const;
 
@@ -91,7 +100,15 @@ struct GlobeView::Impl {
   std::function<void(DrawStage, const FrameMatrices&)> on_draw;
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
-  Status status = Done{};  ///< result of the last frame
+  Status status = Done{};   ///< result of the last frame, or why a setting was refused since then
+  Status refused = Done{};  ///< why a setting was refused since the last frame
 };
+
+/// The value, or a default one if the call may not read it.
+template <class T>
+[[nodiscard]] const T& if_allowed(bool allowed, const T& value) {
+  static const T none{};
+  return allowed ? value : none;
+}
 
 }  // namespace terrella

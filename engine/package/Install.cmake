@@ -31,6 +31,15 @@ endif()
 
 install(DIRECTORY ${terrella_headers}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 
+terrella_header_documents(${PROJECT_SOURCE_DIR} documents)
+foreach(document IN LISTS documents ITEMS engine/README.md)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/terrella/${folder}
+    COMPONENT development)
+endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine/drawings DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/terrella/engine
+  COMPONENT development)
+
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/TerrellaConfig.cmake.in ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake
   INSTALL_DESTINATION ${package_dir} PATH_VARS data_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/TerrellaConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -4,6 +4,7 @@ set(TERRELLA_PUBLIC_HEADERS
   engine/globe/data_files.h
   engine/globe/globe.h
   engine/geo/great_circle.h
+  engine/geo/ranges.h
   engine/geo/measure.h
   engine/geo/split_position.h
   engine/render/caller_glsl.h
@@ -54,6 +55,19 @@ function(terrella_public_headers source out)
       endif()
     endforeach()
   endwhile()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# Documents that the public headers name, as paths in the source tree.
+function(terrella_header_documents source out)
+  terrella_public_headers(${source} headers)
+  set(found)
+  foreach(header IN LISTS headers)
+    file(READ ${source}/${header} text)
+    string(REGEX MATCHALL "[A-Za-z_/]+\\.md" documents "${text}")
+    list(APPEND found ${documents})
+  endforeach()
+  list(REMOVE_DUPLICATES found)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 

@@ -21,6 +21,9 @@ void GlobeRenderer::draw_callers(const Pass& pass, DrawStage stage) {
   glViewport(pass.eye.left_px, 0, view.viewport.width_px, view.viewport.height_px);
   glScissor(pass.eye.left_px, 0, view.viewport.width_px, view.viewport.height_px);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
+  glBindVertexArray(0);  // a caller that binds none must not change a pass's
+  for (GLuint unit = 0; unit < GlState::kUnits; ++unit) glBindSampler(unit, 0);  // the caller's textures filter
+  glActiveTexture(GL_TEXTURE0);
   DrawState state = picture_state(pass.eye);
   // No sky is drawn over the caller's pixels.
   state.stencil = stencil(pass.eye, {.set = stage == DrawStage::all ? 0 : kSurfaceBit});

@@ -104,6 +104,7 @@ Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& 
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     draw_limb({input, pictures.front(), counts}, false);
   }
+  if (counts.no_memory) return Error{"Globe::render: the driver has no memory for the limb; draw a smaller picture"};
   return counts;
 }
 
@@ -253,6 +254,10 @@ void GlobeRenderer::draw_limb(const Pass& pass, bool in_place) {
   if (!in_place) return draw(targets_->color(), targets_->depth(), rows_apart);
   // A pass must not read the texture that it writes, so the limb is first drawn beside the picture.
   const FrameTargets::Beside beside = targets_->beside();
+  if (beside.texture == 0) {
+    pass.counts.no_memory = true;
+    return;
+  }
   apply({});
   targets_->resolve_color(beside);  // the ribbon covers samples of pixels whose centres it misses
   glBindFramebuffer(GL_FRAMEBUFFER, beside.framebuffer);

@@ -85,6 +85,7 @@ struct FrameInput {
 /// The memory of one view from frame to frame.
 struct PictureMemory {
   std::shared_ptr<FrameTargets> targets;  ///< views of equal form share them; null before the first frame
+  GLuint framebuffer = 0;                 ///< the application's, as it was last checked
   std::uint64_t frame = 0;                ///< number of the last picture
   /// True if the targets still hold the view's last picture.
   [[nodiscard]] bool has_picture() const { return targets && frame != 0 && targets->frame() == frame; }
@@ -122,6 +123,8 @@ class GlobeRenderer {
   /// layers need.
   Status set_objects(std::vector<DrawnLayer> layers);
 
+  /// Longest side of a picture that the driver draws, pixels.
+  [[nodiscard]] int longest_side_px() const { return longest_side_px_; }
   /// Makes the programs of a frame that no earlier frame needed. Draws nothing.
   Status prepare(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
   /// Draws the picture of one eye, or of both, into `framebuffer`. Uploads the data that both eyes share once. Makes
@@ -190,7 +193,7 @@ class GlobeRenderer {
 
   // globe_targets.cpp: from the picture to the caller's framebuffer.
   Status fit_targets(const FrameInput& input, PictureMemory& memory, GLuint framebuffer);
-  [[nodiscard]] std::shared_ptr<FrameTargets> targets_of(const FrameTargets::Form& form, PictureMemory& memory);
+  Status fit_targets(const FrameTargets::Form& form, PictureMemory& memory);
   void hand_over(const FrameInput& input, GLuint framebuffer);
   static Status prepare_copy(gl::Program& program, std::string_view fragment, bool samples);
   static void copy_samples(const gl::Program& program, GLuint texture, GLuint framebuffer, const DrawState& state,
@@ -236,6 +239,7 @@ class GlobeRenderer {
   RenderOptions options_;
   Ellipsoid ellipsoid_;
   ContextMark context_;
+  int longest_side_px_ = FrameTargets::longest_side_px();
   bool relief_ = false;
   std::unique_ptr<PatchPass> patches_;
   std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief

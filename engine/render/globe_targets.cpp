@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "render/gl/framebuffer_check.h"
 #include "render/gl/shader_library.h"
 #include "render/globe_renderer.h"
 
@@ -9,6 +10,12 @@ namespace terrella {
 
 // A driver may have fewer samples in textures than in other framebuffers.
 Status GlobeRenderer::fit_targets(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
+  const auto refuse = [](const Status& wrong) { return Error{"Globe::render: " + wrong.error().message}; };
+  if (Status good = check_framebuffer(framebuffer); !good) return refuse(good);
+  if (framebuffer != memory.framebuffer || !memory.targets) {
+    if (Status good = check_colors(framebuffer); !good) return refuse(good);
+    memory.framebuffer = framebuffer;
+  }
   GLint samples = 0, most_color = 0, most_depth = 0;
   glGetNamedFramebufferParameteriv(framebuffer, GL_SAMPLES, &samples);
   if (samples > 1) {
@@ -23,26 +30,30 @@ Status GlobeRenderer::fit_targets(const FrameInput& input, PictureMemory& memory
   }
   const bool selective = objects_ && input.surface.from_below == SurfaceFromBelow::selective;
   const bool through = input.sky && input.surface.alpha < 1.0;
-  memory.targets = targets_of({.size = input.size,
-                               .has_stencil = through || selective || input.stereo == Stereo::interlaced,
-                               .samples = samples > 1 ? samples : 0},
-                              memory);
+  const Status fits = fit_targets({.size = input.size,
+                                   .has_stencil = through || selective || input.stereo == Stereo::interlaced,
+                                   .samples = samples > 1 ? samples : 0},
+                                  memory);
   targets_ = memory.targets.get();
-  return Done{};
+  return fits ? fits : refuse(fits);
 }
 
 // Frames are drawn one after the other, so pictures of equal form take turns in the same targets.
-std::shared_ptr<FrameTargets> GlobeRenderer::targets_of(const FrameTargets::Form& form, PictureMemory& memory) {
-  if (memory.targets && memory.targets->form() == form) return memory.targets;
+Status GlobeRenderer::fit_targets(const FrameTargets::Form& form, PictureMemory& memory) {
+  if (memory.targets && memory.targets->form() == form) return Done{};
   std::erase_if(all_targets_, [](const auto& targets) { return targets.expired(); });
   for (const auto& targets : all_targets_) {
-    if (auto held = targets.lock(); held->form() == form) return held;
+    if (auto held = targets.lock(); held->form() == form) {
+      memory.targets = std::move(held);
+      return Done{};
+    }
   }
   memory.targets.reset();  // first, so that there is room for the new ones
   auto made = std::make_shared<FrameTargets>();
-  made->fit(form);
+  if (Status fits = made->fit(form); !fits) return fits;
   all_targets_.push_back(made);
-  return made;
+  memory.targets = std::move(made);
+  return Done{};
 }
 
 void GlobeRenderer::hand_over(const FrameInput& input, GLuint framebuffer) {
@@ -77,6 +88,8 @@ void GlobeRenderer::copy_samples(const gl::Program& program, GLuint texture, GLu
 }
 
 Status GlobeRenderer::copy_depth(const FrameTargets& from, GLuint framebuffer, glm::ivec2 corner_px) {
+  if (Status good = check_framebuffer(framebuffer); !good) return good;
+  if (Status good = check_depth(framebuffer); !good) return good;
   GLint samples = 0;
   glGetNamedFramebufferParameteriv(framebuffer, GL_SAMPLES, &samples);
   const bool by_sample = from.samples() > 0 && samples == from.samples();

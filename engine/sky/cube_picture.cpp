@@ -1,7 +1,6 @@
 #include "sky/cube_picture.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <numbers>
@@ -48,8 +47,8 @@ double map_value(const GreyPicture& map, const glm::dvec3& d) {
 }  // namespace
 
 std::array<std::vector<std::uint8_t>, 6> cube_faces(const GreyPicture& map, int side_px) {
-  assert(map.width_px > 0 && map.height_px > 0 && side_px > 0);
   std::array<std::vector<std::uint8_t>, 6> faces;
+  if (map.width_px < 1 || map.height_px < 1) return faces;
   for (int face = 0; face < 6; ++face) {
     std::vector<std::uint8_t>& texels = faces[static_cast<std::size_t>(face)];
     texels.reserve(static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px));

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "geo/longitudes.h"
+#include "tiles/grid_ranges.h"
 #include "tiles/height_decoder.h"
 
 namespace terrella {
@@ -37,13 +38,16 @@ bool holds(const GeoRect& outer, const GeoRect& inner, double slack_deg) {
 
 Result<ElevationSource> ElevationSource::open(std::shared_ptr<TileSource> tiles, const std::string& name,
                                               const GeoRect& covered) {
+  if (!tiles) return Error{name + ": there is no tile set; open one first (open_tile_set())"};
   const TileSetInfo& info = tiles->info();
+  if (Status good = check_grid(info.grid, name); !good) return good.error();
   if (!info.numbers) {
     return Error{
         fmt::format("{}: its tiles are pictures, not heights; `terrella cut --elevation` makes tiles of heights of a "
                     "picture of 16 bits or floats, gdal_translate -of GPKG of a raster of Int16 or Float32",
                     name)};
   }
+  if (Status good = check_numbers(*info.numbers); !good) return Error{name + ": " + good.error().message};
   if (std::ranges::find(kMetres, info.numbers->unit) == kMetres.end()) {
     return Error{fmt::format("{}: its numbers are in \"{}\", heights must be in metres (gdal_calc.py converts them)",
                              name, info.numbers->unit)};

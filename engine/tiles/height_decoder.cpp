@@ -105,6 +105,10 @@ Result<Numbers, TileFailure> decode_numbers(const EncodedTile& tile, const Numbe
     return broken(fmt::format("PNG: {}×{} pixels, the tile set says {}×{}", numbers->width_px, numbers->height_px,
                               side_px, side_px));
   }
+  if (const std::size_t count = static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px);
+      numbers->values.size() != count) {
+    return broken(fmt::format("{0}×{0} pixels with {1} numbers, not {2}", side_px, numbers->values.size(), count));
+  }
   const std::optional<double> nodata = nodata_of(info);
   for (float& number : numbers->values) {
     if (static_cast<double>(number) == nodata || !std::isfinite(number)) {

@@ -53,13 +53,15 @@ inline constexpr int kMaxTileLevel = 24;
 /// run over the stored square, from -180 to 180 and from 180 to -180: a "degree" is 1/360 of its side. The functions of
 /// this header are pure. thread: any
 struct TileGrid {
-  double root_span_deg = 180.0;  ///< span of a level-0 tile, degrees, in both directions; (0, 1e4]
+  double root_span_deg = 180.0;  ///< span of a level-0 tile, degrees, in both directions; [1e-3, 1e4]
   int tile_px = 256;             ///< pixels per side, [16, 4096]
-  int min_level = 0;
-  int max_level = 0;  ///< [min_level, kMaxTileLevel]
+  int min_level = 0;             ///< [0, max_level]
+  int max_level = 0;             ///< [min_level, kMaxTileLevel]
   Projection projection = Projection::equirectangular;
   LatitudeKind latitude = LatitudeKind::graphic;
-  GeoRect bounds{};          ///< area with data, in row latitude (web_mercator: latitude); by default the whole planet
+  /// Area with data, in row latitude (web_mercator: latitude), south < north, west other than east; by default the
+  /// whole planet.
+  GeoRect bounds{};
   bool reduced = false;      ///< true if rows near the poles also have squeezed tiles (squeeze_of_row())
   double west_deg = -180.0;  ///< longitude of the origin; other than -180 only if the bounds do not cross ±180°
   double north_deg = 90.0;   ///< row latitude of the origin; web_mercator does not use the origin

@@ -71,6 +71,9 @@ class Loader {
   /// have not started. Never starts a running or finished tile twice. Workers use the newest priorities. A tile that
   /// was polled and is requested again is read again. thread: main
   void request(std::span<const TileRequest> wanted);
+  /// Drops what has been read or fetched of one tile, because the source's data changed. A wanted tile that a worker is
+  /// reading is read again. thread: main
+  void reread(const TileId& id);
   /// Returns finished tiles: at most `max_bytes` decoded, but at least one tile if any is finished. thread: main
   [[nodiscard]] std::vector<Loaded<Decoded>> poll(std::size_t max_bytes);
   /// Waits until a tile is finished, nothing is in flight, or the deadline has passed. True if a tile is finished.
@@ -86,7 +89,7 @@ class Loader {
 };
 extern template class Loader<TileTexels>;
 
-/// Loads imagery: texels ready for upload, premultiplied; of a set of numbers, number_texels.h. thread: main
+/// Loads imagery: texels ready for upload, premultiplied; numbers as they are. thread: main
 class TileLoader : public Loader<TileTexels> {
  public:
   TileLoader(std::shared_ptr<TileSource> source, const LoaderOptions& options = {});

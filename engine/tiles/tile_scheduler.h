@@ -62,6 +62,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   /// keeps (late_workers.h).
   void stop();
   void request(std::span<const TileRequest> wanted);
+  void reread(const TileId& id);
   [[nodiscard]] std::vector<Finished> poll(std::size_t max_bytes);
   bool wait(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] LoaderCounts counts() const;
@@ -116,6 +117,7 @@ class TileScheduler : public std::enable_shared_from_this<TileScheduler<Decoded>
   bool stopping_ = false;
   std::vector<TileRequest> waiting_;  ///< ascending priority: the next tile is the last element
   TileIdSet running_;
+  TileIdSet outdated_;  ///< those among running_ that are read again
   TileIdSet fetching_;
   std::deque<Arrived> arrived_;
   TileIdSet finished_ids_;

@@ -66,6 +66,25 @@ void TileScheduler<Decoded>::request(std::span<const TileRequest> wanted) {
 }
 
 template <class Decoded>
+void TileScheduler<Decoded>::reread(const TileId& id) {
+  const auto is_it = [&id](const auto& tile) { return tile.id == id; };
+  bool is_fetching = false;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(arrived_, is_it);
+    if (running_.contains(id)) outdated_.insert(id);
+    is_fetching = fetching_.erase(id) > 0;
+    if (const auto found = std::ranges::find_if(finished_, is_it); found != finished_.end()) {
+      finished_bytes_ -= weight_bytes(*found);
+      finished_ids_.erase(id);
+      finished_.erase(found);
+    }
+  }
+  if (is_fetching) remote_->cancel(id);
+  work_changed_.notify_all();
+}
+
+template <class Decoded>
 bool TileScheduler<Decoded>::under_way(const TileId& id) const {
   return running_.contains(id) || fetching_.contains(id) || finished_ids_.contains(id) ||
          std::ranges::any_of(arrived_, [&id](const Arrived& tile) { return tile.id == id; });
@@ -147,6 +166,7 @@ void TileScheduler<Decoded>::look_for(std::unique_lock<std::mutex>& lock, const 
   lock.lock();
   if (!is_remote || remote_ == nullptr) return decode(lock, {wish.id, std::move(encoded), edition});
   running_.erase(wish.id);
+  outdated_.erase(wish.id);  // it is fetched from now on
   if (stopping_) return;
   fetching_.insert(wish.id);
   lock.unlock();
@@ -176,6 +196,11 @@ void TileScheduler<Decoded>::decode(std::unique_lock<std::mutex>& lock, const Ar
   Finished finished{tile.id, decoded(tile), tile.edition};
   lock.lock();
   running_.erase(tile.id);
+  if (outdated_.erase(tile.id) > 0) {
+    waiting_.push_back({tile.id, std::numeric_limits<double>::infinity()});
+    work_changed_.notify_one();
+    return;
+  }
   ++read_;
   if (!finished.tile) ++missing_;
   finished_bytes_ += weight_bytes(finished);
@@ -230,6 +255,11 @@ Loader<Decoded>::~Loader() {
 template <class Decoded>
 void Loader<Decoded>::request(std::span<const TileRequest> wanted) {
   scheduler_->request(wanted);
+}
+
+template <class Decoded>
+void Loader<Decoded>::reread(const TileId& id) {
+  scheduler_->reread(id);
 }
 
 template <class Decoded>

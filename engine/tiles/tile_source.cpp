@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "base/range_check.h"
 #include "geo/longitudes.h"
 #include "tiles/height_decoder.h"
 
@@ -35,6 +36,15 @@ TileFailure caught_failure() {
   } catch (...) {
     return {MissingKind::failed, "the tile source threw an exception of its own type"};
   }
+}
+
+Status check_numbers(const NumberInfo& info) {
+  return RangeCheck()
+      .finite("their scale", info.scale)
+      .that(info.scale != 0.0, "their scale is 0; give the value of a step")
+      .finite("their offset", info.offset)
+      .that(!info.whole || info.whole->least <= info.whole->most, "their range of whole numbers is empty")
+      .result();
 }
 
 Result<double, TileFailure> TileSource::value_at(const Geodetic& place, const Ellipsoid& figure) {

@@ -51,6 +51,9 @@ struct NumberInfo {
   return info;
 }
 
+/// Fails if scale or offset is not finite, scale is 0, or a range is empty. thread: any
+[[nodiscard]] Status check_numbers(const NumberInfo& info);
+
 /// The square of a coordinate reference system that a `projected` grid covers.
 struct CrsSquare {
   std::string crs;    ///< text for Crs::open() (streaming/georeference)
@@ -68,7 +71,7 @@ struct TileSetInfo {
   TileGrid grid;
   ImageFormat format = ImageFormat::jpeg;
   std::optional<NumberInfo> numbers = {};  ///< set: the tiles are numbers; none: pictures
-  /// The grid of the tiles from which this set's tiles are made (streaming/warp/web_mercator.h).
+  /// The grid of the tiles from which this set's tiles are made.
   std::optional<TileGrid> made_of = {};
   std::optional<CrsSquare> square = {};  ///< square of a `projected` grid: this set's, or that of `made_of`
 };

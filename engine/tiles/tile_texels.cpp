@@ -108,8 +108,8 @@ Result<TileTexels, TileFailure> make_texels(const Image& tile, int tile_px, int 
     return TileFailure{MissingKind::broken, fmt::format("the tile is {}×{} pixels, the tile set says {}×{}",
                                                         tile.width_px, tile.height_px, tile_px, tile_px)};
   }
+  if (Status good = check_image(tile); !good) return TileFailure{MissingKind::broken, good.error().message};
   const auto side = static_cast<std::size_t>(tile_px);
-  assert(tile.rgba.size() == side * side * kChannels);
   TileTexels texels{.tile_px = tile_px, .gutter = gutter, .opaque = is_opaque(tile), .mips = {}};
   texels.mips.push_back(finest_mip(tile, side, static_cast<std::size_t>(gutter)));
   if (texels.opaque) {

@@ -12,7 +12,7 @@ namespace terrella {
 inline constexpr int kMaxMips = 5;
 
 /// A tile in the layout of a texture array: mip levels, each with a border that repeats its edge texels. Mip k has
-/// (tile_px >> k) + 2 · (gutter >> k) texels per side, RGBA8 or numbers (number_texels.h), rows from the top, no
+/// (tile_px >> k) + 2 · (gutter >> k) texels per side, RGBA8 or one number each, rows from the top, no
 /// padding.
 struct TileTexels {
   int tile_px = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geo/ranges.h"
 #include "view/view_limits.h"
 
 namespace terrella {
@@ -39,11 +40,12 @@ glm::dvec2 limited(glm::dvec2 speed, double most) {
 }  // namespace
 
 Navigator::Navigator(const Camera& camera, const Ground& ground, Viewport viewport)
-    : camera_(camera), ground_(ground), viewport_(at_least_one(viewport)) {}
+    : camera_(check_camera(camera) ? camera : Camera{}), ground_(ground), viewport_(at_least_one(viewport)) {}
 
 void Navigator::set_viewport(Viewport viewport) { viewport_ = at_least_one(viewport); }
 
 void Navigator::set_camera(const Camera& camera) {
+  if (!check_camera(camera)) return;
   camera_ = camera;
   motion_ = Rest{};
 }
@@ -145,9 +147,7 @@ void Navigator::pinch(glm::dvec2 at_px, double factor, Seconds now) {
 }
 
 void Navigator::fly_to(const Camera& camera, Seconds now) {
-  const Geodetic& eye = camera.eye;
-  const double all = eye.lat.rad() + eye.lon.rad() + eye.height_m + camera.heading.rad() + camera.pitch.rad();
-  if (!std::isfinite(all + camera.fov_y.rad()) || !finite(now)) return;
+  if (!check_camera(camera) || !finite(now)) return;
   advance(now);
   start_flight(camera);
 }

@@ -35,7 +35,7 @@ class Navigator {
   Navigator(const Camera& camera, const Ground& ground, Viewport viewport);
 
   void set_viewport(Viewport viewport);   ///< sides below 1 count as 1
-  void set_camera(const Camera& camera);  ///< stops every motion
+  void set_camera(const Camera& camera);  ///< stops every motion; a camera out of its ranges is ignored
   void set_ground(const Ground& ground);  ///< continues the motion over another ground
   /// Sets the lowest height of the eye over the ellipsoid, metres, negative; none: the eye stays over the ground.
   void set_deepest(std::optional<double> deepest_m) { deepest_m_ = deepest_m; }
@@ -59,7 +59,7 @@ class Navigator {
   /// while a button is held.
   void pinch(glm::dvec2 at_px, double factor, Seconds now);
   void key(NavigationKey key, Seconds now);
-  /// Starts a flight to `camera` (view/flight.h). A camera with a value that is not finite is ignored.
+  /// Starts a flight to `camera` (view/flight.h). A camera with a value out of range is ignored.
   void fly_to(const Camera& camera, Seconds now);
   /// Advances flights, glides and zooms to `now`. Call this once per frame while animating().
   void advance(Seconds now);

@@ -3,6 +3,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "base/result.h"
+
 // Paper 2: "Interactive visualization of 3D data on a virtual globe in stereoscopic systems", abstract of a
 // dissertation, chapter 2.2.
 
@@ -51,7 +53,7 @@ struct SurfaceLook {
   Blend blend = Blend::normal;
   /// Depth of the inner sphere under the equator. The inner sphere has the background's colour and hides the objects
   /// under the far side of a translucent globe (paper 2, 2.1). None: nothing is hidden. In metres of Earth; other
-  /// bodies use the same fraction of their radius.
+  /// bodies use the same fraction of their radius. [0, 6378137].
   std::optional<double> inner_sphere_below_m = 1.0e6;
   SurfaceFromBelow from_below = SurfaceFromBelow::opaque;
   HorizonCulling horizon_culling = HorizonCulling::automatic;
@@ -76,9 +78,13 @@ enum class Stereo {
 /// The look of stereo. It can change from frame to frame.
 struct StereoLook {
   Stereo mode = Stereo::off;
-  /// None: 1/30 of the distance to the scene at the picture's middle.
+  /// [0, 1e9]; none: 1/30 of the distance to the scene at the picture's middle.
   std::optional<double> eye_separation_m{};
   bool operator==(const StereoLook&) const = default;
 };
+
+/// Fails if a value is out of its range, and names the value. thread: any
+[[nodiscard]] Status check_surface(const SurfaceLook& surface);
+[[nodiscard]] Status check_stereo(const StereoLook& stereo);
 
 }  // namespace terrella

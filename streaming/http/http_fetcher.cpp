@@ -1,5 +1,6 @@
 #include "streaming/http/http_fetcher.h"
 
+#include <algorithm>
 #include <cassert>
 #include <mutex>
 #include <thread>
@@ -30,21 +31,25 @@ void begin_curl() {
   static_cast<void>(begun);
 }
 
-void check(const HttpOptions& options) {
+// Values beyond their ranges count as the nearest end, and a rate or burst that is no number as the default.
+HttpOptions within_ranges(HttpOptions options) {
   using std::chrono::milliseconds;
-  assert(options.connections_per_host >= 1 && options.connections_per_host <= 64);
-  assert(options.in_flight_per_host >= 1 && options.in_flight_per_host <= 1024);
-  assert(options.rate_per_host >= 0.0 && options.burst >= 1.0);
-  assert(options.attempts >= 1 && options.attempts <= 20 && options.max_redirects >= 0);
-  assert(options.first_backoff >= milliseconds(0) && options.longest_backoff >= milliseconds(0));
-  static_cast<void>(options);
+  options.connections_per_host = std::clamp(options.connections_per_host, 1, 64);
+  options.in_flight_per_host = std::clamp(options.in_flight_per_host, 1, 1024);
+  options.attempts = std::clamp(options.attempts, 1, 20);
+  options.max_redirects = std::max(options.max_redirects, 0);
+  if (!(options.rate_per_host >= 0.0)) options.rate_per_host = HttpOptions().rate_per_host;
+  if (!(options.burst >= 1.0)) options.burst = HttpOptions().burst;
+  options.first_backoff = std::max(options.first_backoff, milliseconds(0));
+  options.longest_backoff = std::max(options.longest_backoff, milliseconds(0));
+  return options;
 }
 
 }  // namespace
 
 struct HttpFetcher::Impl {
   Impl(const HttpOptions& options, ReplyQueue& replies)
-      : network((begin_curl(), options), replies, tally), thread([this] { run(); }) {}
+      : network((begin_curl(), within_ranges(options)), replies, tally), thread([this] { run(); }) {}
   ~Impl() {
     {
       const std::lock_guard lock(mutex);
@@ -112,7 +117,6 @@ void HttpFetcher::Impl::run() {
 }
 
 HttpFetcher::HttpFetcher(const HttpOptions& options, ReplyQueue& replies) {
-  check(options);
   impl_ = std::make_unique<Impl>(options, replies);
 }
 

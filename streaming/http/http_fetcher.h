@@ -14,11 +14,11 @@
 
 namespace terrella {
 
-struct HttpOptions {
+struct HttpOptions {             // a value beyond its range counts as the nearest end
   int connections_per_host = 6;  ///< [1, 64]; HTTP/2 multiplexes over fewer
   int in_flight_per_host = 32;   ///< sent requests without a reply, [1, 1024]
   double rate_per_host = 0.0;    ///< requests a second including retries, by token bucket; 0: no limit
-  double burst = 32.0;           ///< size of the token bucket, requests
+  double burst = 32.0;           ///< size of the token bucket, requests, at least 1
   int attempts = 5;              ///< attempts of one request, including the first, [1, 20]
   std::chrono::milliseconds first_backoff{
       500};  ///< wait before the first retry; doubles with each retry, ± 25 % jitter

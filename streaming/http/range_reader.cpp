@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <span>
 #include <utility>
 
@@ -80,7 +79,10 @@ void RangeReader::doubt_blocks() {
 }
 
 Result<std::vector<std::byte>> RangeReader::read(const ByteRange& range) {
-  assert(range.length <= kMaxReadBytes);
+  if (range.length > kMaxReadBytes) {
+    return Error{
+        fmt::format("{}: a range of {} bytes; ask for at most {}", url_.redacted(), range.length, kMaxReadBytes)};
+  }
   if (range.length == 0) return std::vector<std::byte>();
   const std::uint64_t first = range.offset / block_bytes_, last = (range.offset + range.length - 1) / block_bytes_;
   Lock lock(mutex_);

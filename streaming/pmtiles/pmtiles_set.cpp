@@ -6,7 +6,7 @@
 
 #include "codecs/image.h"
 #include "streaming/json_fields.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

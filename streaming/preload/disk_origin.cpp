@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -45,7 +46,7 @@ class DiskOrigin : public TileOrigin {
  public:
   DiskOrigin(std::shared_ptr<TileSource> source, int threads, ReplyQueue& answers)
       : source_(std::move(source)), answers_(answers) {
-    for (int i = 0; i < threads; ++i) {
+    for (int i = 0; i < std::clamp(threads, 1, 64); ++i) {
       threads_.emplace_back([this](const std::stop_token& stop) { read_all(stop); });
     }
   }

@@ -1,5 +1,7 @@
 #include "streaming/preload/preloader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <thread>
@@ -258,6 +260,10 @@ Result<std::int64_t> pin_planned(const TilePlan& plan, TileCache& cache, bool pi
 Result<PreloadResult> preload(const TilePlan& plan, TileCache& cache,
                               const std::function<std::unique_ptr<TileOrigin>(ReplyQueue&)>& make_origin,
                               const PreloadOptions& options) {
+  constexpr std::size_t kMostWindow = 100'000;
+  if (options.window < 1 || options.window > kMostWindow) {
+    return Error{fmt::format("preload: a window of {} requests; give 1 to {}", options.window, kMostWindow)};
+  }
   return Run(plan, cache, make_origin, options).run();
 }
 

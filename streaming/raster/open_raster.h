@@ -33,8 +33,8 @@ struct RasterOptions {
 };
 
 /// Opens a TIFF or BigTIFF as a raster, with its overviews (in the file, or FILE.ovr) and masks. Tiles are decoded from
-/// the file by themselves. Striped pictures are decoded once, when blocks are asked for (block_store.h). For other
-/// picture files see streaming/cut/input/picture_raster.h. The error names the file, the fault and a cure. Blocks.
+/// the file by themselves. Striped pictures are decoded once, when blocks are asked for and then kept. For other
+/// picture files see streaming/cut.h. The error names the file, the fault and a cure. Blocks.
 /// thread: any
 [[nodiscard]] Result<std::unique_ptr<RasterSource>> open_raster(const std::filesystem::path& path,
                                                                 const CrsPlace& place,

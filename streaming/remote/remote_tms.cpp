@@ -6,8 +6,8 @@
 
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/sets/tileset_check.h"
 #include "streaming/sets/tms_xml.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -7,7 +7,7 @@
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
 #include "streaming/sets/elevation_json.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {

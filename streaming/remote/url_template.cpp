@@ -8,7 +8,7 @@
 
 #include "streaming/remote/bulk_terms.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

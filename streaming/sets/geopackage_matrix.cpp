@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

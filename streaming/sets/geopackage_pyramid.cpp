@@ -12,8 +12,8 @@
 #include "streaming/sets/gpkg_crs.h"
 #include "streaming/sets/gpkg_schema.h"
 #include "streaming/sets/tile_range.h"
-#include "streaming/sets/tileset_check.h"
 #include "streaming/sets/tileset_json.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -13,8 +13,8 @@
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sets/sqlite_tiles.h"
-#include "streaming/sets/tileset_check.h"
 #include "streaming/tile_lister.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -10,7 +10,7 @@ namespace terrella {
 
 /// Opens a tile set on disk: a directory (tileset.json or tilemapresource.xml), a GeoPackage in any system that PROJ
 /// knows (ours, GDAL's), PMTiles, or MBTiles. `geodetic_mbtiles`: an MBTiles file is in the geodetic profile, whatever
-/// it states. Sets in Web Mercator and `projected` sets become geodetic ones (streaming/warp/web_mercator.h). The error
+/// it states. Sets in Web Mercator and `projected` sets become geodetic ones. The error
 /// names the path, what is wrong, and what to do. Image files are cut first (streaming/cut.h). Blocks for the disk.
 /// thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_tile_set(const std::filesystem::path& path,

@@ -10,7 +10,7 @@
 #include "streaming/json_fields.h"
 #include "streaming/projection_names.h"
 #include "streaming/sets/elevation_json.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

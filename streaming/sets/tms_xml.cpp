@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "streaming/sets/gpkg_schema.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "streaming/sets/tileset_check.h"
 #include "streaming/warp/make_warp_source.h"
 #include "streaming/warp/map/raster_extent.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

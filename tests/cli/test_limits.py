@@ -39,6 +39,14 @@ class FileSizes(ProgramTest):
                               says=["small.gpkg", "ulimit -f"], file_size_limit=SMALL_FILES_BYTES)
 
 
+class GpuMemory(ProgramTest):
+    def test_more_than_the_driver_gives_is_told(self):
+        shot = ("render", NATURAL_EARTH, "--size", "64x64", "-o", "shot.png")
+        done = self.assert_done(*shot, "--memory", "65536")
+        self.assertRegex(done.stderr, r"--memory 65536: the driver gives \d+ MB for tiles, as many as its array textures hold")
+        self.assertNotIn("--memory", self.assert_done(*shot, "--memory", "300").stderr)
+
+
 class LostOutput(ProgramTest):
     def run_into(self, arguments, stdout="/dev/full", redirect=""):
         with open(stdout, "w") as out:

@@ -266,6 +266,39 @@ TEST_F(ForeignContext, RenderingIntoSamplesLeavesTheStateAsItWas) {
   }
 }
 
+// The caller's own drawing finds no sampler, which would override the filter of its textures, and no vertex array of a
+// pass. What it leaves does not change the picture.
+TEST_F(ForeignContext, ACallersDrawingFindsNothingOfTheGlobesAndMayLeaveAnything) {
+  const auto globe = full_globe();
+  ASSERT_TRUE(globe);
+  fill(*globe);
+  globe->set_camera(camera_at(0, 10, 1.0e7));
+  settle(*globe, kForeign);
+  draw(*globe, kForeign);
+  const Picture alone = picture();
+  const GlState kept;
+  std::vector<std::unique_ptr<ForeignState>> left;
+  int found = 0;
+  globe->on_draw([&](DrawStage, const FrameMatrices&) {
+    GLint value = 0;
+    for (GLuint unit = 0; unit < GlState::kUnits; ++unit) {
+      glActiveTexture(GL_TEXTURE0 + unit);
+      glGetIntegerv(GL_SAMPLER_BINDING, &value);
+      EXPECT_EQ(value, 0) << "unit " << unit;
+    }
+    for (const GLenum name : {GL_VERTEX_ARRAY_BINDING, GL_CURRENT_PROGRAM, GL_PIXEL_UNPACK_BUFFER_BINDING, GL_BLEND}) {
+      glGetIntegerv(name, &value);
+      EXPECT_EQ(value, 0) << name;
+    }
+    left.push_back(std::make_unique<ForeignState>(1000U + static_cast<unsigned>(left.size())));
+    ++found;
+  });
+  draw(*globe, kForeign);
+  EXPECT_GE(found, 2);
+  EXPECT_EQ(picture().rgba, alone.rgba);
+  left.clear();
+}
+
 TEST_F(ForeignContext, EveryOtherCallDoesToo) {
   OffscreenTarget target(kForeign);
   const ForeignState foreign(77);

@@ -207,6 +207,9 @@ TEST_F(Views, OfTheSameTilesTakeATenthMoreMemoryOfTheGpu) {
 // Views of one size share their targets, so a depth is a view's own until another view draws.
 TEST_F(Views, DepthIsCopiedBeforeAnotherViewDraws) {
   const OffscreenTarget target(kMapView);
+  const gl::Texture target_depth = gl::make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(target_depth.name(), 1, GL_DEPTH_COMPONENT32F, kMapView.width_px, kMapView.height_px);
+  glNamedFramebufferTexture(target.framebuffer(), GL_DEPTH_ATTACHMENT, target_depth.name(), 0);
   const auto globe = globe_of(painted_land());
   globe->set_camera(kNearView);
   const auto other = view_of(*globe, kFarView);

@@ -174,6 +174,13 @@ class PackageTest(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             list(pool.map(check, sorted(names)))
 
+    def test_documents_that_headers_name(self):
+        named = {name for header in (self.prefix / "include/terrella").rglob("*.h")
+                 for name in re.findall(r"[\w/]+\.md\b", header.read_text())}
+        self.assertGreater(len(named), 3)
+        for name in named | {"engine/README.md"}:
+            self.assertTrue((self.prefix / "share/doc/terrella" / name).exists(), name)
+
     def test_no_path_of_the_build(self):
         """No binary that is installed names the folders that it was built in or from."""
         binaries = [p for p in self.prefix.rglob("*") if p.suffix in (".a", ".so") or p.parent.name == "bin"]

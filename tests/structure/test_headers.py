@@ -67,6 +67,36 @@ class Headers(unittest.TestCase):
         self.assertGreater(len(named), 10)
         self.assertEqual(named - {targets.installed(header.removeprefix('engine/')) for header in public_headers()}, set())
 
+    def test_public_headers_name_what_is_installed(self):
+        """Headers that a comment names are public too. Documents are installed if they are there (tests/package)."""
+        public = {targets.installed(header.removeprefix('engine/')) for header in public_headers()}
+        wrong = []
+        for header in public_headers():
+            for line in (SOURCE / header).read_text().splitlines():
+                for named in re.findall(r'[\w/]+\.(?:h|cpp|glsl|md)\b', '' if line.startswith('#include') else line):
+                    there = named in public or (named.endswith('.md') and (SOURCE / named).exists())
+                    wrong += [] if there else [f'{header}: {named}']
+        self.assertEqual(wrong, [])
+
+    def test_each_stated_range_has_a_row_in_the_contract_of_ranges(self):
+        """A value of the Globe API with a range in its comment is tried at its ends and beyond (ranges_test.cpp)."""
+        tests = (SOURCE / 'tests/facade' / name for name in ('ranges.h', 'ranges_test.cpp', 'object_ranges_test.cpp'))
+        rows = set(re.findall(r'\{"(?:\w+ )?(\w+)",', ''.join(path.read_text() for path in tests)))
+        headers = ['geo/camera.h', 'geo/coordinates.h', 'geo/objects.h', 'geo/object_edits.h', 'globe/globe_options.h',
+                   'surface/layers.h', 'tiles/tile_grid.h', 'view/render_modes.h']
+        stated = set()
+        for header in headers:
+            lines = (SOURCE / 'engine' / header).read_text().splitlines()
+            for k, line in enumerate(lines):
+                if not re.search(r'//.*([\[(]-?[\w.]+°?, [\w.]+°?( \w+)?[\])]|[Pp]ositive|not negative|> 0|less than)', line):
+                    continue
+                code = next(line for line in lines[k:] if line.split('//')[0].strip())
+                member = re.match(r'  [\w:<>, ]+?[ &](\w+)(?: = .*|\{.*)?(?:;|,)', code)
+                if member and not member[1].startswith('k'):
+                    stated.add(member[1])
+        self.assertGreaterEqual(stated, {'polar_columns', 'workers', 'fov_y', 'lat', 'opacity', 'tile_px', 'scale', 'indices'})
+        self.assertEqual(stated - rows, set())
+
     def test_each_declaration_says_which_thread_may_use_it(self):
         silent = []
         for header in public_headers():

@@ -1,6 +1,12 @@
 #include "render/gl/frame_targets.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <utility>
+
+#include "render/gl/storage.h"
 
 namespace terrella {
 namespace {
@@ -28,8 +34,16 @@ gl::Framebuffer make_target(const gl::Texture& color, const gl::Texture& depth, 
 
 }  // namespace
 
-void FrameTargets::fit(const Form& form) {
-  if (form_ == form) return;
+int FrameTargets::longest_side_px() {
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  return std::min({texture, viewport[0], viewport[1]});
+}
+
+Status FrameTargets::fit(const Form& form) {
+  if (form_ == form) return Done{};
   form_ = form;
   frame_ = 0;
   const GLenum depth_format = form.has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
@@ -40,15 +54,27 @@ void FrameTargets::fit(const Form& form) {
   color_samples_ = {};
   depth_samples_ = {};
   resolved_ = {};
-  if (form.samples == 0) return;
-  color_samples_ = make_samples(GL_RGBA8, form);
-  depth_samples_ = make_samples(depth_format, form);
-  resolved_ = std::exchange(framebuffer_, make_target(color_samples_, depth_samples_, form.has_stencil));
+  if (form.samples > 0) {
+    color_samples_ = make_samples(GL_RGBA8, form);
+    depth_samples_ = make_samples(depth_format, form);
+    resolved_ = std::exchange(framebuffer_, make_target(color_samples_, depth_samples_, form.has_stencil));
+  }
+  if (has_memory()) return Done{};
+  *this = FrameTargets();
+  return Error{fmt::format("the driver has no memory for a picture of {}x{} pixels; draw a smaller one",
+                           form.size.width_px, form.size.height_px)};
+}
+
+bool FrameTargets::has_memory() const {
+  if (!gl::has_storage(color_) || !gl::has_storage(depth_)) return false;
+  return form_.samples == 0 || (gl::has_storage(color_samples_) && gl::has_storage(depth_samples_));
 }
 
 FrameTargets::Beside FrameTargets::beside() {
   if (!beside_) {
     beside_ = make_picture(GL_RGBA8, form_.size);
+    if (!gl::has_storage(beside_)) beside_ = {};
+    if (!beside_) return {};
     beside_framebuffer_ = gl::make_framebuffer();
     glNamedFramebufferTexture(beside_framebuffer_.name(), GL_COLOR_ATTACHMENT0, beside_.name(), 0);
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "base/result.h"
 #include "geo/camera.h"
 #include "render/gl/gl_handle.h"
 
@@ -19,8 +20,11 @@ class FrameTargets {
     int samples = 0;  ///< samples per pixel; 0: the picture is not multisampled
     bool operator==(const Form&) const = default;
   };
-  /// Makes the textures for this form. Keeps those that already fit.
-  void fit(const Form& form);
+  /// Longest side of a picture that the driver draws, pixels.
+  [[nodiscard]] static int longest_side_px();
+  /// Makes the textures for this form. Keeps those that already fit. Fails if the driver has no memory
+  /// for it.
+  [[nodiscard]] Status fit(const Form& form);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
   [[nodiscard]] GLuint color() const { return color_.name(); }
   [[nodiscard]] GLuint depth() const { return depth_.name(); }
@@ -34,8 +38,9 @@ class FrameTargets {
   [[nodiscard]] bool has_stencil() const { return form_.has_stencil; }
   [[nodiscard]] int samples() const { return form_.samples; }
   /// Returns a second picture of the same size, for passes that read and write the picture. Its content is undefined.
+  /// Its texture is 0 if the driver has no memory for it.
   struct Beside {
-    GLuint framebuffer, texture;
+    GLuint framebuffer = 0, texture = 0;
   };
   [[nodiscard]] Beside beside();
   /// Copies the means of the samples to color() and to a picture beside it. Does nothing without samples.
@@ -46,6 +51,7 @@ class FrameTargets {
 
  private:
   void resolve(GLbitfield what, GLuint into) const;
+  [[nodiscard]] bool has_memory() const;
 
   gl::Texture color_, depth_, beside_, color_samples_, depth_samples_;
   gl::Framebuffer framebuffer_, beside_framebuffer_, resolved_;

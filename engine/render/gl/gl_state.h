@@ -16,13 +16,13 @@ void set_first_gl_state();
 /// are not saved, so none of them may be active. thread: main (of the context)
 class GlState {
  public:
+  static constexpr GLuint kUnits = 11;  ///< number of texture units that passes use
   GlState();
   ~GlState();
   GlState(const GlState&) = delete;
   GlState& operator=(const GlState&) = delete;
 
  private:
-  static constexpr GLuint kUnits = 11;  ///< number of texture units that passes use
   static constexpr std::size_t kTargets = 4;
   static constexpr std::size_t kStores = 16;
 

@@ -48,6 +48,7 @@ struct RenderOptions {
 struct FrameCounts {
   int draw_calls = 0;
   long triangles = 0;
+  bool no_memory = false;  ///< the driver has refused memory for a part of the picture
 };
 
 /// Air, light and limb of the surface in a picture. Programs and draws follow from them.

@@ -5,6 +5,8 @@
 #include <glm/packing.hpp>
 #include <utility>
 
+#include "render/gl/storage.h"
+
 namespace terrella {
 namespace {
 
@@ -32,6 +34,7 @@ SlopeTextures::SlopeTextures(const TileGrid& grid) : grid_(grid), sampler_(gl::m
 }
 
 void SlopeTextures::set_views(int views) {
+  if (!has_memory_) return;
   GLint most = 256;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
   const std::size_t layer_bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(slot_px() * slot_px());
@@ -45,6 +48,11 @@ bool SlopeTextures::grow() {
   if (layers == layers_) return false;
   gl::Texture larger = gl::make_texture(GL_TEXTURE_2D_ARRAY);
   glTextureStorage3D(larger.name(), 1, GL_RG16F, slot_px(), slot_px(), layers);
+  if (!gl::has_storage(larger)) {
+    has_memory_ = false;
+    most_layers_ = layers_;
+    return false;
+  }
   if (texture_) {
     glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
                        slot_px(), slot_px(), layers_);

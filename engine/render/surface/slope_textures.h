@@ -17,7 +17,7 @@ namespace terrella {
 /// The slopes of loaded heights in slots of an array texture, for programs built with RELIEF
 /// (shaders/surface/patch_relief.glsl). A slot has a texel per height, and a gutter for filtering. Slot 0 is level. The
 /// slopes are not exaggerated. At most 64 MiB on the GPU for each view, or the tiles of one frame if they are more than
-/// that and the driver has room for them. thread: main
+/// that and the driver has room for them. Ground without a slot is drawn as level. thread: main
 class SlopeTextures {
  public:
   static constexpr GLuint kUnit = 9, kCellsUnit = 10;  ///< texture units that the shaders read
@@ -52,6 +52,7 @@ class SlopeTextures {
   TileGrid grid_;
   int most_layers_ = 0;
   int layers_ = 0, used_ = 1;
+  bool has_memory_ = true;  ///< false: the driver has none for more layers
   gl::Texture texture_;
   gl::Sampler sampler_;
   std::unordered_map<TileId, Slot, TileIdHash> slots_;

@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "render/gl/draw_state.h"
+#include "render/gl/storage.h"
 
 namespace terrella {
 namespace {
 
 // Enough for the first view of a planet; a driver in software zeroes all of them.
 constexpr int kFirstSlots = 64;
+// Fewest slots that are asked for once there is no memory for more.
+constexpr int kLeastMore = 8;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
 
 /// OpenGL's formats for the texels of a layout: the stored one, and that of the bytes uploaded.
@@ -81,16 +84,33 @@ void TileTextures::paint_empty() {
 gl::Texture TileTextures::make_array(int slots) const {
   gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
   glTextureStorage3D(array.name(), mips_, format_of(layout_).stored, layout_.slot_px(), layout_.slot_px(), slots);
-  return array;
+  return gl::has_storage(array) ? std::move(array) : gl::Texture();
+}
+
+// Copies slots with all mips to those that begin at `slot`.
+void TileTextures::copy_slot(const gl::Texture& from, int from_slot, int slot, int slots) const {
+  for (int k = 0; k < mips_; ++k) {
+    const int side = layout_.slot_px() >> k;
+    glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, from_slot, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0,
+                       0, slot, side, side, slots);
+  }
 }
 
 void TileTextures::set_budget(std::size_t bytes) {
   most_slots_ = slots_for(bytes);
+  memory_refused_ = false;
   if (slots_ > most_slots_) shrink();
 }
 
-// Keeps the tiles of the coarsest level first, then the most recently drawn.
+// Keeps the tiles of the coarsest level first, then the most recently drawn. The larger array stays if there is no room
+// for both.
 void TileTextures::shrink() {
+  gl::Texture smaller = make_array(most_slots_);
+  if (!smaller) {
+    memory_refused_ = true;
+    most_slots_ = slots_;
+    return;
+  }
   std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
   for (auto& [id, entry] : residency_.entries()) {
     if (entry.state == TileState::resident) tiles.emplace_back(id, &entry);
@@ -101,7 +121,7 @@ void TileTextures::shrink() {
   });
   slots_ = most_slots_;
   used_ = 1;
-  const gl::Texture larger = std::exchange(texture_, make_array(slots_));
+  const gl::Texture larger = std::exchange(texture_, std::move(smaller));
   paint_empty();
   for (const auto& [id, entry] : tiles) {
     if (used_ == slots_) {
@@ -109,11 +129,7 @@ void TileTextures::shrink() {
       continue;
     }
     const int from = std::exchange(entry->slot, used_++);
-    for (int k = 0; k < mips_; ++k) {
-      const int side = layout_.slot_px() >> k;
-      glCopyImageSubData(larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, from, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0,
-                         0, entry->slot, side, side, 1);
-    }
+    copy_slot(larger, from, entry->slot);
   }
 }
 
@@ -124,21 +140,24 @@ std::size_t TileTextures::slot_bytes() const {
   return texels * format_of(layout_).bytes;
 }
 
+// If there is no memory for twice as many slots, tries to get fewer more, and then goes on with those that are there.
 bool TileTextures::grow() {
-  const int slots = std::min(most_slots_, slots_ == 0 ? kFirstSlots : 2 * slots_);
-  if (slots == slots_) return false;
-  gl::Texture larger = make_array(slots);
-  for (int k = 0; k < mips_; ++k) {
-    const int side = layout_.slot_px() >> k;
-    if (!texture_) continue;
-    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0,
-                       side, side, slots_);
+  const int wanted = slots_ == 0 ? kFirstSlots : 2 * slots_;
+  for (int more = std::min(most_slots_, wanted) - slots_; more > 0; more = more > kLeastMore ? more / 2 : 0) {
+    gl::Texture larger = make_array(slots_ + more);
+    memory_refused_ = memory_refused_ || !larger;
+    if (!larger) continue;
+    std::swap(texture_, larger);
+    if (larger) {
+      copy_slot(larger, 0, 0, slots_);
+    } else {
+      paint_empty();
+    }
+    slots_ += more;
+    return true;
   }
-  const bool first = !texture_;
-  texture_ = std::move(larger);
-  slots_ = slots;
-  if (first) paint_empty();
-  return true;
+  most_slots_ = slots_;
+  return false;
 }
 
 int TileTextures::take_slot(std::uint64_t frame) {

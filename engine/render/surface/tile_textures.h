@@ -23,7 +23,8 @@ struct SlotLayout {
   [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
-/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. Slot
+/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. There
+/// are fewer slots if the driver's array textures have fewer layers, or if the driver has no memory for more. Slot
 /// 0 is a plain colour or transparent, for numbers "no data", for places without imagery. A slot's gutter receives the
 /// texels of neighbouring tiles as they arrive, so that filtering continues across a tile's border. thread: main
 class TileTextures {
@@ -50,13 +51,17 @@ class TileTextures {
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   [[nodiscard]] const SlotLayout& layout() const { return layout_; }
   [[nodiscard]] int mips() const { return mips_; }
-  [[nodiscard]] int capacity() const { return most_slots_; }            ///< number of tiles that fit in the budget
-  [[nodiscard]] int free_slots() const { return most_slots_ - used_; }  ///< tiles that fit without evicting one
+  /// Number of tiles that fit in the budget, with slot 0; 0: the driver has no memory for any.
+  [[nodiscard]] int capacity() const { return most_slots_; }
+  [[nodiscard]] bool memory_refused() const { return memory_refused_; }  ///< since the last set_budget()
+  [[nodiscard]] int free_slots() const { return most_slots_ - used_; }   ///< tiles that fit without evicting one
   [[nodiscard]] std::size_t slot_bytes() const;
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
 
  private:
+  /// Makes an array; none if the driver has no memory for it.
   [[nodiscard]] gl::Texture make_array(int slots) const;
+  void copy_slot(const gl::Texture& from, int from_slot, int slot, int slots = 1) const;
   int take_slot(std::uint64_t frame);
   [[nodiscard]] int slots_for(std::size_t bytes) const;
   bool grow();
@@ -74,6 +79,7 @@ class TileTextures {
   int mips_;
   int most_slots_;
   int slots_ = 0;
+  bool memory_refused_ = false;
   int used_ = 1;
   Empty empty_ = Empty::plain_colour;
   gl::Texture texture_;

@@ -9,7 +9,7 @@
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wms/wms_address.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

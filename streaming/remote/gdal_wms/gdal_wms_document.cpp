@@ -13,7 +13,7 @@
 #include "streaming/georeference/crs_text.h"
 #include "streaming/remote/gdal_wms/gdal_wms_values.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -13,7 +13,7 @@
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/gpkg_schema.h"
 #include "streaming/sets/tile_range.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

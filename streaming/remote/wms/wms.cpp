@@ -17,7 +17,7 @@
 #include "streaming/remote/wmts/wmts.h"
 #include "streaming/remote/wmts/xml_names.h"
 #include "streaming/sets/tile_check.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -14,7 +14,7 @@
 #include "streaming/remote/wmts/wmts_layer.h"
 #include "streaming/remote/wmts/wmts_url.h"
 #include "streaming/remote/wmts/xml_names.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

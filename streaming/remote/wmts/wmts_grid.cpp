@@ -10,7 +10,7 @@
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/tile_range.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "streaming/remote/wmts/xml_names.h"
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {

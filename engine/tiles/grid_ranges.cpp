@@ -1,4 +1,4 @@
-#include "streaming/sets/tileset_check.h"
+#include "tiles/grid_ranges.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "render/gl/gl_handle.h"
+
+namespace terrella::gl {
+
+/// True if a texture has got its memory. If not, takes the error of OpenGL that the refusal left. thread: main (of the
+/// context)
+[[nodiscard]] inline bool has_storage(const Texture& texture) {
+  GLint is_fixed = GL_FALSE;
+  glGetTextureParameteriv(texture.name(), GL_TEXTURE_IMMUTABLE_FORMAT, &is_fixed);
+  if (is_fixed == GL_FALSE) static_cast<void>(glGetError());
+  return is_fixed != GL_FALSE;
+}
+
+}  // namespace terrella::gl

@@ -1,0 +1,21 @@
+#include "view/render_modes.h"
+
+#include "base/range_check.h"
+
+namespace terrella {
+
+Status check_surface(const SurfaceLook& surface) {
+  return RangeCheck()
+      .in("the surface's alpha", surface.alpha, 0.0, 1.0)
+      .in("the depth of the inner sphere", surface.inner_sphere_below_m.value_or(0.0), 0.0, 6378137.0, " m")
+      .in("the red of the inner sphere", surface.inner_sphere_srgb.r, 0.0, 1.0)
+      .in("the green of the inner sphere", surface.inner_sphere_srgb.g, 0.0, 1.0)
+      .in("the blue of the inner sphere", surface.inner_sphere_srgb.b, 0.0, 1.0)
+      .result();
+}
+
+Status check_stereo(const StereoLook& stereo) {
+  return RangeCheck().in("the separation of the eyes", stereo.eye_separation_m.value_or(0.0), 0.0, 1e9, " m").result();
+}
+
+}  // namespace terrella
