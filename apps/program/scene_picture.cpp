@@ -122,6 +122,7 @@ struct ScenePicture::Parts {
   ImageryLayer base{};
   std::vector<std::optional<NumberFacts>> overlays{};
   bool all_objects = true;
+  bool checked_fills = false;
   std::unique_ptr<HeadlessContext> context{};
   std::unique_ptr<MapPainter> map{};
   std::unique_ptr<Globe> globe{};
@@ -129,6 +130,7 @@ struct ScenePicture::Parts {
 
   Status open_globe();
   Status add_layers();
+  void check_fills();
 };
 
 Status ScenePicture::Parts::open_globe() {
@@ -198,6 +200,17 @@ Camera ScenePicture::first_camera() const {
 
 bool ScenePicture::has_all_objects() const { return parts_->all_objects; }
 
+/// Reports areas without a fill, once for all pictures.
+void ScenePicture::Parts::check_fills() {
+  if (std::exchange(checked_fills, true)) return;
+  for (const LayerId layer : globe->objects()) {
+    for (const std::string& complaint : fill_complaints(*globe, layer, command.scene.objects)) {
+      print_message("{}\n", complaint);
+      all_objects = false;
+    }
+  }
+}
+
 Result<Rendered> ScenePicture::draw(const Camera& camera) {
   Parts& own = *parts_;
   const Viewport size = own.command.scene.size;
@@ -208,6 +221,7 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   if (own.globe->needs_frame(framebuffer, size)) own.globe->render(framebuffer, size);
   const FrameStats stats = own.globe->last_frame();
   if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
+  own.check_fills();
   const auto& missing = own.globe->missing_tiles();
   if (const Status some = check_some_came(stats, missing); !some) return some.error();
   std::vector<std::string> thanks = own.globe->attributions();

@@ -2,7 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <cstdint>
 
 #include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
@@ -44,6 +45,18 @@ Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (!added) return added.error();
   if (const Status credited = globe.set_attribution(*added, file->attribution); !credited) return credited.error();
   return file->complaints.empty();
+}
+
+std::vector<std::string> fill_complaints(const Globe& globe, LayerId layer, const std::string& file) {
+  constexpr std::size_t kMostNamed = 16;
+  std::vector<std::string> complaints;
+  const std::vector<MissingFill> missing = globe.missing_fills(layer);
+  for (std::size_t k = 0; k < std::min(missing.size(), kMostNamed); ++k) {
+    complaints.push_back(fmt::format("{}: feature {}: it is drawn without its fill: {}", file,
+                                     static_cast<std::uint64_t>(missing[k].id), to_text(missing[k].fault)));
+  }
+  if (missing.size() > kMostNamed) complaints.push_back(fmt::format("and {} more", missing.size() - kMostNamed));
+  return complaints;
 }
 
 }  // namespace terrella

@@ -85,17 +85,26 @@ double mean_side(const MapRing& ring) {
   return ring.back().lon_deg > ring.front().lon_deg ? sum : -sum;
 }
 
-/// Cuts a ring with continuing longitudes into parts within [-180, 180].
-std::vector<MapRing> cut_at_antimeridian(const MapRing& ring) {
-  const auto by_lon = [](const MapPoint& a, const MapPoint& b) { return a.lon_deg < b.lon_deg; };
-  const auto [west, east] = std::ranges::minmax_element(ring, by_lon);
-  std::vector<MapRing> parts;
-  for (double turn = std::floor((west->lon_deg + 180.0) / 360.0); turn * 360.0 - 180.0 < east->lon_deg; turn += 1.0) {
-    MapRing part = clip_ring(ring, &MapPoint::lon_deg, turn * 360.0 - 180.0, 1.0);
-    part = clip_ring(part, &MapPoint::lon_deg, turn * 360.0 + 180.0, -1.0);
-    for (MapPoint& p : part) p.lon_deg -= turn * 360.0;
-    if (part.size() >= 2) parts.push_back(std::move(part));
+/// Cuts a ring with continuing longitudes, which lies within some turns round the planet, into parts within [-180,
+/// 180]. Halves the turns again and again, so that each point is looked at few times.
+void cut_into_turns(MapRing ring, int first, int last, std::vector<MapRing>& parts) {
+  if (ring.size() < 2) return;
+  if (first == last) {
+    for (MapPoint& p : ring) p.lon_deg -= first * 360.0;
+    return parts.push_back(std::move(ring));
   }
+  const int middle = first + (last - first + 1) / 2;
+  const double at_deg = middle * 360.0 - 180.0;
+  cut_into_turns(clip_ring(ring, &MapPoint::lon_deg, at_deg, -1.0), first, middle - 1, parts);
+  cut_into_turns(clip_ring(ring, &MapPoint::lon_deg, at_deg, 1.0), middle, last, parts);
+}
+
+std::vector<MapRing> cut_at_antimeridian(MapRing ring) {
+  const auto [west, east] = std::ranges::minmax(ring, {}, &MapPoint::lon_deg);
+  const int first = static_cast<int>(std::floor((west.lon_deg + 180.0) / 360.0));
+  const int end = static_cast<int>(std::ceil((east.lon_deg + 180.0) / 360.0));
+  std::vector<MapRing> parts;
+  if (first < end) cut_into_turns(std::move(ring), first, end - 1, parts);
   return parts;
 }
 
@@ -113,7 +122,7 @@ Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions) {
     const double pole_deg = std::copysign(90.0, mean_side(ring));
     ring.insert(ring.end(), {{ring.back().lon_deg, pole_deg}, {ring.front().lon_deg, pole_deg}});
   }
-  return cut_at_antimeridian(ring);
+  return cut_at_antimeridian(std::move(ring));
 }
 
 double pieces_of(const std::vector<MapPoint>& positions) {

@@ -6,6 +6,7 @@
 
 #include "geo/coordinates.h"
 #include "objects/object_pick.h"
+#include "objects/object_shapes.h"
 #include "surface/layers.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_source.h"

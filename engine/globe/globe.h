@@ -172,6 +172,10 @@ class Globe {
   /// The same for elevation. Coarser heights, or the ellipsoid, are drawn instead of these tiles.
   [[nodiscard]] const std::deque<MissingTile>& missing_heights() const;
 
+  /// Returns the areas of an object layer that are drawn without their fill, as far as they are cut; none if there is
+  /// no such layer.
+  [[nodiscard]] std::vector<MissingFill> missing_fills(LayerId layer) const;
+
   /// Returns the place, layers and object that a pixel of the mono picture shows (geo/coordinates.h); nothing if a
   /// value is out of range.
   [[nodiscard]] GlobePick pick(glm::dvec2 pixel_px, Viewport viewport) const;

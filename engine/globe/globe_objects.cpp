@@ -115,6 +115,12 @@ Status Globe::fade_objects(LayerId layer, double opacity) {
   return impl_->show_layers();
 }
 
+std::vector<MissingFill> Globe::missing_fills(LayerId layer) const {
+  if (!impl_->may_call("Globe::missing_fills")) return {};
+  const ObjectLayer* objects = impl_->object(layer);
+  return objects == nullptr ? std::vector<MissingFill>() : objects->newest()->missing_fills();
+}
+
 Status Globe::Impl::show_layers() {
   changed = true;
   std::vector<DrawnLayer> layers;

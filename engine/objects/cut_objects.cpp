@@ -35,16 +35,26 @@ std::vector<DrapeTriangle> drape_of(const FillMesh& mesh) {
   return drape;
 }
 
+/// Fills an area, and takes its cost off the job.
+FillMesh fill(const PolygonObject& area, CutJob& job) {
+  FillMesh mesh = fill_area(area, job.ellipsoid, job.most_triangles, job.spare_steps);
+  job.spare_steps -= std::min(job.spare_steps, mesh.spare_steps);
+  return mesh;
+}
+
 /// Cuts an extruded area. Its outlines go round the roof.
-AreaCut cut_solid(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
+AreaCut cut_solid(const CutJob::Area& area, CutJob& job) {
   AreaCut cut{.index = area.index};
   const PolygonObject roof = roof_of(*area.shape);
   double lift_m = sag_m(job.ellipsoid, job.step);
   if (area.fill) {
-    const FillMesh mesh = fill_area(roof, job.ellipsoid, most_triangles);
+    const FillMesh mesh = fill(roof, job);
+    cut.fault = mesh.fault;
     if (!mesh.indices.empty()) cut.solid = solid_of(*area.shape, mesh, job.ellipsoid, job.step);
-    cut.dropped = cut.solid.empty() || cut.solid.size() / 3 > most_triangles;
-    if (cut.dropped) cut.solid.clear();
+    if (cut.solid.size() / 3 > job.most_triangles) {
+      cut.fault = FillFault::too_many_triangles;
+      cut.solid.clear();
+    }
     lift_m = std::max(lift_m, mesh.lift_m);
   }
   if (!area.outline) return cut;
@@ -53,14 +63,14 @@ AreaCut cut_solid(const CutJob::Area& area, const CutJob& job, std::size_t most_
 }
 
 /// Outlines lie at the height of the fill.
-AreaCut cut_area(const CutJob::Area& area, const CutJob& job, std::size_t most_triangles) {
+AreaCut cut_area(const CutJob::Area& area, CutJob& job) {
   AreaCut cut{.index = area.index};
   const PolygonObject& shape = *area.shape;
-  if (is_extruded(shape)) return cut_solid(area, job, most_triangles);
+  if (is_extruded(shape)) return cut_solid(area, job);
   double lift_m = sag_m(job.ellipsoid, job.step);
   if (area.fill) {
-    FillMesh mesh = fill_area(shape, job.ellipsoid, most_triangles);
-    cut.dropped = mesh.indices.empty();
+    FillMesh mesh = fill(shape, job);
+    cut.fault = mesh.fault;
     if (is_draped(shape)) {
       cut.draped = drape_of(mesh);
       mesh = {};
@@ -120,7 +130,7 @@ CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop) {
   std::ranges::stable_sort(job.areas, {}, &CutJob::Area::height_m);
   for (const CutJob::Area& area : job.areas) {
     if (stop) return cut;
-    cut.areas.push_back(cut_area(area, job, job.most_triangles));
+    cut.areas.push_back(cut_area(area, job));
     job.most_triangles -= triangles_of(cut.areas.back());
   }
   std::ranges::sort(cut.areas, {}, &AreaCut::index);

@@ -46,6 +46,7 @@ struct KeptArea : Kept {
   double height_m = 0.0;
   Slot fill = {}, triangles = {}, outline = {};  ///< a draped or extruded fill is its triangles
   bool asked_fill = false, asked_outline = false;
+  FillFault fault = FillFault::none;
   std::unique_ptr<PickArea> picked = {};
 };
 

@@ -40,7 +40,7 @@ struct LayerBatches {
   SlotBatch<LineVertex> lines;  ///< n vertices contain n - 3 pieces
   SlotBatch<FillVertex> fill_vertices;
   SlotBatch<std::uint32_t> fill_indices;
-  std::array<std::vector<FillRun>, Batch<char>::kBuckets> fill_runs;  ///< per bucket of fill_indices, lowest first
+  std::array<std::vector<FillRun>, Batch<char>::kBuckets> fill_runs;  ///< per bucket of fill_indices
   std::uint64_t fill_version = 0;                                     ///< counts changes of fill_runs
   SlotBatch<SolidVertex> solids;                                      ///< extruded areas: corners of triangles
   std::vector<ModelStands> models;

@@ -11,11 +11,9 @@ void add_run(std::vector<FillRun>& runs, const FillRun& run) {
   if (run.count == 0) return;
   if (!runs.empty() && runs.back().height_m == run.height_m && runs.back().first + runs.back().count == run.first) {
     runs.back().count += run.count;
-    return;
+  } else {
+    runs.push_back(run);
   }
-  const auto at = std::upper_bound(runs.begin(), runs.end(), run,
-                                   [](const FillRun& a, const FillRun& b) { return a.height_m < b.height_m; });
-  runs.insert(at, run);
 }
 
 }  // namespace
@@ -81,7 +79,7 @@ void LayerObjects::place(AreaCut& cut) {
   replaced_ += area.fill.count + area.outline.count > 0 ? 1U : 0U;
   drop({ObjectKind::polygon, cut.index});
   triangles_ += triangles_of(cut);
-  fills_dropped_ += cut.dropped ? 1U : 0U;
+  area.fault = cut.fault;
   area.outline = lines_of(is_draped(*area.object)).add(outline_bucket(area), cut.outline);
   if (is_extruded(*area.object)) {
     area.fill = batches_.solids.add(fill_bucket(area), cut.solid);
@@ -91,6 +89,14 @@ void LayerObjects::place(AreaCut& cut) {
     put_fill(area, cut.fill, std::move(cut.triangles));
   }
   draw(area);
+}
+
+std::vector<MissingFill> LayerObjects::missing_fills() const {
+  std::vector<MissingFill> missing;
+  for (const KeptArea& area : areas_) {
+    if (!area.removed && area.fault != FillFault::none) missing.push_back({area.object->of.id, area.fault});
+  }
+  return missing;
 }
 
 // Makes the batches anew from their own items: nothing is cut again.

@@ -45,7 +45,8 @@ class LayerObjects {
   void follow(const Ground& ground, const std::function<bool(const Geodetic&)>& has_changed);
 
   [[nodiscard]] bool empty() const { return live_ == 0; }
-  [[nodiscard]] std::size_t fills_dropped() const { return fills_dropped_; }
+  /// Areas that are drawn without their fill.
+  [[nodiscard]] std::vector<MissingFill> missing_fills() const;
   /// Frees the memory of removed objects if it is large, and sorts spheres. Call it before drawing.
   void tidy();
   [[nodiscard]] LayerBatches& batches() { return batches_; }
@@ -155,7 +156,6 @@ class LayerObjects {
   std::vector<std::uint32_t> sphere_points_;  ///< per sphere in the groups: index of its point
   Angle length_{};                            ///< length of all lines and outlines together
   std::size_t triangles_ = 0;                 ///< triangles of all fills
-  std::size_t fills_dropped_ = 0;
   CutJob job_;
   std::size_t jobs_out_ = 0;  ///< taken, and not placed
   std::size_t replaced_ = 0;  ///< areas whose earlier cut is still in the batches

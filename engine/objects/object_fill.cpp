@@ -1,14 +1,13 @@
 // Areas are cut in the plane of longitude and latitude, where ±180° and the poles are ordinary edges. A grid cuts them:
 // blocks of cells are halved again and again. GLU's tessellator fills the part that remains in each cell.
-#include <GL/glu.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <numbers>
+#include <optional>
 
 #include "geo/great_circle.h"
+#include "objects/area_rings.h"
+#include "objects/area_tessellator.h"
 #include "objects/object_shapes.h"
 
 namespace terrella {
@@ -18,62 +17,11 @@ constexpr double kWidestCell_deg = 1.0;
 constexpr double kNarrowestCell_deg = 0.05;
 constexpr double kCellsAcross = 64.0;
 /// Cells with more points are divided: for rings that cross themselves GLU may need the square of this number.
-constexpr std::size_t kMostCellPoints = 512;
-constexpr int kMostDivisions = 12;
+constexpr std::size_t kMostCellPoints = 128;
+constexpr int kMostDivisions = 40;
 constexpr double kMostArcPieces = 4.0e6;
-
-using Rings = std::vector<MapRing>;
-
-/// One run of GLU's tessellator, even-odd.
-class Tessellator {
- public:
-  Tessellator() : tess_(gluNewTess()) {
-    gluTessProperty(tess_, GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_ODD);
-    gluTessNormal(tess_, 0.0, 0.0, 1.0);
-    gluTessCallback(tess_, GLU_TESS_VERTEX_DATA, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_vertex));
-    gluTessCallback(tess_, GLU_TESS_COMBINE_DATA, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_combine));
-    // A callback for edges makes the tessellator emit triangles instead of strips and fans.
-    gluTessCallback(tess_, GLU_TESS_EDGE_FLAG, reinterpret_cast<_GLUfuncptr>(&Tessellator::on_edge));
-  }
-  ~Tessellator() { gluDeleteTess(tess_); }
-  Tessellator(const Tessellator&) = delete;
-  Tessellator& operator=(const Tessellator&) = delete;
-
-  /// Vertices of triangles, three per triangle.
-  const std::vector<MapPoint>& triangles(const Rings& rings) {
-    corners_.clear();
-    points_.clear();
-    gluTessBeginPolygon(tess_, this);
-    for (const MapRing& ring : rings) {
-      gluTessBeginContour(tess_);
-      for (const MapPoint& p : ring) {
-        points_.push_back({p.lon_deg, p.lat_deg, 0.0});
-        gluTessVertex(tess_, points_.back().data(), &points_.back());
-      }
-      gluTessEndContour(tess_);
-    }
-    gluTessEndPolygon(tess_);
-    corners_.resize(corners_.size() - corners_.size() % 3);
-    return corners_;
-  }
-
- private:
-  using Point = std::array<double, 3>;
-  static void on_vertex(void* vertex, void* self) {
-    const Point& p = *static_cast<const Point*>(vertex);
-    static_cast<Tessellator*>(self)->corners_.push_back({p[0], p[1]});
-  }
-  static void on_combine(const GLdouble at[3], void* const[4], const GLfloat[4], void** made, void* self) {
-    auto& points = static_cast<Tessellator*>(self)->points_;
-    points.push_back({at[0], at[1], 0.0});
-    *made = &points.back();
-  }
-  static void on_edge(GLboolean) {}
-
-  GLUtesselator* tess_;
-  std::deque<Point> points_;  // a deque, because addresses must stay valid
-  std::vector<MapPoint> corners_;
-};
+/// Steps that an area may take for each of its points and each cell that an edge passes, and steps of a crossing.
+constexpr std::size_t kStepsOfAPoint = 24, kStepsOfACrossing = 64;
 
 struct Block {
   int west, east, south, north;  ///< grid lines
@@ -87,7 +35,8 @@ class AreaFiller {
         height_m_(height_m),
         most_indices_(3 * most_triangles) {}
 
-  void fill(const Rings& rings) {
+  void fill(const MapRings& rings, std::size_t most_steps) {
+    most_steps_ = most_steps;
     const MapRect box = bounds_of(rings);
     const auto line = [this](double deg, double from_deg) { return (deg - from_deg) * cells_of_half_turn_ / 180.0; };
     const Block block{static_cast<int>(std::floor(line(box.west_deg, -180.0))),
@@ -97,7 +46,10 @@ class AreaFiller {
     if (block.west < block.east && block.south < block.north) fill_block(rings, block);
   }
 
-  [[nodiscard]] FillMesh take() { return too_many_ ? FillMesh{} : std::move(mesh_); }
+  [[nodiscard]] FillMesh take() {
+    if (mesh_.fault != FillFault::none) return {.fault = mesh_.fault, .steps = mesh_.steps};
+    return std::move(mesh_);
+  }
 
  private:
   [[nodiscard]] double lon_at(int line) const { return line * 180.0 / cells_of_half_turn_ - 180.0; }
@@ -106,15 +58,21 @@ class AreaFiller {
     return {lon_at(b.west), lat_at(b.south), lon_at(b.east), lat_at(b.north)};
   }
 
-  void fill_block(const Rings& rings, const Block& block) {
+  /// Counts steps. False once the area is given up.
+  bool may_go_on(std::size_t steps) {
+    mesh_.steps += steps;
+    if (mesh_.fault == FillFault::none && mesh_.steps > most_steps_) mesh_.fault = FillFault::tangled;
+    return mesh_.fault == FillFault::none;
+  }
+
+  void fill_block(const MapRings& rings, const Block& block) {
+    if (!may_go_on(points_of(rings))) return;
     const MapRect rect = rect_of(block);
     bool full = false;
-    const Rings open = without_whole_turns(rings, rect, full);
-    if (too_many_ || (open.empty() && !full)) return;
-    if (open.empty()) return add_block(block);
-    const int wide = block.east - block.west, high = block.north - block.south;
-    Rings all = open;
+    MapRings all = without_whole_turns(rings, rect, full);
+    if (all.empty()) return full ? add_block(block) : void();
     if (full) all.push_back(ring_of(rect));
+    const int wide = block.east - block.west, high = block.north - block.south;
     if (wide == 1 && high == 1) return fill_cell(all, rect, 0);
     const bool along_lon = wide >= high;
     Block low = block, upper = block;
@@ -129,62 +87,25 @@ class AreaFiller {
     fill_block(clipped(all, axis, at, 1.0), upper);
   }
 
-  /// Removes rings that only follow the block's border. `full` tells if together they cover the block.
-  static Rings without_whole_turns(const Rings& rings, const MapRect& rect, bool& full) {
-    const double whole = (rect.east_deg - rect.west_deg) * (rect.north_deg - rect.south_deg);
-    Rings open;
-    for (const MapRing& ring : rings) {
-      const double turns = area(ring) / whole;
-      constexpr double kRounding = 1e-9;
-      const bool on_border = std::ranges::all_of(ring, [&rect](const MapPoint& p) {
-        return p.lon_deg == rect.west_deg || p.lon_deg == rect.east_deg || p.lat_deg == rect.south_deg ||
-               p.lat_deg == rect.north_deg;
-      });
-      if (!on_border || std::abs(turns - std::round(turns)) > kRounding) {
-        open.push_back(ring);
-      } else if (std::fmod(std::round(std::abs(turns)), 2.0) == 1.0) {
-        full = !full;
-      }
-    }
-    return open;
+  void fill_cell(const MapRings& rings, const MapRect& rect, int division) {
+    if (!may_go_on(points_of(rings))) return;
+    if (points_of(rings) <= kMostCellPoints) return tessellate(rings);
+    bool full = false;
+    MapRings all = without_pairs(without_whole_turns(rings, rect, full));
+    if (full) all.push_back(ring_of(rect));
+    if (points_of(all) <= kMostCellPoints) return tessellate(all);
+    if (division < kMostDivisions) return divide_cell(all, rect, division);
+    mesh_.fault = FillFault::tangled;
   }
 
-  static double area(const MapRing& ring) {
-    double twice = 0.0;
-    const MapPoint& o = ring.front();
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-      const MapPoint &a = ring[i], &b = ring[i + 1];
-      twice += (a.lon_deg - o.lon_deg) * (b.lat_deg - o.lat_deg) - (b.lon_deg - o.lon_deg) * (a.lat_deg - o.lat_deg);
-    }
-    return 0.5 * twice;
-  }
-
-  static MapRing ring_of(const MapRect& r) {
-    return {{r.west_deg, r.south_deg}, {r.east_deg, r.south_deg}, {r.east_deg, r.north_deg}, {r.west_deg, r.north_deg}};
-  }
-
-  static Rings clipped(const Rings& rings, double MapPoint::*axis, double at, double side) {
-    Rings parts;
-    for (const MapRing& ring : rings) {
-      MapRing part = clip_ring(ring, axis, at, side);
-      if (part.size() >= 3) parts.push_back(std::move(part));
-    }
-    return parts;
-  }
-
-  void fill_cell(const Rings& rings, const MapRect& rect, int division) {
-    std::size_t points = 0;
-    for (const MapRing& ring : rings) points += ring.size();
-    if (points == 0 || too_many_) return;
-    if (points > kMostCellPoints) {
-      if (division == kMostDivisions) return;
-      return divide_cell(rings, rect, division);
-    }
+  void tessellate(const MapRings& rings) {
+    const std::size_t before = tessellator_.crossings();
     for (const MapPoint& corner : tessellator_.triangles(rings)) mesh_.indices.push_back(add_vertex(corner));
-    too_many_ = mesh_.indices.size() > most_indices_;
+    if (mesh_.indices.size() > most_indices_) mesh_.fault = FillFault::too_many_triangles;
+    may_go_on(kStepsOfACrossing * (tessellator_.crossings() - before));
   }
 
-  void divide_cell(const Rings& rings, const MapRect& rect, int division) {
+  void divide_cell(const MapRings& rings, const MapRect& rect, int division) {
     MapRect low = rect, upper = rect;
     const bool along_lon = division % 2 == 0;
     if (along_lon) {
@@ -210,7 +131,7 @@ class AreaFiller {
         mesh_.indices.insert(mesh_.indices.end(), {a, a + 1, d + 1, a, d + 1, d});
       }
     }
-    too_many_ = mesh_.indices.size() > most_indices_;
+    if (mesh_.indices.size() > most_indices_) mesh_.fault = FillFault::too_many_triangles;
   }
 
   std::uint32_t add_vertex(const MapPoint& p) {
@@ -223,8 +144,8 @@ class AreaFiller {
   int cells_of_half_turn_;
   double height_m_;
   std::size_t most_indices_;
-  bool too_many_ = false;
-  Tessellator tessellator_;
+  std::size_t most_steps_ = 0;
+  AreaTessellator tessellator_;
   FillMesh mesh_;
 };
 
@@ -235,24 +156,24 @@ std::vector<MapPoint> on_map(const std::vector<Geodetic>& ring) {
   return positions;
 }
 
-/// Returns the rings on the map; empty if one is invalid or too long.
-Rings rings_on_map(const PolygonObject& polygon) {
-  Rings rings;
+/// Returns the rings on the map; none if one is invalid or too long.
+std::optional<MapRings> rings_on_map(const PolygonObject& polygon) {
+  MapRings rings;
   double arc_pieces = 0.0;
   for (const auto& ring : polygon.rings) {
     if (ring.size() < 3) continue;
     const std::vector<MapPoint> positions = on_map(ring);
     arc_pieces += pieces_of(positions);
-    if (!(arc_pieces <= kMostArcPieces)) return {};  // also refuses values that are not finite
+    if (!(arc_pieces <= kMostArcPieces)) return std::nullopt;  // also refuses values that are not finite
     auto parts = rings_of(positions);
-    if (!parts) return {};
+    if (!parts) return std::nullopt;
     for (MapRing& part : *parts) rings.push_back(std::move(part));
   }
   return rings;
 }
 
 /// Number of grid cells per half turn. Even, so that ±180° and the poles are grid lines.
-int cells_of_half_turn(const Rings& rings) {
+int cells_of_half_turn(const MapRings& rings) {
   double extent = 0.0;
   for (const MapRing& ring : rings) {
     const auto lon = std::ranges::minmax(ring, {}, &MapPoint::lon_deg);
@@ -263,7 +184,34 @@ int cells_of_half_turn(const Rings& rings) {
   return 2 * static_cast<int>(std::ceil(90.0 / wish));
 }
 
+/// Number of points, and of cells that edges pass.
+std::size_t size_of(const MapRings& rings, double cell_deg) {
+  double turned_deg = 0.0;
+  for (const MapRing& ring : rings) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const MapPoint &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      turned_deg += std::abs(b.lon_deg - a.lon_deg) + std::abs(b.lat_deg - a.lat_deg);
+    }
+  }
+  return points_of(rings) + static_cast<std::size_t>(turned_deg / cell_deg);
+}
+
 }  // namespace
+
+const char* to_text(FillFault fault) {
+  switch (fault) {
+    case FillFault::none:
+      break;
+    case FillFault::invalid:
+      return "a ring is invalid or too long; repair or simplify it";
+    case FillFault::too_many_triangles:
+      return "the areas of the layer need too many triangles together; divide the file or simplify the areas";
+    case FillFault::tangled:
+      return "too many of its edges cross or almost lie on each other; repair it, as ST_MakeValid of PostGIS and \"Fix "
+             "geometries\" of QGIS do";
+  }
+  return "";
+}
 
 double mean_height_m(const PolygonObject& polygon) {
   double sum = 0.0;
@@ -275,16 +223,22 @@ double mean_height_m(const PolygonObject& polygon) {
   return count == 0 ? 0.0 : sum / double(count);
 }
 
-FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles) {
-  const Rings rings = rings_on_map(polygon);
+FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles,
+                   std::size_t spare_steps) {
+  const std::optional<MapRings> on_map = rings_on_map(polygon);
+  if (!on_map) return {.fault = FillFault::invalid};
+  if (most_triangles == 0) return {.fault = FillFault::too_many_triangles};
+  const MapRings rings = without_pairs(*on_map);
   if (rings.empty()) return {};
   const int cells = cells_of_half_turn(rings);
   const double diagonal_deg = std::numbers::sqrt2 * 180.0 / cells;
   const double lift_m = is_underground(polygon) ? 0.0 : sag_m(ellipsoid, Angle::degrees(diagonal_deg));
   AreaFiller filler(ellipsoid, cells, mean_height_m(polygon) + lift_m, most_triangles);
-  filler.fill(rings);
+  const std::size_t due_steps = kStepsOfAPoint * size_of(rings, 180.0 / cells);
+  filler.fill(rings, due_steps + spare_steps);
   FillMesh mesh = filler.take();
   mesh.lift_m = lift_m;
+  mesh.spare_steps = mesh.steps - std::min(mesh.steps, due_steps);
   return mesh;
 }
 

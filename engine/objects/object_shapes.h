@@ -34,20 +34,45 @@ inline constexpr Angle kLineStep = Angle::degrees(0.045);
 /// length.
 [[nodiscard]] Angle length_of(const std::vector<Geodetic>& places);
 
+/// Why an area has no fill.
+enum class FillFault {
+  none,
+  invalid,             ///< a ring is invalid (geo/great_circle.h)
+  too_many_triangles,  ///< of all areas of the layer
+  tangled,             ///< too many edges cross or almost lie on each other
+};
+
+/// An area that is drawn without its fill.
+struct MissingFill {
+  ObjectId id{};
+  FillFault fault = FillFault::none;
+};
+
+/// What is wrong and what to do about it, for messages.
+[[nodiscard]] const char* to_text(FillFault fault);
+
 /// Triangles of an area on the ellipsoid, cut at a grid of latitudes and longitudes that is fine enough to follow the
 /// ellipsoid, and raised by their sag. Grid cells span 1° in large areas, and 1/64 of the extent in small ones, at
 /// least 0.05°.
 struct FillMesh {
-  std::vector<glm::dvec3> positions_m;  ///< ECEF
-  std::vector<std::uint32_t> indices;
+  std::vector<glm::dvec3> positions_m = {};  ///< ECEF
+  std::vector<std::uint32_t> indices = {};
   double lift_m = 0.0;  ///< height of the mesh over the height of the area's places
+  FillFault fault = FillFault::none;
+  std::size_t steps = 0;        ///< points that were clipped or tessellated, and crossings: what the mesh cost
+  std::size_t spare_steps = 0;  ///< steps beyond those due to an area of its length
 };
+
+/// Steps that the areas of a layer may take together beyond those due to their lengths; about a second.
+inline constexpr std::size_t kSpareFillSteps = 8'000'000;
 
 /// Mean height of all places of an area; 0 if there are none.
 [[nodiscard]] double mean_height_m(const PolygonObject& polygon);
 
-/// Fills an area, also over poles and ±180°. Empty if a ring is invalid (geo/great_circle.h), or if the area needs more
-/// than `most_triangles`. thread: any
-[[nodiscard]] FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles);
+/// Fills an area, also over poles and ±180°, even-odd. Empty if equal rings cancel each other, or if there is a fault.
+/// Steps, hence time, are limited: they grow with the points of the area and the cells that its edges pass.
+/// `spare_steps` may come on top. thread: any
+[[nodiscard]] FillMesh fill_area(const PolygonObject& polygon, const Ellipsoid& ellipsoid, std::size_t most_triangles,
+                                 std::size_t spare_steps = kSpareFillSteps);
 
 }  // namespace terrella

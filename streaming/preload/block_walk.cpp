@@ -25,7 +25,7 @@ BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Reg
       sliver_deg_(kSliverTiles * tile_span_deg(grid, grid.max_level)),
       places_(tile_places(grid, level)) {
   const auto longest = static_cast<std::uint64_t>(std::max(columns(grid, level), rows(grid, level)));
-  visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, region.all_segments());
+  visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, region.whole());
 }
 
 std::optional<TileBlock> BlockWalk::next() {
@@ -38,22 +38,22 @@ std::optional<TileBlock> BlockWalk::next() {
     }
     const int child = top.child++;
     const Node node{top.node.shift - 1, 2 * top.node.x + child / 2, 2 * top.node.y + child % 2};
-    visit(node, top.segments);
+    visit(node, top.sight);
   }
   const TileBlock block = ready_.back();
   ready_.pop_back();
   return block;
 }
 
-void BlockWalk::visit(const Node& node, const Region::Segments& candidates) {
+void BlockWalk::visit(const Node& node, const Region::Sight& outer) {
   if (!holds_places(node)) return;
-  const Overlap overlap = region_.empty() ? Overlap::inside : region_.classify(rect(node), candidates, touched_);
+  const Overlap overlap = region_.empty() ? Overlap::inside : region_.classify(rect(node), outer, seen_);
   if (overlap == Overlap::outside) return;
   if (overlap == Overlap::inside || node.shift == 0) {
     add_blocks(node);
     return;
   }
-  way_.push_back({node, 0, touched_});
+  way_.push_back({node, 0, seen_});
 }
 
 bool BlockWalk::holds_places(const Node& node) const {

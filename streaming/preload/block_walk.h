@@ -34,10 +34,10 @@ class BlockWalk {
   struct Opened {
     Node node;
     int child = 0;  ///< index of the next child to visit
-    Region::Segments segments;
+    Region::Sight sight;
   };
   /// Opens a node so that its children are visited next, or puts its blocks, if any, into `ready_`.
-  void visit(const Node& node, const Region::Segments& candidates);
+  void visit(const Node& node, const Region::Sight& outer);
   void add_blocks(const Node& node);
   [[nodiscard]] bool holds_places(const Node& node) const;
   [[nodiscard]] MapRect rect(const Node& node) const;
@@ -50,7 +50,7 @@ class BlockWalk {
   TilePlaces places_;
   std::vector<Opened> way_;
   std::vector<TileBlock> ready_;
-  Region::Segments touched_;
+  Region::Sight seen_;
 };
 
 }  // namespace terrella

@@ -13,6 +13,9 @@ namespace {
 
 using nlohmann::json;
 
+/// The estimate of pieces_of() is on the high side, for edges along meridians by far.
+constexpr double kMostPiecesPerPoint = 4.0;
+
 class RegionReader {
  public:
   Status add_document(const json& object) {
@@ -76,19 +79,23 @@ class RegionReader {
     for (const json& ring : coordinates) {
       const auto positions = read_ring(ring);
       if (!positions) return positions.error();
+      // An edge may need many points, so their number is estimated before they are made.
+      if (pieces_of(*positions) > kMostPiecesPerPoint * double(kMaxRegionPoints)) return too_many_points();
       auto parts = rings_of(*positions);
       if (!parts) return parts.error();
       for (MapRing& part : *parts) {
         points_ += part.size();
         rings.push_back(std::move(part));
       }
-      if (points_ > kMaxRegionPoints) {
-        return Error{fmt::format("more than {} points, with those that divide long edges; simplify the polygons",
-                                 kMaxRegionPoints)};
-      }
+      if (points_ > kMaxRegionPoints) return too_many_points();
     }
     region_.add_polygon(rings);
     return Done{};
+  }
+
+  static Error too_many_points() {
+    return Error{
+        fmt::format("more than {} points, with those that divide long edges; simplify the polygons", kMaxRegionPoints)};
   }
 
   static Result<std::vector<MapPoint>> read_ring(const json& ring) {
@@ -123,7 +130,8 @@ Result<Region> parse_geojson_region(std::string_view text, const std::string& wh
   if (const Status read = reader.add_document(*object); !read) {
     return Error{fmt::format("{}: {}", where, read.error().message)};
   }
-  if (!reader.found()) return Error{fmt::format("{}: there is no polygon in it", where)};
+  if (!reader.found())
+    return Error{fmt::format("{}: there is no polygon in it, or its rings cancel each other", where)};
   return reader.take();
 }
 

@@ -14,8 +14,6 @@ enum class Overlap { outside, cut, inside };
 /// A part of a planet: a union of boxes and polygons. thread: any, after it is built
 class Region {
  public:
-  /// Makes an empty region.
-  Region();
   /// Adds a box in geodetic latitude. East < west crosses ±180°.
   void add_box(const GeoRect& box);
   /// Adds a polygon with one or more rings, filled by the even-odd rule, so outer rings and holes need no marks. Points
@@ -25,27 +23,30 @@ class Region {
 
   [[nodiscard]] bool empty() const { return boxes_.empty() && segments_.empty(); }
 
-  /// Numbers of the segments that touch a rectangle. A walk down a quadtree passes them to the next level.
-  using Segments = std::vector<std::uint32_t>;
-  [[nodiscard]] Segments all_segments() const;
-  /// Classifies a rectangle against the region. `candidates` are the segments that touch an enclosing rectangle.
-  /// `touched` receives those that touch this rectangle. May return `cut` for a rectangle that only several parts
-  /// together cover. Areas that share only a border do not overlap.
-  [[nodiscard]] Overlap classify(const MapRect& rect, std::span<const std::uint32_t> candidates,
-                                 Segments& touched) const;
+  /// The region as a rectangle sees it: the segments that touch the rectangle, in order, and the polygons that contain
+  /// the rectangle's middle. A walk down a quadtree passes these to the next level, so that its cost grows with the
+  /// segments that rectangles touch alone.
+  struct Sight {
+    MapPoint middle;
+    std::vector<std::uint32_t> segments;
+    std::vector<std::uint32_t> around;  ///< polygons, in order
+  };
+  /// The region as seen by a rectangle around everything.
+  [[nodiscard]] Sight whole() const;
+  /// Classifies a rectangle against the region. `outer` is the sight of an enclosing rectangle. `seen` receives the
+  /// rectangle's own sight if the result is `cut`. May return `cut` for a rectangle that only several parts together
+  /// cover. Areas that share only a border do not overlap.
+  [[nodiscard]] Overlap classify(const MapRect& rect, const Sight& outer, Sight& seen) const;
 
  private:
   struct Segment {
-    MapPoint a, b;
+    MapPoint a, b;  ///< in order of longitude, then latitude
     std::uint32_t polygon;
   };
-  [[nodiscard]] bool in_a_polygon(const MapPoint& p) const;
-  void add_segment(const MapPoint& a, const MapPoint& b);
+  [[nodiscard]] std::vector<std::uint32_t> around(const MapPoint& place, const Sight& outer) const;
 
   std::vector<MapRect> boxes_;
-  std::vector<Segment> segments_;
-  /// Segments grouped by latitude, so that a scan along a parallel meets few of them.
-  std::vector<std::vector<std::uint32_t>> bands_;
+  std::vector<Segment> segments_;  ///< in the order of their polygons
   std::uint32_t polygons_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import random
 import struct
 import sys
@@ -55,6 +56,16 @@ class Objects(ProgramTest):
                                  says=["f.geojson: ", *says])
         self.assertTrue((self.folder / "out.png").exists())
         return done
+
+    def test_a_tangled_polygon_is_named_and_equal_rings_are_drawn(self):
+        ring = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
+        self.write("equal.geojson", collection(feature("Polygon", [ring] * 501)))
+        self.assert_done("render", "--objects", "equal.geojson", "-o", "equal.png", *SMALL)
+        corners = 2001
+        turns = [2 * math.pi * k * (corners // 2) / corners for k in range(corners)]
+        star = [[0.01 * math.cos(t), 0.01 * math.sin(t)] for t in turns]
+        self.assert_drawn_in_part(collection(GOOD, feature("Polygon", [star + star[:1]])), "feature 2", "without its fill",
+                                  "cross", "ST_MakeValid")
 
     def test_a_file_without_fault(self):
         self.write("f.geojson", collection(GOOD, feature("Point", [0, 0], title="Null Island")))

@@ -251,6 +251,52 @@ TEST(GeojsonRegion, ErrorsNameFileAndFeature) {
   }
 }
 
+TEST(GeojsonRegion, EqualRingsCostNoMoreThanOne) {
+  const Positions square = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const auto one = parse_geojson_region(polygon_text({square}), "f");
+  const auto many = parse_geojson_region(polygon_text(std::vector(1001, square)), "f");
+  ASSERT_TRUE(one.ok() && many.ok());
+  EXPECT_EQ(many->whole().segments.size(), one->whole().segments.size());
+  const auto even = parse_geojson_region(polygon_text(std::vector(1000, square)), "f");
+  ASSERT_FALSE(even.ok());
+  EXPECT_NE(even.error().message.find("cancel each other"), std::string::npos) << even.error().message;
+}
+
+TEST(GeojsonRegion, AWalkLooksOnlyAtTheEdgesThatItsTilesTouch) {
+  // A comb along the equator: each tile touches a few of its edges, though all edges span the same latitudes.
+  Region comb;
+  constexpr int kTeeth = 2000;
+  MapRing ring;
+  for (int k = 0; k < kTeeth; ++k) ring.push_back({-100.0 + 200.0 * k / kTeeth, k % 2 == 0 ? -1.0 : 1.0});
+  ring.insert(ring.end(), {{100.0, -2.0}, {-100.0, -2.0}});
+  comb.add_polygon({ring});
+  Region::Sight seen, below;
+  EXPECT_EQ(comb.classify({0.01, -0.5, 1.0, 0.5}, comb.whole(), seen), Overlap::cut);
+  EXPECT_LT(seen.segments.size(), 20U);
+  EXPECT_EQ(comb.classify({0.02, -0.3, 0.03, 0.3}, seen, below), Overlap::outside);
+}
+
+TEST(GeojsonRegion, ARingMayGoRoundManyTimesAndBack) {
+  // 1000 turns east along the equator and as many back: a long ring without area, which is no reason to hang.
+  Positions ring;
+  for (int k = 0; k <= 3000; ++k) ring.push_back({std::remainder(120.0 * k, 360.0), 0.0});
+  for (int k = 2999; k > 0; --k) ring.push_back({std::remainder(120.0 * k, 360.0), 0.0});
+  const auto parts = rings_of(ring);
+  ASSERT_TRUE(parts.ok());
+  EXPECT_EQ(parts->size(), 1001U);
+  for (const MapRing& part : *parts) {
+    for (const MapPoint& p : part) ASSERT_LE(std::abs(p.lon_deg), 180.0);
+  }
+}
+
+TEST(GeojsonRegion, AnEdgeThatNeedsTooManyPointsIsRefusedBeforeTheyAreMade) {
+  Positions ring;
+  for (int k = 0; k < 30000; ++k) ring.push_back({k % 3 * 120.0 - 120.0, 45.0});
+  const auto region = parse_geojson_region(polygon_text({ring}), "f");
+  ASSERT_FALSE(region.ok());
+  EXPECT_NE(region.error().message.find("simplify"), std::string::npos) << region.error().message;
+}
+
 TEST(GeojsonRegion, AFileThatIsNotThereIsNamed) {
   const auto region = read_geojson_region("/nowhere/area.geojson");
   ASSERT_FALSE(region.ok());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -76,8 +77,87 @@ TEST(ObjectShapes, AnAreaHasItsArea) {
 TEST(ObjectShapes, AnAreaThatTakesTooMuchIsLeftOutAndCounted) {
   const PolygonObject planet{.rings = {{at(-90, -180), at(-90, 180), at(90, 180), at(90, -180)}}};
   EXPECT_TRUE(fill_area(planet, earth().ellipsoid, 1000).indices.empty());
+  EXPECT_EQ(fill_area(planet, earth().ellipsoid, 1000).fault, FillFault::too_many_triangles);
   const PolygonObject antipodal{.rings = {{at(0, 0), at(0, 180), at(50, 90)}}};
-  EXPECT_EQ(cut({.polygons = {antipodal}}).fills_dropped(), 1U);
+  EXPECT_EQ(cut({.polygons = {antipodal}}).missing_fills().size(), 1U);
+}
+
+std::vector<Geodetic> square(double west_deg, double south_deg, double side_deg) {
+  const double east_deg = west_deg + side_deg, north_deg = south_deg + side_deg;
+  return {at(south_deg, west_deg), at(south_deg, east_deg), at(north_deg, east_deg), at(north_deg, west_deg)};
+}
+
+PolygonObject equal_rings(int n) { return {.rings = std::vector(std::size_t(n), square(0.0, 0.0, 10.0))}; }
+
+PolygonObject nested_rings(int n) {
+  PolygonObject rings;
+  for (int k = 1; k <= n; ++k) rings.rings.push_back(square(-5.0 * k / n, -5.0 * k / n, 10.0 * k / n));
+  return rings;
+}
+
+PolygonObject holes(int n) {
+  PolygonObject area{.rings = {square(0.0, 0.0, 10.0)}};
+  const int across = static_cast<int>(std::sqrt(n));
+  for (int k = 0; k < across * across; ++k) {
+    area.rings.push_back(square(0.05 + 9.8 * (k % across) / across, 0.05 + 9.8 * (k / across) / across, 5.0 / across));
+  }
+  return area;
+}
+
+/// A star of long edges, which all pass near its middle and cross each other.
+PolygonObject star(int n) {
+  std::vector<Geodetic> ring;
+  const int corners = n | 1;
+  for (int k = 0; k < corners; ++k) {
+    const double turn = 2.0 * std::numbers::pi * k * (corners / 2) / corners;
+    ring.push_back(at(0.5 * std::sin(turn), 0.5 * std::cos(turn)));
+  }
+  return {.rings = {ring}};
+}
+
+PolygonObject zigzag(int n) {
+  std::vector<Geodetic> ring;
+  for (int k = 0; k < n; ++k) ring.push_back(at(k % 2, double(k) / n));
+  return {.rings = {ring}};
+}
+
+TEST(ObjectShapes, TheCostOfAFillGrowsWithItsLengthEvenIfRingsAreEqualOrCross) {
+  // Four times as much takes 16 times the steps if the cost is a square. Twice the factor leaves room for n log n.
+  constexpr double kTimes = 4.0, kMostGrowth = 2.0 * kTimes;
+  for (PolygonObject (*shape)(int) : {equal_rings, nested_rings, holes, star, zigzag}) {
+    const auto steps = [&shape](int n) {
+      return double(fill_area(shape(n), earth().ellipsoid, kMostFillTriangles, 0).steps);
+    };
+    EXPECT_LE(steps(401), kMostGrowth * steps(101));
+    EXPECT_GT(steps(401), 0.0);
+  }
+}
+
+TEST(ObjectShapes, EqualRingsCancelEachOther) {
+  const FillMesh one = fill_area(equal_rings(1), earth().ellipsoid, kMostFillTriangles);
+  EXPECT_DOUBLE_EQ(area_m2(fill_area(equal_rings(501), earth().ellipsoid, kMostFillTriangles)), area_m2(one));
+  const FillMesh none = fill_area(equal_rings(500), earth().ellipsoid, kMostFillTriangles);
+  EXPECT_TRUE(none.indices.empty());
+  EXPECT_EQ(none.fault, FillFault::none);
+  // Also if a ring begins elsewhere or goes the other way round.
+  PolygonObject turned = equal_rings(2);
+  std::ranges::rotate(turned.rings[1], turned.rings[1].begin() + 2);
+  std::ranges::reverse(turned.rings[0]);
+  EXPECT_TRUE(fill_area(turned, earth().ellipsoid, kMostFillTriangles).indices.empty());
+}
+
+TEST(ObjectShapes, AnAreaThatCrossesItselfIsFilledUpToALimit) {
+  const FillMesh small = fill_area(star(101), earth().ellipsoid, kMostFillTriangles);
+  EXPECT_EQ(small.fault, FillFault::none);
+  EXPECT_FALSE(small.indices.empty());
+  const FillMesh large = fill_area(star(2001), earth().ellipsoid, kMostFillTriangles);
+  EXPECT_EQ(large.fault, FillFault::tangled);
+  EXPECT_TRUE(large.indices.empty());
+  // Areas of one layer share the spare steps, so many such areas do not take longer than one.
+  const ObjectScene scene{.polygons = {star(2001), star(101), equal_rings(1)}};
+  const auto missing = cut(scene).missing_fills();
+  ASSERT_EQ(missing.size(), 2U);
+  EXPECT_EQ(missing[1].fault, FillFault::tangled);
 }
 
 TEST(ObjectBatches, WhatIsNotFiniteIsNoTrouble) {
@@ -85,7 +165,7 @@ TEST(ObjectBatches, WhatIsNotFiniteIsNoTrouble) {
     const std::vector<Geodetic> places{at(0, 0), at(bad, bad, bad), at(1, 1), at(0, bad)};
     const ObjectScene scene{
         .points = {{.place = places[1]}}, .lines = {{.places = places}}, .polygons = {{.rings = {places}}}};
-    EXPECT_EQ(cut(scene).fills_dropped(), 1U);
+    EXPECT_EQ(cut(scene).missing_fills().size(), 1U);
   }
 }
 

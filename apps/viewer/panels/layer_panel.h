@@ -29,6 +29,7 @@ struct LayerRow {
   ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
   FactsReader read_facts = {};                              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
+  bool fills_checked = false;                               ///< objects: areas without a fill are reported
   bool facts_drawn = false;                                 ///< the panel was drawn since they came
 
   [[nodiscard]] bool has_facts() const {

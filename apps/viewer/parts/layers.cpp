@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "apps/scene/scene_objects.h"
 #include "apps/setup/console.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
@@ -187,7 +188,19 @@ std::vector<std::shared_ptr<GrowingCut>> Layers::take_opened() {
     std::ranges::move((*opened)->cuts, std::back_inserter(cuts));
     add(**std::move(opened));
   }
+  check_fills();
   return cuts;
+}
+
+/// Reports areas that are drawn without their fill, once their layer is cut.
+void Layers::check_fills() {
+  if (!context_.globe.settled()) return;
+  for (LayerRow& row : rows_) {
+    if (row.kind != LayerKind::objects || std::exchange(row.fills_checked, true)) continue;
+    for (const std::string& complaint : fill_complaints(context_.globe, row.id, row.name)) {
+      context_.messages.report(complaint);
+    }
+  }
 }
 
 bool Layers::cancel() {

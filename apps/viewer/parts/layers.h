@@ -54,6 +54,7 @@ class Layers : public Panel {
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
   [[nodiscard]] Status add_objects(ObjectFile file, LayerRow& row);
   void insert(LayerRow row);
+  void check_fills();
 
   std::vector<LayerRow> rows_;
   std::optional<ElevationSource> heights_;  ///< kept while the heights are hidden

@@ -56,8 +56,8 @@ void put(std::vector<SolidVertex>& out, const dvec3& at_m, const dvec3& normal) 
   out.push_back({p.high, p.low, glm::vec3(normal), {}});
 }
 
-/// True if the area lies to the left of a way along its edge. Its longest piece is looked at, a little beside it.
-bool is_left(const PickArea& area, const std::vector<dvec3>& way, const Ellipsoid& ellipsoid) {
+/// True if what a ring encloses lies to the left of a way along it. Its longest piece is looked at, a little beside it.
+bool is_left(const PickArea& enclosed, const std::vector<dvec3>& way, const Ellipsoid& ellipsoid) {
   std::size_t longest = 0;
   const auto length = [&way](std::size_t k) { return glm::distance(way[k], way[k + 1]); };
   for (std::size_t k = 1; k + 1 < way.size(); ++k) longest = length(k) > length(longest) ? k : longest;
@@ -65,7 +65,7 @@ bool is_left(const PickArea& area, const std::vector<dvec3>& way, const Ellipsoi
   constexpr double kBeside = 0.01;
   const dvec3 off_m = kBeside * glm::cross(up_at(ellipsoid, middle_m), way[longest + 1] - way[longest]);
   const Geodetic beside = ellipsoid.to_geodetic(Ecef{middle_m + off_m});
-  return area.covers({beside.lon.deg(), beside.lat.deg()});
+  return enclosed.covers({beside.lon.deg(), beside.lat.deg()});
 }
 
 /// Appends the walls under the edge of a roof. The area lies to the left of the way.
@@ -116,11 +116,13 @@ std::vector<SolidVertex> solid_of(const PolygonObject& area, const FillMesh& roo
     put(out, at_m, up_at(ellipsoid, at_m));
   }
   const PolygonObject top = roof_of(area);
-  const PickArea inside(top, ellipsoid);
   for (const auto& ring : top.rings) {
     std::vector<dvec3> way = outline(ring, ellipsoid, step, roof.lift_m);
     if (way.size() < 3) continue;
-    if (!is_left(inside, way, ellipsoid)) std::ranges::reverse(way);
+    // The first ring encloses the area, the others are holes. A search in all rings would take the square of their
+    // number.
+    const bool encloses = &ring == &top.rings.front();
+    if (is_left(PickArea({.rings = {ring}}, ellipsoid), way, ellipsoid) != encloses) std::ranges::reverse(way);
     put_walls(way, area.extrude_m + roof.lift_m, ellipsoid, out);
   }
   return out;

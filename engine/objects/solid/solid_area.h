@@ -19,8 +19,8 @@ namespace terrella {
 [[nodiscard]] PolygonObject roof_of(PolygonObject area);
 
 /// Returns triangles, counterclockwise from outside and without a colour: the mesh of the roof, and walls from there
-/// down to the base. `step` is the longest piece of a wall. A wall of a ring that crosses itself may face inwards.
-/// thread: any
+/// down to the base. `step` is the longest piece of a wall. A wall of a ring that crosses itself, or of a hole in a
+/// hole, may face inwards. thread: any
 [[nodiscard]] std::vector<SolidVertex> solid_of(const PolygonObject& area, const FillMesh& roof,
                                                 const Ellipsoid& ellipsoid, Angle step);
 
